@@ -17,6 +17,7 @@ __version__ = "0.3.0"
 _NAMES = {
     "api": ("Verdict", "decide"),
     "batch": ("solve_many",),
+    "bound_states.api": ("spectrum",),
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
     "enclosure.ball": ("Ball",),

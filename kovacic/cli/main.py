@@ -28,6 +28,7 @@ COMMANDS = {
     "evaluate": ("values", "Values of a solution with proven error bounds, to any number of digits."),
     "explain": ("answer", "The derivation, step by step, as a reader of Kovacic's paper follows it."),
     "conditions": ("values", "For which values of the parameters do Liouvillian solutions exist?"),
+    "spectrum": ("values", "Which energies? The bound states of a potential, with wave functions and norms."),
     "batch": ("many", "Decide many equations from a file, in parallel, with a result for every line."),
     "scan": ("many", "Tabulate the case over a grid of parameter values."),
     "check": ("answer", "Prove answers in JSON anew, by a program that shares no code with this one."),

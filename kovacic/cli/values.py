@@ -1,4 +1,4 @@
-"""`kovacic evaluate`, `plot` and `conditions`: values and pictures of a solution, and the parameters for which there is one."""
+"""`kovacic evaluate`, `plot`, `conditions`, `spectrum`: values and pictures of a solution, parameters and energies with one."""
 
 from __future__ import annotations
 
@@ -161,3 +161,29 @@ def conditions(
         if not report:
             return CHECK_FAILED
     return DECIDED if answer.within_limits else UNDECIDED
+
+
+@options.equation_command()
+@options.equation_argument("potential", metavar="V")
+@click.option("--from", "start", default="-oo", show_default=True, metavar="A", help="The left end of the domain.")
+@click.option("--to", "stop", default="oo", show_default=True, metavar="B", help="The right end.")
+@click.option("--energy", default="E", show_default=True, metavar="NAME", help="The name of the energy.")
+@click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
+@options.ASSUME
+@click.option("--boundary", type=click.Choice(["friedrichs"]), help="The smaller solution, where one must be chosen.")
+@click.option("--max-degree", default=2, show_default=True, help="Quasi-exactly solvable levels up to this degree d.")
+@click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
+@click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
+@options.LIMIT
+def spectrum(potential: str, start: str, stop: str, as_json: bool, as_latex: bool, **given: Any) -> int:
+    """For which energies E has -y'' + V y = E y a square integrable solution?
+
+    \b
+    kovacic spectrum "2/x^2 - Z/x" --from 0 --to oo --assume Z=positive
+    kovacic spectrum "exp(-2*x) - 2*b*exp(-x)" --assume b=positive
+    """
+    from kovacic.bound_states.api import spectrum
+
+    answer = spectrum(potential, domain=(start, stop), **given)
+    print(answer.to_json() if as_json else answer.latex() if as_latex else options.fitted(answer.text()))
+    return DECIDED if answer.is_decided else UNDECIDED

@@ -1,0 +1,10 @@
+"""Which energies?  The discrete spectrum of -y'' + V y = E y, with the wave functions in the user's variable.
+
+In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api` first.  One step a module:
+
+1. `ends`: how many solutions are square integrable at each end; `signs`: what is known of the sign of an expression;
+2. `frame`: the coordinates z(x) in which the equation may be a standard one;
+3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E,
+   `waves` writes the solutions and their norms, `ranges` the conditions;
+4. `answer`: what is returned.
+"""

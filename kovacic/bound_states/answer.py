@@ -1,0 +1,286 @@
+"""What `kovacic.spectrum` returns: the levels, the wave functions, and what is proven of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+from kovacic.errors import InputError
+from kovacic.exact import exact_text, whole
+from kovacic.numerals import as_latex, as_text
+from kovacic.reading.symbolic import read_expression
+from kovacic.shown import json_line, latex, visible
+from kovacic.writing.formula import caret
+
+
+@dataclass(frozen=True)
+class State:
+    """One level at given values of the parameters: its energy and its wave function, not normalised, with `zeros` inside."""
+
+    number: int
+    energy: Any
+    wave: Any
+    zeros: int
+
+    def __str__(self) -> str:
+        return f"E_{self.number} = {_text(self.energy)}, y = {_text(self.wave)}"
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Infinitely many or finitely many levels in one formula: SymPy expressions in `number`, the parameters and the variable.
+
+    `number` is a natural number n; `energy` is E_n and `wave` a real solution y_n, square integrable where the `conditions`
+    hold: inequalities between n and the parameters.  `zeros` is the number of zeros of y_n inside the domain, and `norm` the
+    integral of y_n^2 over the domain, None where it isn't known.
+    """
+
+    number: Any
+    energy: Any
+    wave: Any
+    conditions: tuple[Any, ...]
+    zeros: Any
+    norm: Any = None
+
+    @property
+    def above(self) -> tuple[Any, ...]:
+        """The conditions with n in them: none where there are infinitely many levels."""
+        return tuple(c for c in self.conditions if c.has(self.number))
+
+    @property
+    def where(self) -> tuple[Any, ...]:
+        """The conditions on the parameters alone."""
+        return tuple(c for c in self.conditions if not c.has(self.number))
+
+
+@dataclass(frozen=True)
+class Algebraic:
+    """Levels of a potential that is solvable for finitely many of them: those with a polynomial of degree d in their solutions.
+
+    They exist where `constraint` vanishes (a function of the parameters; 0 where it does anyway), and their energies are the
+    zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy; None where it isn't explicit.
+    `states` are the energies without parameters and the zeros of their functions inside the domain.
+    """
+
+    degree: int
+    constraint: Any
+    polynomial: Any
+    wave: Any
+    states: tuple[State, ...] = ()
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """The discrete spectrum of -y'' + V y = E y, as far as it was found: frozen and picklable.
+
+    Attributes
+    ----------
+    potential, variable, domain, energy
+        V and its domain, as SymPy expressions, the variable and the energy, by their names.
+    levels : tuple of Levels
+        The levels that are solved for all n at once.  Where they have conditions on the parameters that exclude each other,
+        those hold whose conditions do.
+    algebraic : tuple of Algebraic
+        The levels of a quasi-exactly solvable potential, by the degree d.
+    complete : bool
+        Is it proven that these are all eigenvalues, for all values that the conditions, the assumptions and `excluded` admit?
+    reason : str
+        The theorem that proves it, or why it is undecided.
+    ends : tuple of str
+        How the solutions behave at the ends.
+    excluded : tuple
+        Where a boundary condition would be needed: relations between the parameters, or True.
+    boundary : str or None
+        The boundary condition that was given.
+    """
+
+    potential: Any
+    variable: str
+    domain: tuple[Any, Any]
+    energy: str
+    parameters: tuple[str, ...] = ()
+    assumptions: str = ""
+    boundary: str | None = None
+    ends: tuple[str, ...] = ()
+    excluded: tuple[Any, ...] = ()
+    levels: tuple[Levels, ...] = ()
+    algebraic: tuple[Algebraic, ...] = ()
+    complete: bool = False
+    reason: str = ""
+
+    @property
+    def needs_boundary_condition(self) -> bool:
+        """Is there an end at which both solutions are square integrable, for all parameters, and no condition was given?"""
+        return sympy.true in self.excluded
+
+    @property
+    def is_decided(self) -> bool:
+        """Were all eigenvalues found, or some, or was it found that a boundary condition is missing?"""
+        return self.complete or bool(self.levels or self.algebraic) or self.needs_boundary_condition
+
+    def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[State, ...]:
+        """The lowest levels at exact values of the parameters, at most `count` of each formula, by their energies.
+
+        Raises `InputError` where a parameter has no value, and for values that the spectrum excludes.
+
+        >>> import kovacic
+        >>> morse = kovacic.spectrum("exp(-2*x) - 2*b*exp(-x)", assume={"b": "positive"})
+        >>> [state.energy for state in morse.states({"b": 3})]
+        [-25/4, -9/4, -1/4]
+        """
+        count = whole(count, "count")
+        given = {
+            str(name): read_expression(exact_text(v, "the value of a parameter")) for name, v in (values or {}).items()
+        }
+        if {*given} != {*self.parameters}:
+            missing = ", ".join(name for name in self.parameters if name not in given) or "none"
+            unknown = ", ".join(name for name in given if name not in self.parameters) or "none"
+            raise InputError("values are needed for the parameters", hint=f"missing: {missing}; unknown: {unknown}")
+        at = {sympy.Symbol(name): value for name, value in given.items()}
+        for relation in self.excluded:
+            if relation.subs(at) == sympy.true:
+                raise InputError("both solutions are square integrable at an end", hint='boundary="friedrichs"')
+        found: dict[Any, State] = {}
+        for levels in self.levels:
+            for n in range(count):
+                here = {**at, levels.number: sympy.Integer(n)}
+                if not all(c.subs(here) == sympy.true for c in levels.conditions):
+                    if levels.above:
+                        break
+                    continue
+                energy = sympy.simplify(levels.energy.subs(here))
+                wave = levels.wave.subs(here)
+                found.setdefault(energy, State(n, energy, wave, int(levels.zeros.subs(here))))
+        return tuple(sorted(found.values(), key=lambda state: state.energy))
+
+    def text(self) -> str:
+        """In lines, as the command prints it."""
+        known = f" ({self.assumptions})" if self.assumptions else ""
+        first, last = map(_text, self.domain)
+        lines = [
+            f"-y'' + V y = {self.energy} y, V = {_text(self.potential)}, {first} < {self.variable} < {last}{known}"
+        ]
+        lines += [f"  {end}" for end in self.ends]
+        if self.boundary:
+            lines.append("  boundary condition: the smaller solution at each end (Friedrichs)")
+        for levels in self.levels:
+            lines += _lines(levels, self.energy)
+        for algebraic in self.algebraic:
+            lines += _algebraic_lines(algebraic, self.energy)
+        lines += [f"  {line}" for line in self._conclusion]
+        return visible("\n".join(lines))
+
+    @property
+    def _conclusion(self) -> list[str]:
+        lines = []
+        for relation in self.excluded:
+            where = "" if relation == sympy.true else f"where {_relation(relation)}: "
+            lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
+        if not self.levels and self.complete:
+            lines.append("no eigenvalues")
+        lines.append(f"({'proven to be all eigenvalues; ' if self.complete else ''}{self.reason})")
+        return lines
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def latex(self) -> str:
+        r"""The levels as a LaTeX formula: E_n = ..., n = 0, 1, ..., and the wave functions, in `aligned`."""
+        rows = []
+        for levels in self.levels:
+            n = as_latex(levels.number)
+            conditions = r",\; ".join(as_latex(c) for c in levels.conditions)
+            rows.append(rf"{self.energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = 0, 1, 2, \ldots")
+            rows.append(rf"y_{{{n}}} &= {as_latex(levels.wave)}")
+            if conditions:
+                rows.append(rf"&{conditions}")
+        for algebraic in self.algebraic:
+            rows.append(rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0")
+            if algebraic.constraint != 0:
+                rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
+        if not rows:
+            rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")
+        return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
+
+    def _repr_latex_(self) -> str:
+        return f"${self.latex()}$"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object as plain Python values: formulas as text."""
+        return {
+            "potential": _text(self.potential),
+            "variable": self.variable,
+            "domain": [*map(_text, self.domain)],
+            "energy": self.energy,
+            "parameters": [*self.parameters],
+            "assumptions": self.assumptions,
+            "boundary": self.boundary,
+            "ends": [*self.ends],
+            "excluded": [*map(_relation, self.excluded)],
+            "levels": [
+                {
+                    "number": str(levels.number),
+                    "energy": _text(levels.energy),
+                    "wave": _text(levels.wave),
+                    "conditions": [*map(_relation, levels.conditions)],
+                    "zeros": _text(levels.zeros),
+                    "norm": None if levels.norm is None else _text(levels.norm),
+                }
+                for levels in self.levels
+            ],
+            "algebraic": [
+                {
+                    "degree": one.degree,
+                    "constraint": _text(one.constraint),
+                    "polynomial": _text(one.polynomial),
+                    "wave": None if one.wave is None else _text(one.wave),
+                    "states": [{"energy": _text(s.energy), "zeros": s.zeros} for s in one.states],
+                }
+                for one in self.algebraic
+            ],
+            "complete": self.complete,
+            "reason": self.reason,
+        }
+
+    def to_json(self) -> str:
+        """One line of JSON."""
+        return json_line(self.to_dict())
+
+
+def _lines(levels: Levels, energy: str) -> list[str]:
+    n = levels.number
+    conditions = ", ".join(_relation(c) for c in levels.above)
+    where = ", ".join(_relation(c) for c in levels.where)
+    numbers = f"{n} = 0, 1, 2, ..." + (f" with {conditions}" if conditions else "")
+    lines = [f"  {energy}_{n} = {_text(levels.energy)}, {numbers}" + (f", where {where}" if where else "")]
+    waves = [levels.wave]
+    if levels.wave.is_Piecewise:
+        waves = [piece for piece, _ in levels.wave.args]
+    kinds = [""] if len(waves) == 1 else [f" ({n} even)", f" ({n} odd)"]
+    lines += [f"      y_{n} = {_text(wave)}{kind}" for wave, kind in zip(waves, kinds, strict=True)]
+    lines.append(
+        f"      {_text(levels.zeros)} zeros" + ("" if levels.norm is None else f", norm^2 = {_text(levels.norm)}")
+    )
+    return lines
+
+
+def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
+    where = "" if algebraic.constraint == 0 else f" where {_text(algebraic.constraint)} = 0"
+    lines = [f"  d = {algebraic.degree}{where}: {_text(algebraic.polynomial)} = 0"]
+    if algebraic.wave is not None:
+        lines.append(f"      y = {_text(algebraic.wave)}")
+    lines += [f"      {energy} = {_text(s.energy)}: {s.zeros} zeros" for s in algebraic.states]
+    return lines
+
+
+def _relation(relation: Any) -> str:
+    if relation in (sympy.true, sympy.false):
+        return str(relation)
+    return f"{_text(relation.lhs)} {relation.rel_op} {_text(relation.rhs)}"
+
+
+def _text(expression: Any) -> str:
+    return caret(as_text(expression))

@@ -1,0 +1,313 @@
+"""`kovacic.spectrum`: for which energies is there a square integrable solution?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.answer import Levels, Spectrum
+from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
+from kovacic.bound_states.families import (
+    Ends,
+    Family,
+    hermite_families,
+    jacobi_families,
+    laguerre_families,
+    no_families,
+)
+from kovacic.bound_states.frame import Frame, Original, Uncovered, frames
+from kovacic.bound_states.ranges import tidied
+from kovacic.bound_states.signs import Signs
+from kovacic.equation import ENERGY, Parsed, parameters_of
+from kovacic.errors import InputError
+from kovacic.exact import exact_text, whole
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.parametric.api import DEFAULT_DEGREE
+from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.reading.read import read_input
+from kovacic.reading.substitution import with_values
+from kovacic.reading.symbolic import read_expression
+
+FRIEDRICHS = "friedrichs"
+_CLASSES: tuple[tuple[Callable[[Frame, Ends, Any], Iterator[Family]], str], ...] = (
+    (hermite_families, "Hermite's polynomials"),
+    (laguerre_families, "Whittaker's equation"),
+    (jacobi_families, "three regular singular points"),
+    (no_families, "Bessel's equation"),
+)
+_PROOF = "each solution that is square integrable at both ends has a polynomial in it"
+
+
+@dataclass(frozen=True)
+class Question:
+    """The problem: V - E as it was read, and the domain, in real symbols."""
+
+    V: Any
+    parsed: Parsed
+    domain: tuple[Any, Any]
+    variable: str
+    energy: str
+    known: Assumptions
+    signs: Signs
+    friedrichs: bool
+
+    @property
+    def x(self) -> Any:
+        return sympy.Symbol(self.variable, real=True)
+
+    @property
+    def E(self) -> Any:
+        return self.signs.symbols[self.energy]
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        return tuple(name for name in self.signs.symbols if name != self.energy)
+
+    def plain(self, expression: Any) -> Any:
+        """In plain symbols of the same names, as users write them; n for the number of a level."""
+        number = next(name for name in ("n", "k", "j", "m", "n_") if name not in (*self.signs.symbols, self.variable))
+        names = {s: sympy.Symbol(s.name) for s in expression.free_symbols if not isinstance(s, sympy.Dummy)}
+        return expression.xreplace({**names, self.signs.n: sympy.Symbol(number)})
+
+
+@limited
+def spectrum(
+    V: Any,
+    *,
+    domain: Sequence[Any] = ("-oo", "oo"),
+    energy: str = ENERGY,
+    var: Any = None,
+    assume: Mapping[Any, Any] | None = None,
+    boundary: str | None = None,
+    max_degree: int = DEFAULT_DEGREE,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Spectrum:
+    """The energies E for which -y'' + V y = E y has a square integrable solution, with the solutions.
+
+    Parameters
+    ----------
+    V : str or sympy.Expr
+        The potential: rational in x, or in exp(k x), sin, cosh, ... of multiples of k x, with real parameters.
+    domain : pair
+        The ends a < b: numbers, expressions in the parameters, "-oo", "oo"; by default the whole line.
+    energy : str
+        The name of the energy, "E" by default; V is free of it.
+    var : str or sympy.Symbol
+        The variable, x by default; every other symbol is a real parameter.
+    assume : mapping
+        What is known of the parameters, as for `kovacic.conditions`: {"l": ">=0", "Z": "positive"}, or values.  Without it
+        the conditions under which a solution is square integrable are part of the answer.
+    boundary : str
+        "friedrichs": at an end where both solutions are square integrable the smaller one is meant, which is y = 0 at a
+        regular end.  Without it, there is no spectrum where such a condition is needed.
+    max_degree : int
+        Of a quasi-exactly solvable potential, the levels with a polynomial of at most this degree are given; 2 by default.
+    limits : Limits
+        Bounds on the input and on the work.
+
+    Returns
+    -------
+    Spectrum
+        Its `levels` have E_n and y_n for all n at once; `complete` says whether it is proven that these are all, and `reason`
+        why, or why it is undecided.
+
+    Raises
+    ------
+    InputError
+        For what isn't a potential, a domain or a boundary condition.
+    LimitExceeded
+        For an input above the limits.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> coulomb = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=(0, "oo"), assume={"l": ">=1", "Z": "positive"})
+    >>> coulomb.levels[0].energy
+    -Z**2/(4*(l + n + 1)**2)
+    >>> coulomb.complete
+    True
+    >>> kovacic.spectrum("x^2", domain=(0, "oo")).needs_boundary_condition
+    True
+    >>> print(kovacic.spectrum("x^2", domain=(0, "oo"), boundary="friedrichs").levels[0].energy)
+    4*n + 3
+
+    References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
+    """
+    most = whole(max_degree, "max_degree")
+    question = _question(V, domain, energy, var, assume, boundary, limits)
+    budget = Budget(limits)
+    with budget.watched():
+        try:
+            return _answered(question, most, budget)
+        except Uncovered as reason:
+            return _spectrum(question, [], reason=f"undecided: {reason}")
+
+
+def _question(
+    V: Any, domain: Sequence[Any], energy: str, var: Any, assume: Any, boundary: str | None, limits: Limits
+) -> Question:
+    if boundary not in (None, FRIEDRICHS):
+        raise InputError(f"{boundary!r} isn't a boundary condition", hint=f'boundary="{FRIEDRICHS}", or none')
+    if not isinstance(energy, str) or not energy.isidentifier():
+        raise InputError(f"{energy!r} can't be the name of the energy")
+    name = str(var) if var is not None else "x"
+    if isinstance(V, str):
+        expression = read_expression(V, what="the potential")
+        S: Any = f"({V}) - {energy}"
+    else:
+        expression = V if hasattr(V, "free_symbols") else read_expression(exact_text(V, "the potential"))
+        S = expression - sympy.Symbol(energy)
+    if energy in {s.name for s in expression.free_symbols}:
+        raise InputError(f"the potential contains {energy}, the energy", hint="energy= gives it another name")
+    if len(domain) != 2 or isinstance(domain, str):
+        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    parsed = read_input(S, var=name, limits=limits, exponentials=True)
+    S, parsed, assume = with_values(S, parsed, assume, limits)
+    ends = [_end(value) for value in domain]
+    names = parameters_of(parsed.S.field)
+    others = sorted({s.name for end in ends for s in end.free_symbols} - {*names})
+    if others:
+        raise InputError(f"{', '.join(others)} in the domain isn't a parameter of the potential")
+    known = read_assumptions(assume, V, names)
+    signs = Signs(known, names)
+    expression = read_expression(S[: S.rindex(" - ")]) if isinstance(S, str) else expression
+    first, last = map(signs.real, ends)
+    if signs.is_nonnegative(first - last) or first in (sympy.oo,) or last == -sympy.oo:
+        raise InputError(f"the domain is empty: {first} isn't below {last}")
+    return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS)
+
+
+def _end(value: Any) -> Any:
+    text = exact_text(value, "an end of the domain")
+    infinite = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+    return infinite[text] if text in infinite else read_expression(text, what="an end of the domain")
+
+
+def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
+    ends = _ends(question)
+    excluded = (
+        [] if question.friedrichs else [end.circle for end in ends if question.signs.holds(end.circle) is not False]
+    )
+    excluded += [end.circle for end in ends if question.friedrichs and end.oscillates and end.circle is not False]
+    excluded = [sympy.true if question.signs.holds(c) else c for c in dict.fromkeys(map(sympy.sympify, excluded))]
+    excluded = [*dict.fromkeys(c if c == sympy.true else tidied([c], question.signs)[0] for c in excluded)]
+    if sympy.true in excluded:
+        hint = (
+            f'boundary="{FRIEDRICHS}" chooses the smaller solution'
+            if not any(e.oscillates for e in ends)
+            else "none is distinguished"
+        )
+        return _spectrum(question, ends, excluded=(sympy.true,), reason=hint)
+    silent = next((end for end in ends if end.oscillates and end.circle is False), None)
+    if silent is not None:
+        return _spectrum(question, ends, complete=True, reason=f"no solution is square integrable at {silent.at}")
+    families, name = _families(question, budget)
+    levels = _merged([_levels(question, family) for family in families])
+    reason = f"{name}: {_PROOF}"
+    return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
+
+
+def _ends(question: Question) -> list[End]:
+    parsed, signs = question.parsed, question.signs
+    original = Original.of(parsed.equation, question.x, signs)
+    t = sympy.Symbol(parsed.variable)
+    S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
+    V = potential_in_t(S, parsed.equation, original, question.E, t, signs)
+    first, last = question.domain
+    check_inside(V, original, (first, last), t, signs)
+    return [end_of(V, original, *pair, t, signs) for pair in ((first, last), (last, first))]
+
+
+def _families(question: Question, budget: Budget) -> tuple[list[Family], str]:
+    """Those of the first coordinate and standard equation that fit."""
+    parsed, reasons = question.parsed, []
+    demands = Ends(question.signs, question.friedrichs)
+    for frame in frames(
+        parsed.S, parsed.variable, parsed.equation, question.domain, question.x, question.E, question.signs, budget
+    ):
+        for families, name in _CLASSES:
+            try:
+                return [*families(frame, demands, question.E)], name
+            except Uncovered as reason:
+                reasons.append(str(reason))
+    raise Uncovered("; ".join(dict.fromkeys(reasons)))
+
+
+def _levels(question: Question, family: Family) -> Levels:
+    radicals = dict(family.radicals)
+
+    def written(expression: Any) -> Any:
+        return question.plain(sympy.sympify(expression).xreplace(radicals))
+
+    conditions = [written(condition) for condition in tidied(family.conditions, question.signs, radicals)]
+    norm = None if family.norm is None else written(family.norm)
+    return Levels(
+        question.plain(question.signs.n),
+        written(family.energy),
+        written(family.wave),
+        tuple(c for c in conditions if c != sympy.true),
+        written(family.zeros),
+        norm,
+    )
+
+
+def _merged(levels: list[Levels]) -> list[Levels]:
+    """The even and the odd solutions of a symmetric potential as one sequence, where one formula has both energies."""
+    for even in levels:
+        n = even.number
+        for odd in levels:
+            if even.zeros != 2 * n or odd.zeros != 2 * n + 1:
+                continue
+            energy = even.energy.subs(n, n / 2)
+            if sympy.simplify(energy.subs(n, 2 * n + 1) - odd.energy) != 0:
+                continue
+            half, lower = n / 2, (n - 1) / 2
+            is_even = sympy.Eq(sympy.Mod(n, 2), 0)
+            wave = sympy.Piecewise((even.wave.subs(n, half), is_even), (odd.wave.subs(n, lower), True))
+            norm = None
+            if even.norm is not None and odd.norm is not None:
+                norm = sympy.Piecewise((even.norm.subs(n, half), is_even), (odd.norm.subs(n, lower), True))
+            conditions = [c.subs(n, half) for c in even.conditions]
+            others = [c.subs(n, lower) for c in odd.conditions]
+            if [*map(str, map(_doubled, conditions))] != [*map(str, map(_doubled, others))]:
+                continue
+            together = Levels(n, sympy.factor(energy), wave, tuple(map(_doubled, conditions)), n, norm)
+            return [together, *_merged([one for one in levels if one not in (even, odd)])]
+    return levels
+
+
+def _doubled(condition: Any) -> Any:
+    """n/2 < c as n < 2 c."""
+    n = sympy.Symbol("n")
+    solved = condition.gts - condition.lts
+    strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
+    slope = sympy.expand(solved).coeff(n, 1)
+    if not slope.is_number or slope == 0:
+        return condition
+    bound = sympy.expand(-solved.subs(n, 0) / slope)
+    relation = (
+        (sympy.StrictGreaterThan if strict else sympy.GreaterThan)
+        if slope > 0
+        else (sympy.StrictLessThan if strict else sympy.LessThan)
+    )
+    return relation(n, bound)
+
+
+def _spectrum(question: Question, ends: Sequence[End], **found: Any) -> Spectrum:
+    plain = question.plain
+    excluded = tuple(map(plain, found.pop("excluded", ())))
+    return Spectrum(
+        question.V,
+        question.variable,
+        tuple(map(plain, question.domain)),
+        question.energy,
+        question.parameters,
+        str(question.known),
+        FRIEDRICHS if question.friedrichs else None,
+        tuple(end.sentence for end in ends),
+        excluded,
+        **found,
+    )

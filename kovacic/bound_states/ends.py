@@ -1,0 +1,224 @@
+"""What the ends of the domain are: how many of the solutions are square integrable there [Weyl; see Titchmarsh 1962].
+
+V ~ s u^(-j) in a local coordinate u of t, (du/dx)^2 ~ u^mu.  At a finite regular end V ~ (nu^2 - 1/4)/(x - a)^2, and both
+solutions are square integrable where nu^2 < 1: the limit circle.  Where V -> -oo both oscillate, and both are square
+integrable if int |V|^(-1/2) dx is finite, which is mu < j + 2.  Everywhere else one solution at most is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.energies import exact_root
+from kovacic.bound_states.frame import SLOPES, Original, Uncovered, is_between
+from kovacic.bound_states.ranges import tidied
+from kovacic.bound_states.signs import Signs
+from kovacic.equation import Equation
+from kovacic.errors import InputError
+from kovacic.writing.formula import caret
+
+
+@dataclass(frozen=True)
+class End:
+    """One end: where both solutions are square integrable (`circle`, a relation, True or False), and what is said about it.
+
+    `oscillates` says that V falls without bound there, so that no boundary condition is distinguished.  `threshold` is where
+    the continuous spectrum begins at an infinite end; None where it doesn't.
+    """
+
+    at: Any
+    circle: Any
+    sentence: str
+    oscillates: bool = False
+    threshold: Any = None
+
+
+def potential_in_t(S: Any, equation: Equation | None, original: Original, E: Any, t: Any, signs: Signs) -> Any:
+    """V as a function of t."""
+    if equation is None or equation.change is None:
+        return sympy.cancel(S + E)
+    quotient = equation.c / equation.a
+    c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
+    return sympy.cancel(E - SLOPES[original.kind](t) * original.rate**2 * c)
+
+
+def check_inside(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs) -> None:
+    """Raises `InputError` where V has a pole inside the domain, and `Uncovered` where that isn't known."""
+    denominator = sympy.Poly(sympy.denom(V), t)
+    roots = sympy.roots(denominator)
+    if sum(roots.values()) < denominator.degree():
+        if any(not c.is_number for c in denominator.coeffs()):
+            raise Uncovered("whether V has a pole inside the domain isn't known")
+        roots = dict.fromkeys(denominator.real_roots())
+    points = [root for root in roots if root.is_real is not False]
+    if original.kind == "tan" and sympy.degree(sympy.numer(V), t) > denominator.degree():
+        points.append(sympy.oo)
+    angles = [original.theta_at(end, signs) for end in domain] if points else []
+    for point in points:
+        for angle in _angles(original.kind, point, angles):
+            if is_between(angle, angles[0], angles[1], signs):
+                where = (angle - original.offset) / original.rate
+                raise InputError(
+                    f"V isn't regular at {original.x} = {caret(str(where))}, inside the domain",
+                    hint="choose the domain between its poles",
+                )
+
+
+def _angles(kind: str, point: Any, ends: list[Any]) -> list[Any]:
+    """The real angles at which t has a value."""
+    single = {"x": lambda v: v, "sinh": sympy.asinh}
+    if kind in single:
+        return [single[kind](point)]
+    if kind == "exp":
+        return [sympy.log(point)] if point.is_positive is not False else []
+    if kind == "cosh":
+        return [sign * sympy.acosh(point) for sign in (1, -1)] if sympy.acosh(point).is_real is not False else []
+    inverse = {"cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[kind]
+    first = inverse(point) if point != sympy.oo else sympy.pi / 2
+    if first.is_real is False:
+        return []
+    others = {"cos": -first, "sin": sympy.pi - first, "tan": first + sympy.pi}[kind]
+    lowest = sympy.floor(min(ends) / (2 * sympy.pi)) - 1
+    number = int(sympy.ceiling((max(ends) - min(ends)) / (2 * sympy.pi))) + 3
+    return [angle + 2 * sympy.pi * (lowest + k) for angle in dict.fromkeys((first, others)) for k in range(number)]
+
+
+def end_of(V: Any, original: Original, at: Any, other: Any, t: Any, signs: Signs) -> End:
+    """The end `at` of the domain; the potential is a function of t."""
+    point = original.at(at, signs)
+    u = sympy.Dummy("u")
+    value = 1 / u if point == sympy.oo else point + u
+    slope = sympy.cancel(SLOPES[original.kind](value) * original.rate**2 * (u**4 if point == sympy.oo else 1))
+    mu = _order(slope, u)
+    local = sympy.cancel(V.xreplace({t: value}))
+    order, strength = _leading(local, u)
+    direction = _side(original, at, other, point, signs)
+    if at.is_infinite:
+        return _infinite(at, original.x, mu, -order, strength * direction ** abs(order), signs)
+    if -order > 2 - mu:
+        return _irregular(at, original, strength * direction ** abs(order), signs)
+    return _finite(at, original, mu, -order, strength, slope, u, signs)
+
+
+def _order(function: Any, u: Any) -> int:
+    return _leading(function, u)[0]
+
+
+def _leading(function: Any, u: Any) -> tuple[int, Any]:
+    """The order at u = 0 and the coefficient; (0, 0) for 0."""
+    num, den = (sympy.Poly(part, u) for part in sympy.fraction(sympy.together(function)))
+    if num.is_zero:
+        return 0, sympy.Integer(0)
+    above, below = num.terms()[-1], den.terms()[-1]
+    return above[0][0] - below[0][0], sympy.factor(above[1] / below[1])
+
+
+def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> int:
+    """The sign of the local coordinate of t on the domain, near this end."""
+    kind = original.kind
+    is_left = at == -sympy.oo or other == sympy.oo or (at != sympy.oo and signs.sign(other - at) == 1)
+    if kind in ("exp", "cosh") and point in (0, sympy.oo):
+        return 1
+    if kind in ("x", "exp", "sinh"):
+        sign = signs.sign(original.rate)
+        if sign is None:
+            raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
+        return sign * (1 if is_left != at.is_infinite else -1)
+    if kind == "cosh":
+        return 1
+    angle = original.theta_at(at, signs)
+    if not angle.is_number:
+        raise Uncovered(f"the end {at} isn't a multiple of pi/({original.rate})")
+    value = getattr(sympy, kind)(angle + (1 if is_left else -1) * sympy.Rational(1, 1000))
+    return 1 if (1 / value if point == sympy.oo else value - point) > 0 else -1
+
+
+def _infinite(at: Any, x: Any, mu: int, j: int, strength: Any, signs: Signs) -> End:
+    where = f"{x} -> {at}"
+    if j < 0 or strength == 0:
+        return End(at, False, f"{where}: V -> 0, continuous spectrum from 0", threshold=sympy.Integer(0))
+    if j == 0:
+        shown = caret(str(strength))
+        return End(at, False, f"{where}: V -> {shown}, continuous spectrum from there", threshold=strength)
+    sign = signs.sign(strength)
+    if sign == 1:
+        return End(at, False, f"{where}: V -> oo, one solution decays")
+    falls = sympy.Lt(strength, 0)
+    if mu >= j + 2:
+        said = (
+            "V -> -oo, no solution is square integrable" if sign == -1 else "at most one solution is square integrable"
+        )
+        return End(at, False, f"{where}: {said}", oscillates=sign == -1)
+    if sign == -1:
+        return End(
+            at, True, f"{where}: V -> -oo so fast that both solutions are square integrable (limit circle)", True
+        )
+    return End(at, falls, f"{where}: one solution decays where {caret(str(strength))} > 0", True)
+
+
+def _irregular(at: Any, original: Original, strength: Any, signs: Signs) -> End:
+    where = f"{original.x} -> {caret(str(at))}"
+    sign = signs.sign(strength)
+    if sign == 1:
+        return End(at, False, f"{where}: V -> oo, one solution decays")
+    if sign == -1:
+        said = "V -> -oo so fast that both solutions are square integrable (limit circle)"
+        return End(at, True, f"{where}: {said}", True)
+    return End(at, sympy.Lt(strength, 0), f"{where}: one solution decays where {caret(str(strength))} > 0", True)
+
+
+def _finite(at: Any, original: Original, mu: int, j: int, strength: Any, slope: Any, u: Any, signs: Signs) -> End:
+    where = f"{original.x} -> {caret(str(at))}"
+    if mu >= 2:
+        raise Uncovered(f"the coordinate isn't regular at {where}")
+    # u ~ (x - a)^p with p = 2/(2 - mu), and (du/dx)^2 ~ C u^mu, so that u is (x - a)^p (C/p^2)^(p/2)
+    p = sympy.Rational(2, 2 - mu)
+    coefficient = sympy.Integer(0)
+    if j == 2 - mu:
+        C = _leading(slope, u)[1]
+        coefficient = sympy.factor(strength * p**2 / C)
+    square = sympy.factor(coefficient + sympy.Rational(1, 4))
+    circle = _less_than_1(square, signs)
+    known = signs.holds(circle)
+    if known is False:
+        return End(at, False, f"{where}: y ~ {_power(at, original.x, square)}, the smaller one is square integrable")
+    negative = signs.is_nonnegative(square) is False
+    if negative:
+        return End(
+            at,
+            True,
+            f"{where}: V ~ -c/(x - a)^2 with c > 1/4, the solutions oscillate (limit circle)",
+            True,
+        )
+    said = f"y ~ {_power(at, original.x, square)}, both are square integrable (limit circle)"
+    return End(at, True if known else circle, f"{where}: {said}" + ("" if known else f" where {_relation(circle)}"))
+
+
+def _less_than_1(square: Any, signs: Signs) -> Any:
+    """square < 1, for nu where that is no radical and has a sign."""
+    root = exact_root(square)
+    if square.is_number or root is None:
+        return sympy.Lt(square, 1)
+    sign = signs.sign(root)
+    return (
+        tidied([sympy.Lt(sympy.Abs(root) if sign is None else sign * root, 1)], signs)[0]
+        if signs.holds(sympy.Lt(square, 1)) is None
+        else sympy.Lt(square, 1)
+    )
+
+
+def _relation(relation: Any) -> str:
+    return f"{caret(str(relation.lhs))} {relation.rel_op} {caret(str(relation.rhs))}"
+
+
+def _power(at: Any, x: Any, square: Any) -> str:
+    root = exact_root(square)
+    nu = sympy.sqrt(square) if root is None else root
+    base = x - at
+    if square == sympy.Rational(1, 4):
+        return f"{caret(str(base))} or 1"
+    first, second = (caret(str(base ** sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)))) for s in (1, -1))
+    return f"{first} or {second}"

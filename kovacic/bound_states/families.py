@@ -1,0 +1,272 @@
+"""The levels of the three standard equations: a solution with a polynomial of degree n, for all n at once.
+
+1. At most three singular points, all regular: with w, a Moebius map of z with the singular points 1, -1, oo,
+
+    y = (1 - w)^e1 (1 + w)^e2 P_n^(d1, d2)(w),        n = (-1 - d1 - d2 - d3)/2,                                    (1)
+
+d_i the exponent differences with signs and e_i = (1 + d_i)/2 - mu_i/4.
+
+2. S_z = q + r/z + b/z^2, kappa^2 = q, d^2 = 1 + 4 b:
+
+    y = z^e exp(-kappa z) L_n^(d)(2 kappa z),        n = -r/(2 kappa) - (1 + d)/2.                                  (2)
+
+3. S = alpha x^2 + beta x + gamma on the whole line: y = exp(-kappa (x - c)^2/2) H_n(sqrt(kappa) (x - c)), kappa^2 = alpha.
+
+Which solutions are found.  At an end that is a regular point, the smaller solution is an eigenvector of the local monodromy;
+at an irregular one it is the decaying one.  1. If the ends are two of the three points, the monodromy about both generates the
+group, and y is an eigenvector of all of it: y'/y is rational.  If both ends are the same point (z runs through a line between
+the two others), y belongs to the same eigenvalue of A B and of B A, A and B the monodromy about the other two; then A y belongs
+to it for A B as well, so that it is a multiple of y unless A B is a scalar, which isn't the case for almost all parameters,
+and eigenvalues are continuous.  2. z^(-e) exp(kappa z) y is entire, and Whittaker's asymptotic expansion, which holds for
+|arg z| < 3 pi/2, bounds it by a power of z everywhere: a polynomial.  3. Likewise, with |arg x| < 3 pi/4 about both ends.
+So every square integrable y is of this kind, and what is found is all there is.
+
+References: R. Dutt, A. Khare & U. P. Sukhatme, Amer. J. Phys. 56 (1988) 163; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251
+(1995) 267; DLMF 13.14, 15.10, 18.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations, product
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.energies import Root, Solved, conjugate, solved
+from kovacic.bound_states.frame import Frame, Spot, Uncovered
+from kovacic.bound_states.signs import Signs
+
+
+@dataclass(frozen=True)
+class Family:
+    """Levels E_n with solutions y_n, square integrable where the `conditions` hold; up to a factor.
+
+    `zeros` is the number of zeros of y_n inside the domain: n, 2 n or 2 n + 1.  `radicals` are symbols for square roots.
+    """
+
+    energy: Any
+    wave: Any
+    conditions: tuple[Any, ...]
+    zeros: Any
+    norm: Any = None
+    radicals: tuple[tuple[Any, Any], ...] = ()
+
+
+@dataclass(frozen=True)
+class Ends:
+    """What is demanded of the exponents at the ends; `friedrichs` admits the smaller one of two square integrable solutions."""
+
+    signs: Signs
+    friedrichs: bool
+
+    def conditions(self, frame: Frame, spot: Spot, delta: Any) -> list[Any]:
+        """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the Friedrichs one."""
+        found = []
+        for role in spot.roles:
+            if role == "fold":
+                continue
+            end = frame.domain[role == "right"]
+            if end.is_infinite:
+                if spot.mu < 2:
+                    raise Uncovered(f"an infinite end at a finite point of z = {frame.z_of_x}")
+                least = 2 * (spot.mu / 2 - 1)
+                found.append(_above(delta, 0 if spot.mu == 2 else least, strict=True))
+            else:
+                if spot.mu >= 2:
+                    raise Uncovered(f"the end {end} of the domain is at infinity in z = {frame.z_of_x}")
+                least = 0 if self.friedrichs else 2 / spot.p
+                found.append(_above(delta, least, strict=False))
+        return found
+
+
+def _above(delta: Any, least: Any, *, strict: bool) -> Any:
+    """delta > least, or >=."""
+    if delta.is_number and delta.is_real is False:
+        return sympy.false
+    return sympy.Gt(delta, least) if strict else sympy.Ge(delta, least)
+
+
+def _radicals(roots: list[Root]) -> tuple[tuple[Any, Any], ...]:
+    return tuple(radical for root in roots for radical in root.radicals)
+
+
+def _are_real(roots: list[Root]) -> list[Any]:
+    """That what stands under the square roots isn't negative."""
+    squares = (root.square for root in roots if root.radicals and not root.square.has(sympy.I))
+    return [sympy.Ge(square, 0) for square in squares]
+
+
+def jacobi_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+    """Equation (1)."""
+    if len(frame.spots) != 3:
+        raise Uncovered("the equation has less than three singular points")
+    _check_fold(frame)
+    roots = [Root.of(spot.square, E) for spot in frame.spots]
+    for deltas in _choices(frame.spots, roots):
+        equation = sympy.expand(-1 - sympy.Add(*deltas) - 2 * ends.signs.n)
+        for found in solved(equation, roots, E):
+            values = [delta.xreplace(found.values) for delta in deltas]
+            conditions = _are_real(roots)
+            for spot, delta in zip(frame.spots, values, strict=True):
+                conditions += ends.conditions(frame, spot, delta)
+            if possible(conditions, ends.signs):
+                yield _jacobi(frame, roots, values, found, conditions, ends.signs)
+
+
+def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
+    """The signs of the roots: those of unknowns are part of them, but for unknowns with the same square.
+
+    A pair of complex conjugate roots has one sign, since n is real.
+    """
+    options: list[list[Any]] = []
+    seen: dict[Any, tuple[Any, bool]] = {}
+    pairs = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
+    if len(pairs) == 1:
+        return  # n isn't real
+    if len(pairs) == 3:
+        raise Uncovered("no exponent is real")
+    for k, (spot, root) in enumerate(zip(spots, roots, strict=True)):
+        is_end = bool(spot.roles)
+        if root.unknown and root.square not in seen:
+            seen[root.square] = root.value, is_end
+            options.append([root.value])
+        elif root.unknown:
+            known, was_end = seen[root.square]
+            both_positive = is_end and was_end
+            options.append([known] if both_positive else [known, -known])
+        elif root.value == 0 or k in pairs[1:]:
+            options.append([root.value])
+        else:
+            options.append([root.value, -root.value])
+    for chosen in product(*options):
+        choice = [*chosen]
+        if pairs:
+            first, second = pairs
+            choice[second] = conjugate(choice[first])
+        yield choice
+
+
+def possible(conditions: list[Any], signs: Signs) -> bool:
+    """Is none of the conditions false for all values, nor the sum of two of them?"""
+    if any(signs.holds(condition) is False for condition in conditions):
+        return False
+    gaps = [condition.gts - condition.lts for condition in dict.fromkeys(conditions) if condition not in (True, False)]
+    return all(signs.is_nonnegative(sympy.expand(a + b)) is not False for a, b in combinations(gaps, 2))
+
+
+def _check_fold(frame: Frame) -> None:
+    """At the middle of the domain V is regular: the solutions are even and odd."""
+    for spot in frame.spots:
+        if "fold" in spot.roles and sympy.simplify(spot.square * spot.p**2 - 1) != 0:
+            raise Uncovered(f"V isn't regular at {frame.x} = {frame.fold}, inside the domain")
+
+
+def _jacobi(
+    frame: Frame, roots: list[Root], deltas: list[Any], found: Solved, conditions: list[Any], signs: Signs
+) -> Family:
+    from kovacic.bound_states.waves import jacobi_wave
+
+    wave, norm = jacobi_wave(frame, roots, deltas, signs)
+    return Family(found.energy, wave, tuple(conditions), _zeros(frame, deltas, signs), norm, _radicals(roots))
+
+
+def _zeros(frame: Frame, deltas: list[Any], signs: Signs) -> Any:
+    """n, or for a half of the domain twice as many and maybe one in the middle."""
+    for spot, delta in zip(frame.spots, deltas, strict=True):
+        if "fold" in spot.roles:
+            return 2 * signs.n + (1 if delta.is_positive else 0)
+    return signs.n
+
+
+def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+    """Equation (2)."""
+    z = frame.z
+    square = sympy.cancel(frame.S * z**2)
+    if sympy.denom(square).has(z) or sympy.degree(sympy.numer(square), z) != 2:
+        raise Uncovered("the equation isn't Whittaker's")
+    parts = sympy.Poly(square, z)
+    q, r, b = (parts.coeff_monomial(z**k) for k in (2, 1, 0))
+    _check_fold(frame)
+    origin = next((spot for spot in frame.spots if spot.point == 0), Spot(sympy.Integer(0), 1 + 4 * b, 0))
+    roots = [Root.of(sympy.factor(q), E), Root.of(sympy.factor(1 + 4 * b), E)]
+    for kappa, delta in product(
+        *([root.value] if root.unknown or root.value == 0 else [root.value, -root.value] for root in roots)
+    ):
+        equation = -r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
+        for found in solved(equation, roots, E):
+            rate, difference = kappa.xreplace(found.values), delta.xreplace(found.values)
+            conditions = [*_are_real(roots), *_decay(frame, rate), *ends.conditions(frame, origin, difference)]
+            if possible(conditions, ends.signs):
+                from kovacic.bound_states.waves import laguerre_wave
+
+                wave, norm = laguerre_wave(frame, origin, rate, difference, ends.signs)
+                zeros = (
+                    2 * ends.signs.n + (1 if difference.is_positive else 0) if "fold" in origin.roles else ends.signs.n
+                )
+                yield Family(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
+
+
+def _decay(frame: Frame, kappa: Any) -> list[Any]:
+    """When exp(-kappa z) decays at the end where z is infinite."""
+    conditions = []
+    for spot in frame.spots:
+        for role in spot.roles:
+            if spot.point == sympy.oo and role != "fold":
+                direction = _direction(frame, role)
+                conditions.append(_above(direction * kappa, 0, strict=True))
+    return conditions
+
+
+def _direction(frame: Frame, role: str) -> int:
+    """The sign of z near an end at which it is infinite."""
+    if frame.m % 2 == 0 or frame.original.kind in ("exp", "cosh"):
+        return 1
+    if frame.original.kind != "x":
+        raise Uncovered(f"the sign of z = {frame.z_of_x} isn't known")
+    end = frame.domain[role == "right"]
+    if end.is_infinite:
+        return 1 if role == "right" else -1
+    return 1 if role == "left" else -1  # z = 1/(x - end)
+
+
+def no_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+    """S_z = r/z + b/z^2 between 0 and oo, or a constant S on the whole line: no solution is square integrable at both ends.
+
+    Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
+    bounded everywhere and tends to 0: y = 0.
+    """
+    z = frame.z
+    square = sympy.cancel(frame.S * z**2)
+    is_bessel = not sympy.denom(square).has(z) and sympy.degree(sympy.numer(square), z) == 1
+    is_constant = not frame.S.has(z) and frame.original.kind == "x" and all(end.is_infinite for end in frame.domain)
+    points = {spot.point for spot in frame.ends}
+    if not is_constant and not (is_bessel and points == {0, sympy.oo} and not sympy.diff(square, z).has(E)):
+        raise Uncovered("the equation isn't Bessel's")
+    yield from ()
+
+
+def hermite_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+    """The oscillator on the whole line."""
+    z = frame.z
+    is_oscillator = frame.S.is_polynomial(z) and sympy.degree(frame.S, z) == 2
+    if (
+        not is_oscillator
+        or frame.original.kind != "x"
+        or frame.base != sympy.Symbol(frame.problem_variable)
+        or frame.domain != (-sympy.oo, sympy.oo)
+    ):
+        raise Uncovered("the equation isn't that of the oscillator on the whole line")
+    alpha, beta, gamma = (sympy.Poly(frame.S, z).coeff_monomial(z**k) for k in (2, 1, 0))
+    root = Root.of(sympy.factor(alpha), E)
+    n, x = ends.signs.n, frame.x
+    for kappa in (root.value, -root.value):
+        for found in solved(gamma - beta**2 / (4 * alpha) + kappa * (2 * n + 1), [root], E):
+            conditions = [*_are_real([root]), _above(kappa, 0, strict=True)]
+            if not possible(conditions, ends.signs):
+                continue
+            shifted = x + sympy.factor(beta / (2 * alpha))
+            wave = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
+            norm = 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
+            yield Family(found.energy, wave, tuple(conditions), n, norm, root.radicals)

@@ -1,0 +1,347 @@
+"""The coordinate z(x) in which y'' = (V - E) y is a standard equation, and what the ends of the domain are in it.
+
+The reader has put t = x, exp(k x), sinh(k x), ... ; s = t - c or 1/(t - p) - c and z = s^m follow from the symmetries of the
+equation in t.  With (dz/dx)^2 = C prod (z - c)^mu_c and v'' = S_z v, the solutions are y = (dz/dx)^(-1/2) v.  So where v has
+the exponents (1 +- delta)/2 at z = c, y has
+
+    (1 +- delta)/2 - mu/4,                                                                                          (1)
+
+and where x is finite at c (mu < 2), z - c ~ (x - a)^p with p = 2/(2 - mu), so that y ~ (x - a)^(1/2 +- nu), nu = p delta/2.
+At z = oo the coordinate is 1/z, and the sum of all mu is 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.bound_states.signs import Signs
+from kovacic.engine.places import Kind, Place, Problem, analyse
+from kovacic.equation import Equation
+from kovacic.limits import Budget
+from kovacic.parametric import riemann
+from kovacic.parametric.theorems import symmetries
+from kovacic.reading.symbolic import read_expression
+
+#: (dt/dtheta)^2 as a function of t, for t a function of theta = k x + c.
+SLOPES = {
+    "x": lambda t: sympy.Integer(1),
+    "exp": lambda t: t**2,
+    "sinh": lambda t: 1 + t**2,
+    "cosh": lambda t: t**2 - 1,
+    "sin": lambda t: 1 - t**2,
+    "cos": lambda t: 1 - t**2,
+    "tan": lambda t: (1 + t**2) ** 2,
+}
+
+
+class Uncovered(Exception):
+    """Why a problem isn't treated, in a sentence."""
+
+
+@dataclass(frozen=True)
+class Original:
+    """t as a function of the user's variable: the function's name, and its argument theta = rate * x + offset."""
+
+    x: Any
+    kind: str = "x"
+    rate: Any = sympy.S.One
+    offset: Any = sympy.S.Zero
+
+    @classmethod
+    def of(cls, equation: Equation | None, x: Any, signs: Signs) -> Original:
+        """The one that the reader has chosen."""
+        if equation is None or equation.change is None:
+            return cls(x)
+        t = signs.real(read_expression(equation.change.expression)).xreplace({sympy.Symbol(x.name): x})
+        theta = sympy.expand(t.args[0])
+        return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
+
+    @property
+    def theta(self) -> Any:
+        return self.rate * self.x + self.offset
+
+    @property
+    def t(self) -> Any:
+        return self.theta if self.kind == "x" else getattr(sympy, self.kind)(self.theta)
+
+    def theta_at(self, end: Any, signs: Signs) -> Any:
+        """The argument at an end of the domain."""
+        if not end.is_infinite:
+            return sympy.simplify(self.rate * end + self.offset)
+        sign = signs.sign(self.rate)
+        if sign is None:
+            raise Uncovered(f"the sign of {self.rate} isn't known: assume that it is positive")
+        return sign * end
+
+    def at(self, end: Any, signs: Signs) -> Any:
+        """t at an end of the domain, a number or oo (both of its ends are one point)."""
+        theta = self.theta_at(end, signs)
+        if not theta.is_infinite:
+            value = theta if self.kind == "x" else sympy.simplify(getattr(sympy, self.kind)(theta))
+            return sympy.oo if value.is_infinite else value
+        if self.kind in ("sin", "cos", "tan"):
+            raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {end}")
+        return sympy.Integer(0) if self.kind == "exp" and theta == -sympy.oo else sympy.oo
+
+    def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
+        """Where dt/dx vanishes inside the domain."""
+        period = {"cosh": None, "cos": sympy.Integer(0), "sin": sympy.pi / 2}
+        if self.kind not in period:
+            return []
+        first, last = (self.theta_at(end, signs) for end in domain)
+        if self.kind == "cosh":
+            angles = [sympy.Integer(0)]
+        else:
+            if not (first.is_number and last.is_number):
+                raise Uncovered(f"the ends of the domain aren't multiples of pi/({self.rate})")
+            lowest = sympy.floor(min(first, last) / sympy.pi)
+            number = int(sympy.ceiling(abs(last - first) / sympy.pi)) + 2
+            angles = [period[self.kind] + sympy.pi * (lowest + k) for k in range(number)]
+        return [(a - self.offset) / self.rate for a in angles if is_between(a, first, last, signs)]
+
+
+def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
+    """Does it lie between the ends, and isn't one of them?"""
+    from_first, to_last = (sympy.simplify(difference) for difference in (value - first, last - value))
+    if 0 in (from_first, to_last):
+        return False
+    known = [signs.sign(from_first), signs.sign(to_last)]
+    if None not in known:
+        return known[0] == known[1]
+    raise Uncovered(f"whether {value} lies between {first} and {last} isn't known")
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A singular point of v'' = S_z v: where, delta^2 (None: irregular), mu, and which ends of the half domain are there."""
+
+    point: Any
+    square: Any
+    mu: Any
+    roles: tuple[str, ...] = ()
+
+    @property
+    def p(self) -> Any:
+        """z - c ~ (x - a)^p, for mu < 2."""
+        return 2 / (2 - self.mu)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A coordinate z = s^m with the singular points, and the ends of the domain among them.
+
+    `fold` is the x about which the domain and the equation are symmetric, where z doesn't tell x from its mirror image, and the
+    problem is that on the right half; None where z is a coordinate.  `limits_of_t` are the least and the largest value of t
+    on this half, each None where it isn't known.
+    """
+
+    original: Original
+    base: Any
+    m: int
+    S: Any
+    z: Any
+    constant: Any
+    spots: tuple[Spot, ...]
+    domain: tuple[Any, Any]
+    fold: Any
+    problem: Problem = field(repr=False)
+
+    @property
+    def x(self) -> Any:
+        return self.original.x
+
+    @property
+    def ends(self) -> list[Spot]:
+        return [spot for spot in self.spots if {"left", "right"} & {*spot.roles}]
+
+    @property
+    def is_fuchsian(self) -> bool:
+        return all(spot.square is not None for spot in self.spots)
+
+    @property
+    def slope(self) -> Any:
+        """(dz/dx)^2 as a function of z."""
+        return self.constant * sympy.Mul(*((self.z - s.point) ** s.mu for s in self.spots if s.point != sympy.oo))
+
+    @property
+    def z_of_x(self) -> Any:
+        t = sympy.Symbol(self.problem_variable)
+        return (self.base**self.m).xreplace({t: self.original.t})
+
+    problem_variable: str = "t"
+    limits_of_t: tuple[Any, Any] = (None, None)
+
+
+def frames(
+    S: RatFunc,
+    variable: str,
+    equation: Equation | None,
+    domain: tuple[Any, Any],
+    x: Any,
+    E: Any,
+    signs: Signs,
+    budget: Budget,
+) -> Iterator[Frame]:
+    """The equation as it was read, and in each coordinate that its symmetries give."""
+    original = Original.of(equation, x, signs)
+    problem = analyse(S, budget)
+    t = sympy.Symbol(variable)
+    yield _frame(original, t, 1, problem, variable, domain, signs)
+    z = RatFunc(problem.field.poly([0, 1]))
+    for coordinate, num, den in symmetries(problem, variable):
+        n = coordinate.n
+        if coordinate.base == variable and n == 1:
+            continue
+        if n % 2 == 0 or n == 1:
+            base = signs.real(read_expression(coordinate.base))
+            if base.has(E):
+                continue
+            S_z = (RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2
+            yield _frame(original, base, n, analyse(S_z, budget), variable, domain, signs)
+
+
+def _frame(
+    original: Original, base: Any, m: int, problem: Problem, variable: str, domain: tuple[Any, Any], signs: Signs
+) -> Frame:
+    t, s, Z = sympy.Symbol(variable), sympy.Dummy("s"), sympy.Dummy("Z")
+    back = sympy.solve(base - s, t)[0]
+    slope = m**2 * s ** (2 * m - 2) * (sympy.diff(base, t) ** 2 * SLOPES[original.kind](t)).xreplace({t: back})
+    constant, powers = _powers(sympy.factor(slope * original.rate**2), s, m)
+    fold = _fold(original, base, m, t, domain, signs)
+    half = domain if fold is None else (fold, domain[1])
+    at = {
+        role: _value(base, t, original.at(end, signs)) ** m for role, end in zip(("left", "right"), half, strict=True)
+    }
+    if fold is not None:
+        at["fold"] = at.pop("left")
+    spots = []
+    rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
+    for place in problem.places:
+        for point, square in _points(place, signs):
+            mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
+            roles = tuple(role for role, value in at.items() if _same(value, point))
+            if place.kind is not Kind.ORDINARY or mu or roles:
+                spots.append(Spot(point, square, mu, roles))
+    known = [spot.point for spot in spots]
+    for point, mu in powers.items():
+        if not any(_same(point, other) for other in known):
+            roles = tuple(role for role, value in at.items() if _same(value, point))
+            spots.append(Spot(point, sympy.Integer(1), mu, roles))
+    S = signs.real(sympy.sympify(problem.S.num.to_sympy(Z) / problem.S.den.to_sympy(Z)))
+    return Frame(
+        original, base, m, S, Z, constant, tuple(spots), domain, fold, problem, variable, _range(original, half, signs)
+    )
+
+
+def _range(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
+    """The least and the largest value of t, where it is monotonic and they are known."""
+    if original.kind == "x":
+        first, last = half
+    else:
+        angles = [original.theta_at(end, signs) for end in half]
+        function = getattr(sympy, original.kind)
+        first, last = (
+            sympy.limit(function(sympy.Symbol("u")), sympy.Symbol("u"), a) if a.is_infinite else function(a)
+            for a in angles
+        )
+    if original.kind == "tan":
+        return None, None
+    difference = sympy.simplify(last - first)
+    is_increasing = difference.is_positive or last == sympy.oo or first == -sympy.oo
+    low, high = (first, last) if is_increasing else (last, first)
+    return (None if low == -sympy.oo else low, None if high == sympy.oo else high)
+
+
+def _powers(slope: Any, s: Any, m: int) -> tuple[Any, dict[Any, Any]]:
+    """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
+    constant, found = sympy.Integer(1), dict[Any, Any]()
+    for factor in sympy.Mul.make_args(slope):
+        base, exponent = factor.as_base_exp()
+        if not base.has(s):
+            constant *= factor
+            continue
+        polynomial = sympy.Poly(base, s)
+        constant *= polynomial.LC() ** exponent
+        if base == s:
+            found[sympy.Integer(0)] = found.get(sympy.Integer(0), 0) + exponent / sympy.Integer(m)
+            continue
+        for root, multiplicity in sympy.roots(polynomial).items():
+            share = multiplicity * exponent / sympy.Integer(m)  # m roots s for one z
+            found[root**m] = found.get(root**m, 0) + share
+    return constant, found
+
+
+def _fold(original: Original, base: Any, m: int, t: Any, domain: tuple[Any, Any], signs: Signs) -> Any:
+    """The only point inside the domain at which dz/dx vanishes; None where there is none."""
+    found = original.turning_points(domain, signs)
+    if m % 2 == 0:
+        zeros = _zeros(original, base, t)
+        found += [x for x in zeros if x not in found and is_between(x, *domain, signs)]
+    if not found:
+        return None
+    middle = found[0]
+    first, last = domain
+    symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
+    if len(found) > 1 or not symmetric:
+        raise Uncovered(f"the domain isn't symmetric about {original.x} = {middle}, and the equation is")
+    return middle
+
+
+def _zeros(original: Original, base: Any, t: Any) -> list[Any]:
+    """Where s vanishes: only points of the real axis count."""
+    value = sympy.solve(sympy.numer(sympy.together(base)), t)
+    theta = {"x": lambda v: v, "sinh": sympy.asinh}.get(original.kind)
+    if theta is None:
+        return []
+    return [(theta(v) - original.offset) / original.rate for v in value if v.is_real is not False]
+
+
+def _value(base: Any, t: Any, at: Any) -> Any:
+    """s at a value of t, or oo."""
+    num, den = sympy.fraction(sympy.together(base))
+    if at == sympy.oo:
+        top, bottom = (sympy.degree(part, t) if part.has(t) else 0 for part in (num, den))
+        if top != bottom:
+            return sympy.oo if top > bottom else sympy.Integer(0)
+        return sympy.LC(num, t) / sympy.LC(den, t)
+    below = sympy.simplify(den.xreplace({t: at}))
+    return sympy.oo if below == 0 else sympy.simplify(num.xreplace({t: at}) / below)
+
+
+def _same(first: Any, second: Any) -> bool:
+    if sympy.oo in (first, second):
+        return bool(first == second)
+    return bool(sympy.simplify(first - second) == 0)
+
+
+def _points(place: Place, signs: Signs) -> Iterator[tuple[Any, Any]]:
+    """The points of a place, with delta^2; conjugate points one by one."""
+    x = sympy.Dummy("x")
+    regular = place.kind in (Kind.ORDINARY, Kind.REGULAR)
+    if place.at_infinity:
+        yield sympy.oo, _square(place, x, None, signs) if regular else None
+        return
+    if place.degree > 2:
+        raise Uncovered(f"the roots of {place.factor} aren't used")
+    half, rest = place.factor[1], place.factor[0]
+    if place.degree == 1:
+        points = [signs.real((-place.factor[0]).to_sympy(x))]
+    else:
+        middle, product = (signs.real(part.to_sympy(x)) for part in (half, rest))
+        root = sympy.sqrt(sympy.factor(middle**2 - 4 * product))
+        points = [(-middle + sign * root) / 2 for sign in (1, -1)]
+    for point in points:
+        yield point, _square(place, x, point, signs) if regular else None
+
+
+def _square(place: Place, x: Any, point: Any, signs: Signs) -> Any:
+    if place.kind is Kind.ORDINARY:
+        return sympy.Integer(1)
+    square = signs.real(riemann.difference_squared(place).to_sympy(x))
+    return square if point is None else sympy.expand(square.xreplace({x: point}))

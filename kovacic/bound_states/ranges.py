@@ -1,0 +1,92 @@
+"""Conditions as they are read: n < A/a, l >= 1/2, in the place of -(2 n a - 2 A)/a > 0."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import combinations
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.energies import shortest
+from kovacic.bound_states.signs import Signs
+
+
+def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
+    """The conditions that don't hold anyway, each solved for n, or for a parameter, where it is linear in it.
+
+    `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
+    """
+    left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
+    left = _paired(left, signs)
+    roots = {symbol: root**2 for symbol, root in (radicals or {}).items() if root.is_Pow}
+    squared = [_squared(_solved(c, signs), roots) for c in left]
+    are_positive = {square for square, is_new in squared if is_new and square is not None}
+    found = [
+        _solved(c, signs).xreplace(dict(radicals or {})) if square is None else _solved(square, signs)
+        for c, (square, _) in zip(left, squared, strict=True)
+    ]
+    implied = {_solved(sympy.Ge(square, 0), signs) for square in roots.values()} if are_positive else set()
+    return tuple(dict.fromkeys(c for c in found if c != sympy.true and c not in implied))
+
+
+def _squared(condition: Any, roots: Mapping[Any, Any]) -> tuple[Any, bool]:
+    """r > c, c >= 0 a number, as r^2 > c^2."""
+    if condition in (sympy.true, sympy.false) or condition.lhs not in roots or not condition.rhs.is_number:
+        return None, False
+    if condition.rhs.is_negative or not isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
+        return None, False
+    return condition.func(roots[condition.lhs], condition.rhs**2), True
+
+
+def _paired(conditions: list[Any], signs: Signs) -> list[Any]:
+    """s + t > 0 and s - t > 0 as s > sqrt(|s t|), where s t doesn't depend on n: s > 0, and s^2 > |s t| means s > |t|."""
+    for first, second in combinations(conditions, 2):
+        one, other = (condition.gts - condition.lts for condition in (first, second))
+        if not (isinstance(first, sympy.StrictGreaterThan) and one.has(signs.n) and other.has(signs.n)):
+            continue
+        half = sympy.simplify((one + other) / 2)
+        product = sympy.simplify(half * (one - other) / 2)
+        if product.has(signs.n) or sympy.degree(sympy.numer(sympy.together(half)), signs.n) != 1:
+            continue
+        sign = signs.sign(product)
+        size = sympy.Abs(product) if sign is None else sign * product
+        together = sympy.StrictGreaterThan(half, sympy.sqrt(sympy.factor(size)))
+        return _paired([together, *(c for c in conditions if c not in (first, second))], signs)
+    return conditions
+
+
+def _solved(condition: Any, signs: Signs) -> Any:
+    if condition in (sympy.true, sympy.false) or (condition.has(sympy.Abs) and not condition.has(signs.n)):
+        return condition
+    strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
+    difference = sympy.factor(sympy.together(condition.gts - condition.lts))
+    rest = sympy.Integer(1)
+    for factor in sympy.Mul.make_args(difference):
+        sign = signs.sign(factor)
+        rest *= factor if sign is None else sign
+    greater = sympy.StrictGreaterThan if strict else sympy.GreaterThan
+    less = sympy.StrictLessThan if strict else sympy.LessThan
+    rest = sympy.expand(rest)
+    for unknown in (signs.n, *sorted(rest.free_symbols - {signs.n}, key=str)):
+        if not rest.is_polynomial(unknown) or sympy.degree(rest, unknown) != 1:
+            continue
+        slope = rest.coeff(unknown, 1)
+        sign = signs.sign(slope)
+        if sign is not None:
+            bound = shortest(sympy.factor(-rest.coeff(unknown, 0) / slope))
+            return greater(unknown, bound) if sign == 1 else less(unknown, bound)
+    if rest.is_polynomial(signs.n) and sympy.degree(rest, signs.n) == 2:
+        return _square(rest, signs, greater, less)
+    return greater(rest, 0)
+
+
+def _square(rest: Any, signs: Signs, greater: Any, less: Any) -> Any:
+    """c (n + h)^2 + k > 0 as (n + h)^2 < -k/c."""
+    c, b, k = (rest.coeff(signs.n, i) for i in (2, 1, 0))
+    sign = signs.sign(c)
+    if sign is None:
+        return greater(rest, 0)
+    square = (signs.n + shortest(sympy.factor(b / (2 * c)))) ** 2
+    bound = shortest(sympy.factor((b**2 / (4 * c) - k) / c))
+    return greater(square, bound) if sign == 1 else less(square, bound)

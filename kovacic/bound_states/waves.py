@@ -1,0 +1,262 @@
+"""The wave functions in the user's variable, and their norms, which are products of Gamma functions.
+
+Every factor |t - c| is written by its half angle, exp(theta) + 1 = 2 exp(theta/2) cosh(theta/2) and so on; constant factors
+are dropped, and the norm is that of what is shown.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.energies import Root, conjugate, shortest
+from kovacic.bound_states.frame import Frame, Spot
+from kovacic.bound_states.signs import Signs
+from kovacic.parametric.solutions import jacobi
+
+
+@dataclass
+class Product:
+    """constant * exp(exponent) * prod base^power."""
+
+    constant: Any = sympy.S.One
+    exponent: Any = sympy.S.Zero
+    powers: dict[Any, Any] = field(default_factory=dict)
+
+    def times(self, other: Product, power: Any) -> Product:
+        """The product with a power of another one."""
+        powers = dict(self.powers)
+        for base, k in other.powers.items():
+            powers[base] = powers.get(base, 0) + k * power
+        return Product(self.constant * other.constant**power, self.exponent + other.exponent * power, powers)
+
+    def shown(self) -> Any:
+        """Without the constant."""
+        parts = [base ** sympy.factor_terms(shortest(power)) for base, power in self.powers.items()]
+        return sympy.Mul(*parts) * sympy.exp(shortest(self.exponent))
+
+
+def factor_at(frame: Frame, c: Any, t: Any) -> Product:
+    """|t - c| on the domain."""
+    original, half = frame.original, frame.original.theta / 2
+    is_above = _is_above(frame, c)
+    kind = original.kind
+    if kind == "exp" and c == 0:
+        return Product(exponent=original.theta)
+    if kind == "exp" and c == -1:
+        return Product(sympy.Integer(2), half, {sympy.cosh(half): 1})
+    if kind == "exp" and c == 1:
+        return Product(sympy.Integer(2), half, {sympy.sinh(half if is_above else -half): 1})
+    if kind in ("cosh", "cos") and c in (1, -1):
+        small, large = (sympy.sinh, sympy.cosh) if kind == "cosh" else (sympy.sin, sympy.cos)
+        return Product(sympy.Integer(2), powers={(small if c == 1 else large)(half): 2})
+    return Product(powers={original.t - c if is_above else c - original.t: 1})
+
+
+def _is_above(frame: Frame, c: Any) -> bool:
+    """Is t larger than c on the domain?  c isn't inside."""
+    low, high = frame.limits_of_t
+    if low is not None and sympy.simplify(low - c).is_nonnegative:
+        return True
+    is_below = high is not None and sympy.simplify(c - high).is_nonnegative
+    return not is_below
+
+
+def as_product(frame: Frame, expression: Any, t: Any) -> Product:
+    """|expression|, a rational function of t, up to its sign."""
+    found = Product()
+    for factor in sympy.Mul.make_args(sympy.factor(expression)):
+        base, k = factor.as_base_exp()
+        if not base.has(t):
+            found.constant *= sympy.Abs(base) ** k
+            continue
+        polynomial = sympy.Poly(base, t)
+        found.constant *= sympy.Abs(polynomial.LC()) ** k
+        for root, multiplicity in sympy.roots(polynomial).items():
+            found = found.times(factor_at(frame, root, t), k * multiplicity)
+    return found
+
+
+def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
+    """The map to 1, -1, oo."""
+    if third == sympy.oo:
+        return 1 - 2 * (z - first) / (second - first)
+    if first == sympy.oo:
+        return 1 - 2 * (second - third) / (z - third)
+    if second == sympy.oo:
+        return 1 - 2 * (z - first) / (z - third)
+    return 1 - 2 * (z - first) * (second - third) / ((z - third) * (second - first))
+
+
+def _ordered(frame: Frame, roots: list[Root]) -> list[int]:
+    """Which points are 1, -1 and oo: the last one is that which doesn't depend on E as the two others do."""
+    depend = [root.unknown for root in roots]
+    if sum(depend) in (1, 2):
+        last = depend.index(sum(depend) == 1)
+    else:
+        last = next((k for k, spot in enumerate(frame.spots) if not spot.roles), 2)
+    others = [k for k in range(3) if k != last]
+    others.sort(key=lambda k: ("right" not in frame.spots[k].roles, not frame.spots[k].roles))
+    return [*others, last]
+
+
+def jacobi_wave(frame: Frame, roots: list[Root], deltas: list[Any], signs: Signs) -> tuple[Any, Any]:
+    """The solution, and the integral of its square where it is known."""
+    order = _ordered(frame, roots)
+    t, z, n = sympy.Symbol(frame.problem_variable), frame.z, signs.n
+    w_of_z = moebius(z, *(frame.spots[k].point for k in order))
+    if _is_negative_line(w_of_z, z):
+        order[0], order[1] = order[1], order[0]
+        w_of_z = moebius(z, *(frame.spots[k].point for k in order))
+    first, second, third = (frame.spots[k] for k in order)
+    a, b, c = (deltas[k] for k in order)
+    w = sympy.factor(w_of_z.xreplace({z: frame.base**frame.m}))
+    slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
+    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu))
+    e1 = (1 + a) / 2 - first.mu / 4
+    e2 = (1 + b) / 2 - second.mu / 4
+    if w.has(sympy.I):
+        return _complex_pair(frame, w, t, (a, b), e1, (first, second), scale, n)
+    minus, plus = as_product(frame, 1 - w, t), as_product(frame, 1 + w, t)
+    whole = Product().times(minus, e1).times(plus, e2)
+    argument = _argument(frame, w, t)
+    wave = whole.shown() * jacobi(n, shortest(a), shortest(b), argument)
+    if scale.has(z):
+        return wave, None
+    norm = _norm((first, second, third), (a, b, c), (e1, e2), sympy.Abs(scale), n)
+    if norm is None:
+        return wave, None
+    return wave, _tidy(norm / whole.constant**2) * (2 if frame.fold is not None else 1)
+
+
+def _is_negative_line(w: Any, z: Any) -> bool:
+    """Is w = -i z, or -i/z?"""
+    return any(sympy.cancel(w + sympy.I * form) == 0 for form in (z, 1 / z))
+
+
+def _argument(frame: Frame, w: Any, t: Any) -> Any:
+    """w in the user's variable."""
+    original, half = frame.original, frame.original.theta / 2
+    if original.kind == "exp":
+        known = {(t - 1) / (t + 1): sympy.tanh(half), (t + 1) / (t - 1): sympy.coth(half)}
+        for form, written in known.items():
+            for sign in (1, -1):
+                if sympy.cancel(w - sign * form) == 0:
+                    return sign * written
+        return (
+            sympy.expand(sympy.apart(w, t))
+            .xreplace({t: original.t})
+            .replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
+        )
+    return sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
+
+
+def _complex_pair(
+    frame: Frame, w: Any, t: Any, deltas: tuple[Any, Any], e1: Any, spots: tuple[Spot, Spot], scale: Any, n: Any
+) -> tuple[Any, Any]:
+    """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
+    r = sympy.factor(w / sympy.I)
+    p = sympy.expand((e1 + conjugate(e1)) / 2)
+    q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
+    original = frame.original
+    a, b = map(shortest, deltas)
+    dropped = sympy.Integer(1)
+    if original.kind == "sinh" and sympy.expand(r**2 - t**2) == 0:
+        real = r.xreplace({t: original.t})
+        wave = sympy.cosh(original.theta) ** shortest(2 * p) * sympy.exp(2 * q * sympy.atan(real))
+    elif original.kind == "tan" and sympy.cancel(r**2 - t**-2) == 0:
+        sign = 1 if sympy.cancel(r - 1 / t) == 0 else -1
+        real = sign * sympy.cot(original.theta)
+        wave = sympy.sin(original.theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * original.theta)
+        dropped = sympy.exp(2 * sympy.pi * q * sign)
+    else:
+        real = r.xreplace({t: original.t})
+        wave = (1 + real**2) ** p * sympy.exp(2 * q * sympy.atan(real))
+    wave *= (-sympy.I) ** n * jacobi(n, a, b, sympy.I * real)
+    shifts = tuple(1 - spot.mu for spot in spots)
+    middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
+    norm = _jacobi_integral(a, b, shifts, n, middle)
+    is_whole_line = any(len(spot.roles) == 2 for spot in frame.spots)
+    if norm is None or not is_whole_line or scale.has(frame.z):
+        return wave, None
+    return wave, _tidy(-norm / sympy.sqrt(sympy.Abs(scale)) / dropped)
+
+
+def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); None where it isn't known.
+
+    With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1) [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line
+    v = i r all of these have the same factor, 2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
+    """
+    common = 2 ** (a + b) * middle / sympy.factorial(n)
+    plain = 2 * common / (2 * n + a + b + 1)
+    left, right = common / a, common / b
+    mean = (b**2 - a**2) / ((2 * n + a + b) * (2 * n + a + b + 2))
+    known = {
+        (0, 0): plain,
+        (-1, 0): left,
+        (0, -1): right,
+        (-1, -1): (left + right) / 2,
+        (1, -1): 2 * right - plain,
+        (-1, 1): 2 * left - plain,
+        (1, 0): plain * (1 - mean),
+        (0, 1): plain * (1 + mean),
+    }
+    return known.get(shifts)
+
+
+def _norm(
+    spots: tuple[Spot, Spot, Spot], deltas: tuple[Any, Any, Any], powers: tuple[Any, Any], scale: Any, n: Any
+) -> Any:
+    """int y^2 dx for y = |1 - w|^e1 |1 + w|^e2 P_n(w), (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2."""
+    first, second, third = spots
+    a, b, c = deltas
+    e1, e2 = powers
+
+    def middle(a: Any, b: Any) -> Any:
+        return sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
+
+    if first.roles and second.roles:
+        integral = _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle(a, b))
+        return None if integral is None else integral / sympy.sqrt(scale)
+    if second.roles:  # w -> -w
+        first, second, a, b, e1, e2 = second, first, b, a, e2, e1
+    if not (first.roles and third.roles):
+        return None
+    # w = (3 - v)/(1 + v): P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v)
+    integral = _jacobi_integral(a, c, (1 - first.mu, 1 - third.mu), n, middle(a, c))
+    if integral is None:
+        return None
+    scale *= 2 ** (first.mu + 2 * second.mu - 4)
+    return 2 ** (2 * e1 + 4 * e2 + 2 * n) * integral / sympy.sqrt(scale)
+
+
+def laguerre_wave(frame: Frame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> tuple[Any, Any]:
+    """The solution, and the integral of its square where it is known."""
+    t, n, z = sympy.Symbol(frame.problem_variable), signs.n, frame.z
+    power = (1 + delta) / 2 - origin.mu / 4
+    whole = Product().times(as_product(frame, frame.base, t), frame.m * power)
+    in_x = _argument(frame, frame.base, t) ** frame.m
+    rate = shortest(2 * kappa)
+    wave = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
+    scale = sympy.simplify(frame.slope / z**origin.mu)
+    weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
+    known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
+    j = 1 - origin.mu
+    if j not in known or scale.has(z) or signs.sign(kappa) == -1:
+        return wave, None
+    norm = rate ** (origin.mu - 2 - delta) * weight * known[j] / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2
+    return wave, _tidy(norm) * (2 if frame.fold is not None else 1)
+
+
+def _tidy(norm: Any) -> Any:
+    """With short arguments of the Gamma functions, and short exponents."""
+    written = norm.replace(
+        lambda e: e.func in (sympy.gamma, sympy.exp), lambda e: e.func(shortest(sympy.together(e.args[0])))
+    )
+    written = sympy.powsimp(written)
+    return written.replace(
+        lambda e: e.is_Pow and not e.exp.is_number, lambda e: e.base ** shortest(sympy.together(e.exp))
+    ).replace(lambda e: e.is_Add and e.has(sympy.Dummy), lambda e: shortest(e))

@@ -1,0 +1,188 @@
+"""`kovacic.spectrum`: printed energies, eigenvalues bracketed by counting zeros, wave functions in the equation, norms."""
+
+from __future__ import annotations
+
+import json
+from math import inf
+
+import pytest
+import sympy
+from potentials import MORE, TABLE, Solvable
+from scipy.integrate import quad
+from shooting import is_level
+
+import kovacic
+from kovacic.bound_states.answer import Spectrum
+from kovacic.cli.main import run
+from kovacic.reading.symbolic import read_expression
+
+x, n = sympy.symbols("x n")
+HALF = (0, "oo")
+QUICK = {"Coulomb", "Scarf II", "isotonic oscillator"}
+
+
+def spectrum_of(row: Solvable) -> Spectrum:
+    return kovacic.spectrum(row.V, domain=row.domain, assume=row.assume, boundary=row.boundary)
+
+
+def values_of(row: Solvable) -> dict[sympy.Symbol, sympy.Expr]:
+    return {sympy.Symbol(name): read_expression(value) for name, value in row.values.items()}
+
+
+def ends_of(row: Solvable) -> tuple[float, float]:
+    infinite = {"oo": inf, "-oo": -inf}
+    a, b = (
+        infinite[str(end)] if str(end) in infinite else float(read_expression(str(end)).subs(values_of(row)))
+        for end in row.domain
+    )
+    return a, b
+
+
+def integral_of_square(y: sympy.Expr, a: float, b: float) -> float:
+    wave = sympy.lambdify(x, y, "numpy")
+    return quad(lambda z: complex(wave(complex(z))).real ** 2, a, b, limit=400, epsabs=0, epsrel=1e-11)[0]
+
+
+def check(row: Solvable) -> None:
+    """The printed formula; the number of each level, to ten digits; the equation; the norm."""
+    found = spectrum_of(row)
+    assert found.complete
+    printed = read_expression(row.energy)
+    assert any(sympy.simplify(levels.energy - printed) == 0 for levels in found.levels), row.name
+    at, (a, b) = values_of(row), ends_of(row)
+    V = read_expression(row.V).subs(at)
+    numeric = sympy.lambdify(x, V, "numpy")
+    states = found.states(row.values, count=3)
+    levels = next(one for one in found.levels if all(c.subs({**at, n: 0}) == sympy.true for c in one.conditions))
+    middle = 0.1 if (a, b) == (-inf, inf) else a + 1 if b == inf else (a + b) / 2 + 0.05
+    for number, state in enumerate(states):
+        assert state.zeros == state.number == number
+        assert is_level(lambda z: float(numeric(z)), a, b, float(state.energy), number, middle)
+        left = sympy.diff(state.wave, x, 2) - (V - state.energy) * state.wave
+        scale = abs(sympy.N(state.wave.subs(x, sympy.Rational(7, 10)), 30))
+        assert abs(sympy.N(left.subs(x, sympy.Rational(7, 10)), 30)) < 1e-15 * scale
+        if levels.norm is not None:
+            integral = integral_of_square(state.wave, max(a, -8.0 if "exp(-" in row.V else -40.0), min(b, 40.0))
+            assert abs(integral / complex(sympy.N(levels.norm.subs({**at, n: number}))) - 1) < 1e-9
+
+
+@pytest.mark.parametrize("row", [row for row in TABLE + MORE if row.name in QUICK], ids=lambda row: row.name)
+def test_levels_of_the_literature(row: Solvable) -> None:
+    check(row)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", [row for row in TABLE + MORE if row.name not in QUICK], ids=lambda row: row.name)
+def test_all_levels_of_the_literature(row: Solvable) -> None:
+    check(row)
+
+
+def test_every_l_of_coulomb_has_its_limit_circle() -> None:
+    found = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=HALF, assume={"l": ">=0", "Z": "positive"})
+    assert str(found.levels[0].energy) == "-Z**2/(4*(l + n + 1)**2)"
+    assert [*map(str, found.excluded)] == ["l < 1/2"]
+    assert [*map(str, found.levels[0].conditions)] == ["l >= 1/2"]
+    with pytest.raises(kovacic.InputError, match="square integrable"):
+        found.states({"l": 0, "Z": 1})
+
+
+@pytest.mark.parametrize(
+    ("V", "domain"),
+    [
+        ("-x^4", ("-oo", "oo")),
+        ("x^2", HALF),
+        ("-1/x", HALF),
+        ("-exp(2*x)", ("-oo", "oo")),
+        ("-1/x^2 + x^2", HALF),
+        ("0", (0, 1)),
+    ],
+)
+def test_without_a_boundary_condition_there_is_no_spectrum(V: str, domain: tuple[object, object]) -> None:
+    found = kovacic.spectrum(V, domain=domain)
+    assert found.needs_boundary_condition
+    assert not found.levels
+    assert not found.complete
+    assert "boundary condition" in found.text()
+
+
+@pytest.mark.parametrize(
+    ("V", "domain"),
+    [
+        ("1/x + 2/x^2", HALF),
+        ("-x^2", ("-oo", "oo")),
+        ("exp(2*x)", ("-oo", "oo")),
+        ("3*sech(x)^2", ("-oo", "oo")),
+        ("x", ("-oo", "oo")),
+    ],
+)
+def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
+    found = kovacic.spectrum(V, domain=domain)
+    assert found.complete
+    assert not found.levels
+
+
+@pytest.mark.parametrize("V", ["x^4 - x^2", "abs_x", "x^2 + 1/(x^2 + 5)"])
+def test_what_is_not_covered_is_undecided(V: str) -> None:
+    found = kovacic.spectrum(V.replace("abs_x", "x^3 + x^4"))
+    assert not found.complete
+    assert not found.levels
+    assert found.reason.startswith("undecided: ")
+
+
+@pytest.mark.parametrize(
+    ("V", "options"),
+    [
+        ("1/x^2 + x^2", {}),
+        ("x^2 - E", {}),
+        ("x^2", {"domain": (1, 0)}),
+        ("x^2", {"domain": (0, "L")}),
+        ("x^2", {"boundary": "neumann"}),
+        ("x^2", {"domain": "0"}),
+        ("a*x^2", {"assume": {"b": "positive"}}),
+    ],
+)
+def test_wrong_questions(V: str, options: dict[str, object]) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.spectrum(V, **options)  # type: ignore[arg-type]
+
+
+def test_names_of_parameters_and_variables_are_free() -> None:
+    """Letters that the program uses itself: z, s, t, w, n, rho."""
+    plain = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=HALF, assume={"l": ">=1", "Z": "positive"}).levels[0]
+    for L, Z, r in (("n", "z", "t"), ("s", "rho", "w"), ("u", "E", "z")):
+        found = kovacic.spectrum(
+            f"{L}*({L}+1)/{r}^2 - {Z}/{r}", domain=HALF, var=r, energy="K", assume={L: ">=1", Z: "positive"}
+        ).levels[0]
+        names = {sympy.Symbol(a): sympy.Symbol(b) for a, b in (("l", L), ("Z", Z), ("x", r), ("n", str(found.number)))}
+        assert sympy.simplify(found.energy - plain.energy.subs(names, simultaneous=True)) == 0
+        assert sympy.simplify(found.wave - plain.wave.subs(names, simultaneous=True)) == 0
+
+
+def test_a_sympy_expression_and_values() -> None:
+    b = sympy.Symbol("b", positive=True)
+    found = kovacic.spectrum(sympy.exp(-2 * x) - 2 * b * sympy.exp(-x))
+    assert [state.energy for state in found.states({"b": 3})] == [sympy.Rational(k, 4) for k in (-25, -9, -1)]
+    at = kovacic.spectrum("exp(-2*x) - 2*b*exp(-x)", assume={"b": 3})
+    assert at.states() == found.states({"b": 3})
+
+
+def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = [
+        "spectrum",
+        "l*(l+1)/x^2 - Z/x",
+        "--from",
+        "0",
+        "--to",
+        "oo",
+        "--assume",
+        "l>=1",
+        "--assume",
+        "Z=positive",
+    ]
+    assert run(arguments) == 0
+    assert "E_n = -Z^2/(4*(l + n + 1)^2), n = 0, 1, 2, ..." in capsys.readouterr().out
+    assert run([*arguments, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["complete"] is True
+    assert run([*arguments, "--latex"]) == 0
+    assert r"\begin{aligned}" in capsys.readouterr().out
+    assert run(["spectrum", "x^4 + x^3"]) == 3
