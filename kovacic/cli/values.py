@@ -164,7 +164,7 @@ def conditions(
 
 
 @options.equation_command()
-@options.equation_argument("potential", metavar="V")
+@click.argument("potential", metavar="V")
 @click.option("--from", "start", default="-oo", show_default=True, metavar="A", help="The left end of the domain.")
 @click.option("--to", "stop", default="oo", show_default=True, metavar="B", help="The right end.")
 @click.option("--energy", default="E", show_default=True, metavar="NAME", help="The name of the energy.")
@@ -184,6 +184,12 @@ def spectrum(potential: str, start: str, stop: str, as_json: bool, as_latex: boo
     """
     from kovacic.bound_states.api import spectrum
 
-    answer = spectrum(potential, domain=(start, stop), **given)
-    print(answer.to_json() if as_json else answer.latex() if as_latex else options.fitted(answer.text()))
+    with options.waiting("searching"):
+        answer = spectrum(potential, domain=(start, stop), **given)
+    if as_json:
+        print(answer.to_json())
+    elif as_latex:
+        print(answer.latex())
+    else:
+        print(options.fitted(answer.text()))
     return DECIDED if answer.is_decided else UNDECIDED
