@@ -50,7 +50,8 @@ class Change:
 class Equation:
     """a y'' + b y' + c y = f + h over one field, a not zero; f is rational, and h a SymPy expression or None.
 
-    `change` says which function of the user's variable the variable is, where coefficients in exp(k x) were given.
+    `change` says which function of the user's variable the variable is, where coefficients in exp(k x) were given.  Then h is
+    in the user's variable, and what is beside f on the right-hand side there, divided by the coefficient of y''.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -101,7 +102,7 @@ class Equation:
         left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)
         right = [_coefficient(self.f, self.variable)] if self.f or self.h is None else []
         if self.h is not None:
-            right.append(as_text(self.h))
+            right.append(as_text(self.h) if self.change is None else f"[a right-hand side in {self.change.variable}]")
         line = f"{left} = {' + '.join(right)}".replace("+ -", "- ")
         return line.replace("**", "^") if caret else line
 

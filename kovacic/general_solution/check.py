@@ -1,18 +1,21 @@
 """The whole question, put to the answer: the equation at a point, the conditions where they are given; and no infinities.
 
-What is checked is what is returned, in the user's symbols, at values of the parameters that fit their assumptions.  A value at
-a singular point or at infinity was a statement on all monomials of the expansion, and isn't computed again.
+What is checked is what is returned, in the user's symbols, at values of the parameters that fit their assumptions.  Where the
+right-hand side jumps, the equation is checked between the jumps, and y and y' at them; a function that is given by its name
+stands for any function, and is tried with an exponential one.  A value at a singular point or at infinity was a statement on
+all monomials of the expansion, and isn't computed again.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from itertools import islice
+from itertools import islice, pairwise
 from typing import Any
 
 import sympy
 from flint import acb, arb, ctx, fmpq
+from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
@@ -22,6 +25,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
+from kovacic.general_solution.steps import JUMPING, break_points, in_steps, on_piece, taken_apart
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, samples
 from kovacic.reading.change_of_variable import function_of_x
@@ -32,6 +36,8 @@ _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 _STEP = fmpq(3, 7 * 101)
 #: How small a residual is, by the size of its terms.
 _SMALL = arb(10) ** (-DIGITS // 2)
+#: What is raised for functions that can't be evaluated.
+_NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
 def check_answer(question: Question, value: Expr, start: Expr | None, limits: Sequence[Expr]) -> None:
@@ -72,15 +78,89 @@ def _sampled(expression: Expr, symbols: set[Expr], number: int) -> Expr:
 def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
     """Is the residual seen not to be zero at a point?  False where the functions can't be evaluated."""
     x = question.x
-    if value.has(sympy.Heaviside, sympy.DiracDelta):
-        return False
     definite = [integral for integral in value.atoms(sympy.Integral) if not integral.has_free(x)]
     value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
+    h = question.given.h
+    if h is not None and (h.has(*JUMPING) or h.has(AppliedUndef)):
+        return _is_wrong_in_pieces(question, value)
     middle = None if start is None else ball(_sampled(start, start.free_symbols, 1))
     base = acb(fmpq(23, 71), fmpq(0) if start is not None else fmpq(41, 89)) if middle is None else middle
-    with ctx.workdps(DIGITS), suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
+    with ctx.workdps(DIGITS), suppress(*_NOT_EVALUATED):
         return _residual_is_large(question, value, base + arb(_STEP))
     return False
+
+
+def _is_wrong_in_pieces(question: Question, value: Expr) -> bool:
+    """Is the residual seen not to be zero on a piece of the line, or do y and y' have wrong jumps?"""
+    x = question.x
+    whole = [value, *(question.own(part) for part in _coefficients(question))]
+    symbols = {s for e in whole for s in e.free_symbols if s != x}
+    sample = next(islice(samples(symbols), 1, None))
+    y, a, b, c, f = (_concrete(e.xreplace(sample), x) for e in whole)
+    real = [point for e in (y, f) for point in break_points(e, x) if point.is_number and point.is_real]
+    breaks = sorted(dict.fromkeys(real), key=lambda point: float(point.evalf()))
+    points = _between(breaks)
+    pieces = [on_piece(_antiderivatives(y, x), x, point) for point in points]
+    with ctx.workdps(DIGITS), suppress(*_NOT_EVALUATED):
+        for point, piece in zip(points, pieces, strict=True):
+            at = acb(fmpq(int(point.p), int(point.q)))
+            coefficients = [jet(on_piece(part, x, point), x, at)[0] for part in (a, b, c, f)]
+            if _is_large(coefficients, jet(piece, x, at)):
+                return True
+        for k, point in enumerate(breaks):
+            here = _antiderivatives(y, x, point)
+            left, right = (on_piece(here, x, side) for side in points[k : k + 2])
+            if _has_wrong_jump(left, right, (b / a, f / a), x, point):
+                return True
+    return False
+
+
+def _between(breaks: Sequence[Expr]) -> list[Expr]:
+    """A rational point between each two breaks, and one beyond them on either side."""
+    if not breaks:
+        return [sympy.Rational(41, 89)]
+    values = [sympy.Rational(str(point.evalf(12))) for point in breaks]
+    inner = [(3 * left + 2 * right) / 5 for left, right in pairwise(values)]
+    return [values[0] - sympy.Rational(41, 89), *inner, values[-1] + sympy.Rational(23, 71)]
+
+
+def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
+    """With antiderivatives for integrals up to x, up to constants; for those from `start` on, their first terms there."""
+
+    def other(e: Expr) -> Expr:
+        s, first, _ = e.limits[0]
+        if first == start:
+            return e.function.subs(s, start) * (x - start)
+        return sympy.Integral(e.function.subs(s, x), x)
+
+    is_up_to_x = lambda e: isinstance(e, sympy.Integral) and len(e.limits[0]) == 3 and e.limits[0][-1] == x  # noqa: E731
+    return value.replace(is_up_to_x, other)
+
+
+def _concrete(e: Expr, x: Expr) -> Expr:
+    """With an exponential function for each function of x that is given by its name."""
+    functions = sorted({f.func for f in e.atoms(AppliedUndef) if f.has(x)}, key=str)
+    for k, function in enumerate(functions):
+        e = e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
+    return e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit()) if functions else e
+
+
+def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, point: Expr) -> bool:
+    """Do y and y' jump by anything else than the impulses say?  False where these are of higher order."""
+    B, F = rates
+    apart = taken_apart(in_steps(F, x), x)
+    if apart is None or any(impulse.order > 1 for impulse in apart.impulses):
+        return False
+    at = ball(point)
+    here = [impulse for impulse in apart.impulses if impulse.a == point]
+    strengths = [sympy.Add(*(impulse.strength for impulse in here if impulse.order == n)) for n in (0, 1)]
+    before, after = jet(left, x, at), jet(right, x, at)
+    zero, first = (jet(strength, x, at)[0] for strength in strengths)
+    if here:
+        zero -= jet(B, x, at)[0] * first
+    wanted = (first, zero)
+    scale = abs(before[0]) + abs(before[1]) + abs(after[0]) + abs(after[1]) + 1
+    return any(bool(abs(after[n] - before[n] - wanted[n]) > _SMALL * scale) for n in (0, 1))
 
 
 def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
@@ -94,25 +174,33 @@ def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
         symbols = {s for e in (value, *parts) for s in e.free_symbols if s != x}
         y = _sampled(value, symbols, 1)
         a, b, c, f = (jet(_sampled(part, symbols, 1), x, point)[0] for part in parts)
-    own, slope, second = jet(y, x, point)
+    return _is_large((a, b, c, f), jet(y, x, point))
+
+
+def _is_large(coefficients: Sequence[Any], values: Sequence[Any]) -> bool:
+    """Is a y'' + b y' + c y - f not zero, for the values of y, y' and y''?"""
+    a, b, c, f = coefficients
+    own, slope, second = values
     terms = [a * second, b * slope, c * own, -f]
     return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
 
 
 def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
     """a, b, c and the right-hand side, in the variable of the question."""
-    equation = question.equation
+    equation = question.given
     t = sympy.Symbol(equation.variable)
     atoms = Atoms(t)
     plain = {sympy.Symbol("pi"): sympy.pi, sympy.Symbol("e"): sympy.E}
     a, b, c = (atoms.ratio(part).xreplace(plain) for part in (equation.a, equation.b, equation.c))
-    f = (atoms.sum(equation.f) + (equation.h or 0)).xreplace(plain)
+    f = atoms.sum(equation.f).xreplace(plain)
+    h = sympy.sympify(equation.h or 0).xreplace(plain)
     if equation.change is None:
-        return a, b, c, f
+        return a, b, c, f + h
     value = function_of_x(equation)
     slope = value.diff(question.x)
     a, b, c, f = (part.subs(t, value) for part in (a, b, c, f))
-    return a / slope**2, b / slope - a * slope.diff(question.x) / slope**3, c, f
+    a, b = a / slope**2, b / slope - a * slope.diff(question.x) / slope**3
+    return a, b, c, f + a * h
 
 
 def _is_violated(question: Question, value: Expr, condition: Condition) -> bool:
@@ -124,6 +212,10 @@ def _is_violated(question: Question, value: Expr, condition: Condition) -> bool:
             total += term.coefficient * value_at(value, question.x, term.point, term.order)
     except NotImplementedError:
         return False
+    integrals = sorted(
+        (e for e in total.atoms(sympy.Integral) if e.limits[0][1:]), key=str
+    )  # numbers that aren't known
+    total = total.xreplace({e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(integrals)})
     difference = _sampled(total, total.free_symbols, 1)
     with ctx.workdps(2 * DIGITS):
         found = ball(difference)

@@ -6,12 +6,18 @@ y'' + b y' + c y = 0 with K = 0 and K' = 1 at x = a, a solution for
     g(x) delta(x - a)  is  H(x - a) g(a) K(x, a),                                                                    (1)
     g(x) H(x - a)      is  H(x - a) (p(x) - p(a) K1(x) - p'(a) K(x, a)),                                             (2)
 
-where p is any solution for g, and K1 that of the homogeneous equation with K1 = 1, K1' = 0 at x = a.
+where p is any solution for g, and K1 that of the homogeneous equation with K1 = 1, K1' = 0 at x = a.  For impulses of higher
+order y = H u + sum of d_j delta^(j), with all of these at a, and
+
+    y'' + b y' + c y = u(a) delta' + (u'(a) + b(a) u(a)) delta + sum of d_j (delta^(j+2) + b delta^(j+1) + c delta^(j)),     (3)
+
+where b delta^(n) is the sum of (-1)^k C(n, k) b^(k)(a) delta^(n-k).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from math import comb
 from typing import Any
 
 import sympy
@@ -26,6 +32,7 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, prepared, ratfunc
 from kovacic.general_solution.constants import tidy
+from kovacic.general_solution.steps import Apart, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis
@@ -39,14 +46,33 @@ _LARGEST_SUM = 30
 
 def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Expr:
     """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`."""
-    equation = basis.equation
-    x = sympy.Symbol(equation.variable)
-    right = (Atoms(x).sum(equation.f) + (equation.h or 0)).xreplace(NUMBERS)
+    right = _right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
-    if equation.change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
-        right = sympy.factor(right / Atoms(x).ratio(equation.a).xreplace(NUMBERS) * slope_squared(equation))
-        return basis.with_integrals(in_x(equation, right), start)
+    solved = basis.with_integrals if basis.equation.change is not None else _solver(basis)
+    if right.has(DiracDelta, Heaviside):
+        apart = taken_apart(right, basis.x)
+        found = None if apart is None else _response(apart, basis, start, solved)
+        if found is not None:
+            return found
+    return solved(right, start)
+
+
+def _right_hand_side(equation: Equation) -> Expr:
+    """F of y'' + B y' + C y = F, in the user's variable."""
+    t = sympy.Symbol(equation.variable)
+    a = Atoms(t).ratio(equation.a).xreplace(NUMBERS)
+    f = Atoms(t).sum(equation.f).xreplace(NUMBERS)
+    h = sympy.sympify(equation.h or 0).xreplace(NUMBERS)
+    if equation.change is None:
+        return (f + h) / a
+    rational = sympy.factor(f / a * slope_squared(equation)) if f != 0 else sympy.Integer(0)
+    return in_x(equation, rational) + h
+
+
+def _solver(basis: Basis) -> Callable[[Expr, Expr | None], Expr]:
+    """A solution for a right-hand side without jumps, by the cheapest way, and integrals from a point on where they stay."""
+    equation, x = basis.equation, basis.x
 
     def at_once(right: Expr) -> Expr:
         f, field = ratfunc(right, x), equation.a.field
@@ -72,12 +98,7 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
         integrals = basis.with_integrals(rest, start) if rest != 0 else 0
         return sympy.Add(integrals, *known.values())
 
-    right = right / Atoms(x).ratio(equation.a).xreplace(NUMBERS)
-    if right.has(sympy.DiracDelta, sympy.Heaviside):
-        found = _response(right, basis, start, solved)
-        if found is not None:
-            return found
-    return solved(right, start)
+    return solved
 
 
 def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
@@ -124,63 +145,62 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
 
 
 def _response(
-    right: Expr, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]
+    right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]
 ) -> Expr | None:
-    """A solution for a right-hand side with steps and impulses at constant points, None for one of another form.
+    """A solution for a right-hand side with jumps and impulses; None where these are at a singular point.
 
     `solved` gives a solution for a right-hand side without them, with integrals from a point on.
     """
-    right, x = sympy.expand(right), basis.x
-    plain, total = [], sympy.Integer(0)
-    for term in sympy.Add.make_args(_separated(right, x)):
-        jumps = [f for f in sympy.Mul.make_args(term) if f.func in (DiracDelta, Heaviside) and f.has(x)]
-        if not jumps:
-            plain.append(term)
-            continue
-        g = term / jumps[0]
-        place = place_of(jumps[0], x)
-        if len(jumps) != 1 or place is None or g.has(DiracDelta, Heaviside):
-            return None
-        a, slope = place
-        wronskian = tidy(basis.wronskian.subs(x, a))
-        if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
-            return None
-        impulse = jumps[0].func is DiracDelta
-        p = sympy.Integer(0) if impulse else solved(g, a)
-        value, rate = (0, -g.subs(x, a) / abs(slope)) if impulse else values_at(p, x, a)
-        (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
-        first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
-        total += Heaviside(x - a) * sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
-    rest = sympy.Add(*plain)
-    return total + (solved(rest, start) if rest != 0 else 0)
-
-
-def place_of(jump: Expr, x: Expr) -> tuple[Expr, Expr] | None:
-    """(a, s) for a step or an impulse of s (x - a) with numbers s and a; s > 0 for a step."""
-    inner = jump.args[0]
-    slope = inner.diff(x)
-    if slope.has(x) or not slope.is_real or (jump.func is DiracDelta and len(jump.args) > 1 and jump.args[1] != 0):
+    x = basis.x
+    total = []
+    try:
+        for step in right.steps:
+            p = solved(step.g, step.a)
+            total.append(Heaviside(x - step.a) * _from_rest(p, basis, values_at(p, x, step.a), step.a))
+        for a in dict.fromkeys(impulse.a for impulse in right.impulses):
+            strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
+            for impulse in right.impulses:
+                if impulse.a == a:
+                    strengths[impulse.order] += impulse.strength
+            total.append(_impulse_response(strengths, basis, a))
+    except _SingularError:
         return None
-    return sympy.expand(x - inner / slope), slope
+    rest = solved(right.plain, start) if right.plain != 0 else sympy.Integer(0)
+    return sympy.Add(rest, *total)
 
 
-def _separated(right: Expr, x: Expr) -> Expr:
-    """With H(a - x) as 1 - H(x - a), and products of steps at different numbers as single ones."""
+class _SingularError(Exception):
+    """A jump is at a singular point of the equation."""
 
-    def upward(step: Expr) -> Expr:
-        slope = step.args[0].diff(x)
-        if slope.has(x) or slope == 0 or not slope.is_real:
-            return step
-        at = Heaviside(x - sympy.expand(x - step.args[0] / slope))
-        return at if slope.is_positive else 1 - at
 
-    right = sympy.expand(right.xreplace({step: upward(step) for step in right.atoms(Heaviside)}))
+def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Expr:
+    """p - u for the solution u of the homogeneous equation with u(a), u'(a) = `values`: p(a) and p'(a), for a step."""
+    x = basis.x
+    value, rate = values
+    wronskian = tidy(basis.wronskian.subs(x, a))
+    if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
+        raise _SingularError
+    (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
+    first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
+    return sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
 
-    def last(product: Expr) -> Expr:
-        steps = [f.base if f.is_Pow else f for f in product.args if (f.base if f.is_Pow else f).func is Heaviside]
-        if not steps or (len(steps) == 1 and steps[0] in product.args) or any(s.free_symbols != {x} for s in steps):
-            return product
-        late = max(steps, key=lambda step: (x - step.args[0]).evalf())
-        return sympy.Mul(*(f for f in product.args if (f.base if f.is_Pow else f).func is not Heaviside), late)
 
-    return sympy.Add(*(last(term) if term.is_Mul else term for term in sympy.Add.make_args(right)))
+def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> Expr:
+    """A solution for sum of r_n delta^(n)(x - a): H(x - a) u + sum of d_j delta^(j)(x - a), by (3) from the highest n down."""
+    x = basis.x
+    rest = dict(strengths)
+    B, C = basis.rates
+    singular = sympy.Integer(0)
+    for order in range(max(rest), 1, -1):
+        d, j = rest.pop(order, sympy.Integer(0)), order - 2
+        singular += d * DiracDelta(x - a, j)
+        for rate, n in ((B, j + 1), (C, j)):
+            for k in range(n + 1):
+                rest[n - k] = rest.get(n - k, sympy.Integer(0)) - d * (-1) ** k * comb(n, k) * rate.diff(x, k).subs(
+                    x, a
+                )
+    value = rest.get(1, sympy.Integer(0))
+    slope = rest.get(0, sympy.Integer(0)) - B.subs(x, a) * value
+    if any(part.has(sympy.nan, sympy.zoo, sympy.oo) for part in (value, slope, singular)):
+        raise _SingularError
+    return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, (-tidy(value), -tidy(slope)), a) + singular

@@ -17,9 +17,9 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
 from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.expansion import UnknownBehaviour
-from kovacic.general_solution.particular import place_of
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import negative_arguments, real_basis, real_particular
+from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.general_solution.zero import is_zero
@@ -62,7 +62,7 @@ def given_points(question: Question) -> list[Expr]:
 def jump_points(question: Question) -> list[Expr]:
     """The places of steps and impulses on the right-hand side."""
     h = question.equation.h
-    if h is None or question.equation.change is not None:
+    if h is None:
         return []
     places = [place_of(jump, question.x) for jump in sorted(h.atoms(sympy.Heaviside, sympy.DiracDelta), key=str)]
     return [*dict.fromkeys(place[0] for place in places if place is not None)]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from kovacic.equation import EULER, PI, Equation, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, exact
+from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.parser import listed
@@ -31,11 +32,13 @@ Expr = Any  # SymPy publishes no types
 class Question:
     """`function` is y(x) with the user's symbol for x, `symbols` are the user's own by name, and letters for constants.
 
+    `given` is the equation as it was read; in `equation` a right-hand side with jumps is a sum of steps and impulses.
     `meanings` say what letters stand for, sqrt_k for sqrt(k), in the user's symbols.  `renamed` are other symbols for those
     with the names of numbers.  `has_floats`: floats were given, as coefficients or as values.
     """
 
     equation: Equation
+    given: Equation
     function: Expr
     conditions: tuple[Condition, ...]
     symbols: Mapping[str, Expr]
@@ -92,7 +95,8 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
         symbols[name] = _letter(name, whole)
         meanings[symbols[name]] = whole
     return Question(
-        equation=read.equation,
+        equation=_with_steps(read.equation, sympy.Symbol(read.function.args[0].name)),
+        given=read.equation,
         function=read.function,
         conditions=conditions,
         symbols=symbols,
@@ -155,6 +159,13 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read
     return _Read(
         equation, applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable)), parsed.letters
     )
+
+
+def _with_steps(equation: Equation, x: Expr) -> Equation:
+    """With steps and impulses in the place of other functions that jump, or have corners."""
+    if equation.h is None or not equation.h.has(*JUMPING):
+        return equation
+    return replace(equation, h=in_steps(equation.h, x))
 
 
 def _only_function(eq: Expr) -> Expr:

@@ -25,6 +25,7 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
+from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import finite_value, size
 from kovacic.reading.change_of_variable import function_of_x, in_x
 
@@ -86,6 +87,16 @@ class Basis:
                         return W
                     break
         return self._by_definition
+
+    @cached_property
+    def rates(self) -> tuple[Expr, Expr]:
+        """B and C of y'' + B y' + C y = 0 in x: t' b/a - t''/t' and t'^2 c/a, where the equation is one in t = t(x)."""
+        b, c = rates(self.equation, sympy.Symbol(self.equation.variable))
+        if self.equation.change is None:
+            return b, c
+        slope = function_of_x(self.equation).diff(self.x)
+        b, c = in_x(self.equation, b), in_x(self.equation, c)
+        return b * slope - slope.diff(self.x) / slope, c * slope**2
 
     @property
     def _changed(self) -> Expr | None:
@@ -237,9 +248,9 @@ def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
 def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
     """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
     b, c = coefficients
-    given = y.atoms(AppliedUndef) | right.atoms(AppliedUndef)
+    given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
     if given:  # the formula holds for any function: it is tried with one
-        sample = {f: sympy.exp(f.args[0] / 3) for f in given}
+        sample = {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in enumerate(sorted(given, key=str)) if f.has(x)}
         y, right = y.xreplace(sample), right.xreplace(sample)
     with ctx.workdps(DIGITS + 15):
         for point in _points():

@@ -13,6 +13,7 @@ from typing import Any
 import sympy
 
 from kovacic.equation import Equation
+from kovacic.errors import NotRational
 from kovacic.reading.symbolic import read_expression
 
 #: (dt/du)^2 for functions t of u = k x + c, in t.
@@ -48,7 +49,13 @@ def slope_squared(equation: Equation) -> Any:
 
 
 def without_change(given: Any) -> Any:
-    """The equation in t alone, of a read input; or the same answer about it."""
+    """The equation in t alone, of a read input; or the same answer about it.
+
+    Raises `NotRational` for a right-hand side that isn't rational in t.
+    """
+    if given.equation.h is not None:
+        said = f"a right-hand side that isn't rational in {given.equation.change.expression}, as the coefficients are"
+        raise NotRational(said, hint="dsolve takes any right-hand side")
     plain = replace(given.equation, change=None)
     return replace(given, equation=plain) if hasattr(given, "decision") else plain
 

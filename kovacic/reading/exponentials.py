@@ -20,6 +20,7 @@ from math import gcd
 from typing import Any
 
 import sympy
+from sympy.core.function import AppliedUndef
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
@@ -32,36 +33,33 @@ from kovacic.numerals import as_text
 from kovacic.reading.parts import parts_of, source_of_parts
 from kovacic.reading.source import Source, read_source, source_of
 
-_RIGHT = "put 0 there: two solutions give one with any right-hand side, by variation of parameters"
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
 def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None for any other input.
 
-    Raises `NotRational` where x occurs beside exp(k x), for rates whose quotient isn't rational, and for a right-hand side that
-    isn't rational in exp(k x).
+    What isn't rational in exp(k x) on the right-hand side is kept as the equation's h.  Raises `NotRational` where x occurs
+    beside exp(k x), and for rates whose quotient isn't rational.
     """
     x = sympy.Symbol(source.variable)
     parts, notices = parts_of(source, limits)
     rewritten = [_in_exponentials(part, x) for part in parts]
     if all(part.is_rational_function(x) for part in rewritten[:3]):
-        with suppress(NotRational):
-            return read_source(
-                source_of_parts(rewritten, source), limits
-            )  # everything else cancels, or has the factor 0
-    exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
-    if not exponentials:
+        with suppress(NotRational):  # everything else cancels, or has the factor 0
+            return read_source(source_of_parts(rewritten, source), limits)
+    exponentials = [{e for e in part.atoms(sympy.exp) if e.has(x)} for part in rewritten]
+    if not any(exponentials[:3]):
         return None
     T = sympy.Dummy("T")
-    k, offset, powers = _powers(exponentials, x, T)
-    a, b, c, rest = (part.xreplace(powers) for part in rewritten)
+    try:
+        k, offset, powers = _powers(set().union(*exponentials), x, T)
+    except NotRational:
+        k, offset, powers = _powers(set().union(*exponentials[:3]), x, T)
+    a, b, c = (part.xreplace(powers) for part in rewritten[:3])
     if any(part.has(x) for part in (a, b, c)):
         raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
-    if not rest.is_rational_function(T) or rest.has(x):
-        raise NotRational(
-            f"a right-hand side that isn't rational in exp({k * x}), as the coefficients are", hint=_RIGHT
-        )
+    rest, h = _rational_part(parts[3], x, powers)
     unknown = source.unknown or UNKNOWN
     names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
@@ -73,8 +71,21 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     (p, q, f), expression = _best(read.equation, k, x + offset)
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     p, q, f = p * denominator, q * denominator, f * denominator
-    result = Equation(denominator, p, q, f, None, t.name, unknown, Change(x.name, expression))
+    result = Equation(denominator, p, q, f, h and h / parts[0], t.name, unknown, Change(x.name, expression))
     return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
+
+
+def _rational_part(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
+    """The terms that are rational in T = exp(k x), in T, and the others on the other side, in x; None if there are none."""
+    rational, others = [sympy.Integer(0)], []
+    for term in sympy.Add.make_args(sympy.expand(rest)):
+        rewritten = _in_exponentials(term, x).xreplace(powers)
+        free = rewritten.free_symbols | rewritten.atoms(AppliedUndef)
+        if rewritten.is_rational_function(*free) and not rewritten.has(x):
+            rational.append(rewritten)
+        else:
+            others.append(-term)
+    return sympy.Add(*rational), sympy.Add(*others) if others else None
 
 
 def _in_exponentials(expression: Any, x: Any) -> Any:

@@ -45,7 +45,7 @@ def read_input(
     variable = _variable_name(var)
     if isinstance(S, str) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation)
-        return _read(S, source, limits, exponentials=exponentials)
+        return _with_note(_read(S, source, limits, exponentials=exponentials))
     if is_rational(S):
         return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
     if isinstance(S, RatFunc):
@@ -95,6 +95,20 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
         if found is None:
             raise reason from None
         return found
+
+
+def _with_note(parsed: Parsed) -> Parsed:
+    """Where a function is given by its name on the right-hand side, what of the equation is meant."""
+    if parsed.equation is None or parsed.equation.h is None:
+        return parsed
+    from kovacic.reading.symbolic import functions_in
+
+    names = ", ".join(sorted(map(str, functions_in(parsed.equation.h))))
+    if not names:
+        return parsed
+    y = parsed.equation.unknown
+    said = f"{names} on the right-hand side is any function: what is said of {y} holds for the equation with 0 there"
+    return replace(parsed, notices=(*parsed.notices, f"{said}; dsolve has solutions with it"))
 
 
 def _divided(given: Any, source: Source, limits: Limits) -> Parsed | None:

@@ -1,0 +1,313 @@
+"""Right-hand sides with jumps and impulses at constant points: as sums of g(x) H(x - a) and g(x) delta^(n)(x - a).
+
+|u| = u sign(u), sign(u) = 2 H(u) - 1, max(u, v) = v + (u - v) H(u - v); a function given by cases is the sum of its cases times
+their indicators; H(u)^n = H(u).  For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.  What holds
+at single points doesn't matter.  x is real.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import comb
+from typing import Any
+
+import sympy
+from sympy import DiracDelta, Heaviside
+from sympy.logic.boolalg import And, Or
+
+Expr = Any  # SymPy publishes no types
+#: The functions that jump, or whose slopes do.
+JUMPING = (sympy.Piecewise, sympy.Max, sympy.Min, sympy.Abs, sympy.sign, Heaviside, DiracDelta)
+#: The largest degree of a polynomial whose sign is asked for, and number of terms that are treated.
+_LARGEST_DEGREE, _MOST_TERMS = 8, 200
+
+
+@dataclass(frozen=True)
+class Step:
+    """g(x) H(x - a)."""
+
+    a: Expr
+    g: Expr
+
+
+@dataclass(frozen=True)
+class Impulse:
+    """strength * delta^(order)(x - a), with a constant strength."""
+
+    a: Expr
+    order: int
+    strength: Expr
+
+
+@dataclass(frozen=True)
+class Apart:
+    """A right-hand side as the sum of `plain`, which has no jumps, of steps and of impulses."""
+
+    plain: Expr
+    steps: tuple[Step, ...]
+    impulses: tuple[Impulse, ...]
+
+
+def in_steps(right: Expr, x: Expr) -> Expr:
+    """The same with Heaviside(x - a) and DiracDelta(x - a, n) alone, where that is possible; what isn't possible stays.
+
+    >>> x = sympy.Symbol("x")
+    >>> in_steps(abs(x - 1), x)
+    2*x*Heaviside(x - 1) - x - 2*Heaviside(x - 1) + 1
+    """
+    found = right
+    for _ in range(sum(1 for _ in sympy.preorder_traversal(right))):
+        jumping = [e for e in found.atoms(*JUMPING) if e.has(x) and not _is_simple(e, x)]
+        inner = [e for e in jumping if not any(other != e and e.has(other) for other in jumping)]
+        changed = {e: other for e in inner if (other := _rewritten(e, x)) is not None and other != e}
+        if not changed:
+            break
+        found = found.xreplace(changed)
+    if not found.has(*JUMPING):
+        return found
+    return sympy.expand(found).replace(_is_power_of_step, lambda power: power.base)
+
+
+def place_of(jump: Expr, x: Expr) -> tuple[Expr, Expr] | None:
+    """(a, s) for a step or an impulse of s (x - a) with constants s and a, s real; None for another."""
+    inner = jump.args[0]
+    slope = inner.diff(x)
+    if slope.has(x) or not slope.is_real or slope.is_zero is not False:
+        return None
+    return sympy.expand(x - inner / slope), slope
+
+
+def taken_apart(right: Expr, x: Expr) -> Apart | None:
+    """The parts of a right-hand side; None where a jump isn't at a constant, or products of jumps aren't known."""
+    terms = sympy.Add.make_args(sympy.expand(right))
+    if len(terms) > _MOST_TERMS:
+        return None
+    plain, impulses = [], []
+    steps: dict[Expr, Expr] = {}
+    for term in terms:
+        term = term.replace(_is_power_of_step, lambda power: power.base)
+        jumps = [f for f in sympy.Mul.make_args(term) if f.has(*JUMPING) and f.has(x)]
+        if not jumps:
+            plain.append(term)
+            continue
+        places = [place_of(f, x) if isinstance(f, Heaviside | DiracDelta) else None for f in jumps]
+        if None in places:
+            return None
+        g = term / sympy.Mul(*jumps)
+        deltas = [f for f in jumps if isinstance(f, DiracDelta)]
+        a = _last([place[0] for place in places if place is not None])
+        if len(deltas) > 1 or a is None:
+            return None
+        if not deltas:
+            steps[a] = steps.get(a, sympy.Integer(0)) + g
+            continue
+        place = place_of(deltas[0], x)
+        assert place is not None
+        if len(jumps) > 1:
+            is_on = _are_on([f for f in jumps if f is not deltas[0]], x, place[0])
+            if is_on is None:
+                return None
+            g = g if is_on else sympy.Integer(0)
+        impulses += _impulses(g, deltas[0], place, x)
+    found = tuple(Step(a, g) for a, g in steps.items() if g != 0)
+    return Apart(sympy.Add(*plain), found, tuple(impulses))
+
+
+def _impulses(g: Expr, delta: Expr, place: tuple[Expr, Expr], x: Expr) -> list[Impulse]:
+    """g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n)."""
+    a, slope = place
+    n = int(delta.args[1]) if len(delta.args) > 1 else 0
+    scale = abs(slope) * slope**n
+    strengths = [(-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / scale for k in range(n + 1)]
+    return [Impulse(a, n - k, strength) for k, strength in enumerate(strengths) if strength != 0]
+
+
+def _last(places: Sequence[Expr]) -> Expr | None:
+    """The largest of some real numbers, None where that isn't known: where the last of the steps is."""
+    for place in places:
+        if all((place - other).is_nonnegative for other in places):
+            return place
+    return None
+
+
+def _are_on(steps: Sequence[Expr], x: Expr, a: Expr) -> bool | None:
+    """Are all H(x - b) 1 at a; None where that isn't known, or a is such a b."""
+    distances = [step.args[0].subs(x, a) for step in steps]
+    if any(distance.is_negative for distance in distances):
+        return False
+    return True if all(distance.is_positive for distance in distances) else None
+
+
+# ---------------------------------------------------------------------------------------------------------- rewriting
+
+
+def _is_simple(e: Expr, x: Expr) -> bool:
+    """Is it H(x - a) or delta^(n)(x - a)?"""
+    if isinstance(e, DiracDelta):
+        return True
+    return isinstance(e, Heaviside) and e.args[0].diff(x) == 1
+
+
+def _is_power_of_step(e: Expr) -> bool:
+    return bool(e.is_Pow and isinstance(e.base, Heaviside) and e.exp.is_positive)
+
+
+def _rewritten(e: Expr, x: Expr) -> Expr | None:
+    """One function that jumps in terms of steps; None where its zeros aren't known."""
+    if isinstance(e, sympy.Piecewise):
+        return _cases(e, x)
+    if isinstance(e, sympy.Max | sympy.Min):
+        return _extremum(e, x)
+    on = above(e.args[0], x)
+    if on is None:
+        return None
+    if isinstance(e, Heaviside):
+        return on
+    sign = 2 * on - 1
+    return sign if isinstance(e, sympy.sign) else e.args[0] * sign
+
+
+def _extremum(e: Expr, x: Expr) -> Expr | None:
+    """The largest or the smallest, of two after the other."""
+    first, *others = e.args
+    for other in others:
+        difference = first - other if isinstance(e, sympy.Max) else other - first
+        on = above(difference, x)
+        if on is None:
+            return None
+        first = other + (first - other) * on
+    return first
+
+
+def _cases(e: Expr, x: Expr) -> Expr | None:
+    """The sum of the cases times the indicators of their conditions, without those before."""
+    total, rest = sympy.Integer(0), sympy.Integer(1)
+    for value, condition in e.args:
+        on = _indicator(condition, x)
+        if on is None:
+            return None
+        total += value * on * rest
+        rest *= 1 - on
+    return total
+
+
+def _indicator(condition: Expr, x: Expr) -> Expr | None:
+    """1 where a condition holds, and 0 where it doesn't, but for single points."""
+    if condition in (True, False):
+        return sympy.Integer(1 if condition else 0)
+    if isinstance(condition, And | Or):
+        parts: list[Any] = [_indicator(part, x) for part in condition.args]
+        if None in parts:
+            return None
+        if isinstance(condition, And):
+            return sympy.Mul(*parts)
+        return 1 - sympy.Mul(*(1 - part for part in parts))
+    if isinstance(condition, sympy.Eq | sympy.Ne) and condition.has(x):
+        return sympy.Integer(1 if isinstance(condition, sympy.Ne) else 0)
+    if isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
+        return above(condition.lhs - condition.rhs, x)
+    if isinstance(condition, sympy.StrictLessThan | sympy.LessThan):
+        return above(condition.rhs - condition.lhs, x)
+    return None
+
+
+def above(u: Expr, x: Expr) -> Expr | None:
+    """1 where u > 0 and 0 where u < 0; None where the zeros of u aren't known.
+
+    >>> x = sympy.Symbol("x")
+    >>> above(4 - x**2, x)
+    -Heaviside(x - 2) + Heaviside(x + 2)
+    """
+    u = sympy.expand(u)
+    steps = sorted((f for f in u.atoms(Heaviside) if f.has(x)), key=str)
+    if steps:
+        return _above_in_pieces(u, steps, x)
+    slope = u.diff(x)
+    if not slope.has(x) and (slope.is_positive or slope.is_negative):
+        on = Heaviside(x - sympy.expand(x - u / slope))
+        return on if slope.is_positive else 1 - on
+    if not u.is_polynomial(x) or u.free_symbols != {x}:
+        return None
+    polynomial = sympy.Poly(u, x)
+    is_rational = polynomial.domain.is_QQ or polynomial.domain.is_ZZ
+    if not is_rational or polynomial.degree() > _LARGEST_DEGREE:
+        return None
+    roots = sympy.real_roots(polynomial, multiple=True)
+    changes = [root for root in dict.fromkeys(roots) if roots.count(root) % 2]
+    is_positive = polynomial.LC() * (-1) ** polynomial.degree() > 0  # far to the left
+    total = sympy.Integer(1 if is_positive else 0)
+    for root in changes:
+        total += Heaviside(x - root) * (-1 if is_positive else 1)
+        is_positive = not is_positive
+    return total
+
+
+def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
+    """For u with steps at numbers: on each piece in turn."""
+    places = [place_of(step, x) for step in steps]
+    if any(place is None or not place[0].is_number for place in places):
+        return None
+    breaks = sorted({place[0] for place in places if place is not None}, key=lambda point: float(point.evalf()))
+    total = sympy.Integer(0)
+    for k in range(len(breaks) + 1):
+        begins = Heaviside(x - breaks[k - 1]) if k else sympy.Integer(1)
+        ends = Heaviside(x - breaks[k]) if k < len(breaks) else sympy.Integer(0)
+        values = {
+            step: sympy.Integer(1 if breaks.index(place[0]) < k else 0)
+            for step, place in zip(steps, places, strict=True)
+            if place
+        }
+        on = above(u.xreplace(values), x)
+        if on is None:
+            return None
+        total += (begins - ends) * on
+    return _reduced(total, x)
+
+
+def _reduced(total: Expr, x: Expr) -> Expr:
+    """With single steps in the place of products of steps at numbers."""
+    apart = taken_apart(total, x)
+    assert apart is not None
+    return sympy.Add(apart.plain, *(step.g * Heaviside(x - step.a) for step in apart.steps))
+
+
+# ------------------------------------------------------------------------------------------------------------ one piece
+
+
+def break_points(expression: Expr, x: Expr) -> list[Expr]:
+    """The points where functions of an expression jump, as far as they are known."""
+    found = []
+    for e in expression.atoms(*JUMPING):
+        inner = [e.args[0]] if not isinstance(e, sympy.Piecewise | sympy.Max | sympy.Min) else _borders(e)
+        for u in inner:
+            on = above(u, x) if u.has(x) else None
+            if on is not None:
+                found += [x - step.args[0] for step in on.atoms(Heaviside)]
+    return [*dict.fromkeys(map(sympy.expand, found))]
+
+
+def _borders(e: Expr) -> list[Expr]:
+    """Expressions whose zeros separate the cases."""
+    if isinstance(e, sympy.Max | sympy.Min):
+        return [first - other for k, first in enumerate(e.args) for other in e.args[:k]]
+    relations = set().union(*(condition.atoms(sympy.core.relational.Relational) for _, condition in e.args))
+    return [relation.lhs - relation.rhs for relation in relations]
+
+
+def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
+    """What an expression is near a rational point that is no break: without functions that jump there."""
+
+    def branch(e: Expr) -> Expr:
+        if isinstance(e, sympy.Piecewise):
+            return next(value for value, condition in e.args if condition.subs(x, point) == True)  # noqa: E712
+        if isinstance(e, sympy.Max | sympy.Min):
+            best = e.subs(x, point)
+            return next(argument for argument in e.args if argument.subs(x, point) == best)
+        if isinstance(e, DiracDelta):
+            return sympy.Integer(0)
+        sign = sympy.sign(e.args[0].subs(x, point))
+        values = {Heaviside: (1 + sign) / 2, sympy.sign: sign, sympy.Abs: sign * e.args[0]}
+        return values[e.func]
+
+    return expression.replace(lambda e: isinstance(e, JUMPING) and e.has(x), branch)

@@ -1,0 +1,100 @@
+"""Right-hand sides with jumps, corners and impulses in whatever form they are written: the answer is built first."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import sympy
+from sympy import DiracDelta, Heaviside, Piecewise
+
+import kovacic
+
+x = sympy.Symbol("x", real=True)
+y = sympy.Function("y")
+
+#: Coefficients b, c of y'' + b y' + c y.
+EQUATIONS = [(0, 1), (3, 2), (2 / x, 1), (1 / x, -4 / x**2), (0, -(x**2) - 3)]
+#: The same step in x = a, as users write it.
+STEPS = [
+    lambda a: Heaviside(x - a),
+    lambda a: Heaviside(2 * x - 2 * a) ** 3,
+    lambda a: 1 - Heaviside(a - x),
+    lambda a: (1 + sympy.sign(x - a)) / 2,
+    lambda a: Piecewise((0, x < a), (1, True)),
+    lambda a: 1 - Piecewise((1, x <= a), (0, x > a)),
+    lambda a: Piecewise((1, sympy.And(x > a, x < 20)), (0, x < 20), (1, True)),
+    lambda a: Heaviside(x - a) * Heaviside(x - a / 2),
+    lambda a: (sympy.Abs(x - a) / (x - a) + 1) / 2,
+    lambda a: sympy.sign((x - a) * (x**2 + 1)) * Heaviside(x - a),
+]
+
+
+def applied(b: Any, c: Any, u: Any) -> Any:
+    return u.diff(x, 2) + b * u.diff(x) + c * u
+
+
+def agree(found: Any, wanted: Any, points: Any) -> None:
+    for point in points:
+        there = found.subs(x, point).evalf(20)
+        assert abs(there - wanted.subs(x, point).evalf(20)) < 1e-12 * (1 + abs(there))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_steps_and_impulses_in_any_form(seed: int) -> None:
+    """y = p + H(x - a) q is the solution for L p + H L q + q(a) delta' + (q'(a) + b(a) q(a)) delta."""
+    b, c = (sympy.sympify(part) for part in EQUATIONS[seed % len(EQUATIONS)])
+    step = STEPS[seed % len(STEPS)]
+    a = sympy.Rational(3 + seed % 4, 2 + seed % 3)
+    p = [x**2, sympy.Integer(1), x][seed % 3]
+    order = (seed // 5) % 3  # 2: continuous, with its slope; 1: the slope jumps; 0: it jumps
+    q = (x - a) ** (2 - order) * (seed % 5 + 1) + x * (x - a) ** 2
+    f = applied(b, c, p) + step(a) * applied(b, c, q)
+    value, slope = q.subs(x, a), q.diff(x).subs(x, a)
+    f += value * DiracDelta(x - a, 1) + (slope + b.subs(x, a) * value) * DiracDelta(x - a)
+    start = sympy.Rational(1, 3)
+    ics = {y(start): p.subs(x, start), y(x).diff(x).subs(x, start): p.diff(x).subs(x, start)}
+    found = kovacic.dsolve(sympy.Eq(applied(b, c, y(x)), f), y(x), ics=ics).rhs
+    agree(found, p, [sympy.Rational(2, 5), sympy.Rational(3, 4)])
+    agree(found, p + q, [a + sympy.Rational(1, 7), a + sympy.Rational(2, 3)])
+
+
+def test_impulses_of_higher_order() -> None:
+    """y = delta + H u has y'' + b y' + c y = delta'' + ..., and u in front of H the values that are put in."""
+    u = 2 * sympy.cos(x - 1) + 5 * sympy.sin(x - 1)
+    f = DiracDelta(x - 1, 2) + DiracDelta(x - 1) + 2 * DiracDelta(x - 1, 1) + 5 * DiracDelta(x - 1)
+    found = kovacic.dsolve(y(x).diff(x, 2) + y(x) - f, ics={y(0): 0, y(x).diff(x).subs(x, 0): 0}).rhs
+    assert found.coeff(DiracDelta(x - 1)) == 1
+    agree((found - DiracDelta(x - 1)).subs(Heaviside(x - 1), 1), u, [sympy.Rational(5, 4), 3])
+
+
+@pytest.mark.parametrize(
+    "f",
+    [
+        sympy.Abs(x**2 - 1),
+        sympy.Max(x, 1, 2 - x),
+        sympy.Min(x**2, 1),
+        sympy.exp(x) * sympy.Abs(x - 1),
+        Piecewise((x, x < 1), (2 - x, x < 2), (0, True)),
+        Piecewise((sympy.sin(x), (x > 0) & (x < sympy.pi)), (0, True)),
+        sympy.Abs(sympy.Abs(x) - 1),
+    ],
+)
+def test_corners(f: Any) -> None:
+    """The equation holds between the corners, and y and y' are continuous: the differences are those of a solution."""
+    found = kovacic.dsolve(y(x).diff(x, 2) + y(x) - f, ics={y(-2): 1, y(x).diff(x).subs(x, -2): 0}).rhs
+    assert not found.has(sympy.Integral)
+    step = sympy.Rational(1, 10**6)
+    for k in range(-15, 26):
+        point = sympy.Rational(k, 8)
+        left, here, right = (found.subs(x, point + j * step).evalf(40) for j in (-1, 0, 1))
+        residual = (left - 2 * here + right) / step**2 + here - f.subs(x, point)
+        assert abs(residual) < 3e-6 or point in (-1, 0, 1, 2)
+        assert abs(left - 2 * here + right) < 1e-10
+
+
+def test_conditions_with_a_symbol_as_the_break() -> None:
+    a = sympy.Symbol("a", positive=True)
+    ics = {y(0): 0, y(x).diff(x).subs(x, 0): 0}
+    found = kovacic.dsolve(y(x).diff(x, 2) + y(x) - Piecewise((0, x < a), (1, True)), ics=ics).rhs
+    agree(found.subs(a, 2), 1 - sympy.cos(x - 2), [sympy.Rational(5, 2), 4])
