@@ -52,6 +52,7 @@ def find_answer(
         verification = verify(parsed.S, decision, budget=budget)
     except LimitExceeded as limit:
         decision = Decision(None, (), undecided=f"while the answer was verified: {limit}")
+        assumed = False
         verification = Verification(())
     verified = bool(verification)
     if not verified and (verification.checks or decision.status is not Status.UNDECIDED):

@@ -53,7 +53,8 @@ def test_a_value_in_coefficients_and_in_exponentials() -> None:
 
 
 @pytest.mark.parametrize(
-    "assume", [{"x": 2}, {"n": "k"}, {"n": "x"}, {"m": 3}, {"n": "prime"}, {"n": ">=a"}, {"n": ">1/0"}, {"n": "1/0"}]
+    "assume",
+    [{"x": 2}, {"n": "n + 1"}, {"n": "x"}, {"m": 3}, {"n": "prime"}, {"n": ">=a"}, {"n": ">1/0"}, {"n": "1/0"}],
 )
 def test_what_is_no_value_of_a_parameter_is_refused(assume: dict[str, object]) -> None:
     for ask in (kovacic.conditions, kovacic.solve):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from fractions import Fraction
+from typing import Any
 
 import pytest
 import sympy
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.lifting import Lifter
+from kovacic.cli.main import run
 from kovacic.decision import Status
 from tests.parametric_cases import BALL
 
@@ -199,3 +201,54 @@ def test_the_conditions_are_part_of_text_and_json() -> None:
     assert "m != 0, n != 0, n - 1 != 0" in "\n".join(render(answer))
     assert json.loads(answer.to_json())["generic_conditions"]["nonzero"] == ["m", "n", "n - 1"]
     assert json.loads(kovacic.solve("x^2 + 3").to_json())["generic_conditions"] is None
+
+
+@pytest.mark.parametrize(
+    ("words", "inside", "outside"),
+    [
+        (">sqrt(2)", ["3/2", "sqrt(3)", 7], ["7/5", 1, "-sqrt(3)", "I"]),
+        ("0<E<20", ["1/2", 19, "sqrt(2)"], [0, 20, -1, "sqrt(401)"]),
+        ("1/3 <= E < sqrt(10)", ["1/3", 3], ["1/4", "16/5"]),
+        (">-sqrt(2), <sqrt(2), !=1", [0, "-7/5", "141/100"], [1, 2, "-3/2"]),
+        ("integer, >sqrt(2)", [2, 3], [1, "5/2"]),
+    ],
+)
+def test_bounds_that_are_no_rational_numbers_and_two_ends(words: str, inside: list[Any], outside: list[Any]) -> None:
+    answer = kovacic.conditions("x^2 - E", var="x", assume={"E": words})
+    for value in inside:
+        assert answer.case_at({"E": value}) == kovacic.decide("x^2 - E", var="x", assume={"E": str(value)}).case
+    for value in outside:
+        with pytest.raises(kovacic.InputError, match="contradicts the assumption"):
+            answer.case_at({"E": value})
+    assert kovacic.parameters.Conditions.from_json(answer.to_json()) == answer
+
+
+def test_a_bound_between_two_squares_excludes_them() -> None:
+    """E + 3 can't vanish above -sqrt(8), and can above -sqrt(10)."""
+    S = "x^2/(E + 3) - E"
+    assert "S isn't defined" not in str(kovacic.conditions(S, var="x", assume={"E": ">-sqrt(8)"}))
+    assert "S isn't defined" in str(kovacic.conditions(S, var="x", assume={"E": ">-sqrt(10)"}))
+    assert "S isn't defined" not in str(kovacic.conditions(S, var="x", assume={"E": "!=-3"}))
+
+
+def test_a_parameter_that_is_a_function_of_others() -> None:
+    answer = kovacic.conditions("a*x^2 - E", var="x", assume={"a": "b^2", "b": "positive"})
+    assert answer.parameters == ("b", "E")
+    assert [str(region.statement) for region in answer.regions] == ["E/b is an odd integer"]
+    for value in ("x^2", "a + 1", "!=sqrt(2)", ">I"):
+        with pytest.raises(kovacic.InputError):
+            kovacic.conditions("a*x^2 - E", var="x", assume={"a": value})
+
+
+@pytest.mark.parametrize(
+    ("S", "assume", "case"),
+    [("x^2 - (2*n+1)", "nonnegative integer", 1), ("n*(n+1)/x^2 - 1", "integer", 1), ("x^2 - n", "odd", 1)],
+)
+def test_an_answer_for_all_values_with_assumptions_says_its_case(S: str, assume: str, case: int) -> None:
+    """omega depends on n, so there is no certificate; but it isn't undecided, and the shell says so by its exit status."""
+    answer = kovacic.solve(S, var="x", assume={"n": assume})
+    assert answer.assumed
+    assert f"case {case} for all values with n {assume}" in str(answer)
+    assert "undecided" not in str(answer).lower()
+    assert kovacic.decide(S, var="x", assume={"n": assume}).case == case
+    assert run(["solve", "--no-solutions", "--assume", f"n={assume}", S]) == 0

@@ -74,11 +74,17 @@ def parse_limits(settings: Sequence[str]) -> Limits:
 
 def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     """What is known about the parameters, each `NAME=WHAT` or an inequality; None without any.  Raises `click.UsageError`."""
+    from kovacic.reading.substitution import relations
+
     found: dict[str, str] = {}
     for setting in settings:
+        both = relations(setting)
+        if both is not None:
+            found[both[0]] = f"{found.get(both[0], '')} {both[1]}".strip()
+            continue
         match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
         if match is None:
-            raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3 or n>=0")
+            raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3, n>=0 or 0<n<20")
         name, relation, what = match[1], match[2], match[3].strip()
         found[name] = f"{found.get(name, '')} {relation if relation != '=' else ''}{what}".strip()
     return found or None
@@ -167,7 +173,7 @@ ASSUME = click.option(
     metavar="NAME=WHAT",
     multiple=True,
     callback=lambda _, __, settings: parse_assumptions(settings),
-    help="What is known about a parameter: n=integer, n>=0, n=3.",
+    help="What is known about a parameter: n=integer, n>=0, 0<n<20, n!=1, n=3, n=m^2.",
 )
 LIMIT = click.option(
     "--limit",
@@ -273,7 +279,8 @@ def answer_each(
         try:
             with waiting("deciding"):
                 answer = solve(text, var=var, assume=assume, limits=limits)
-            outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
+            is_open = answer.status is Status.UNDECIDED and not answer.assumed
+            outcomes.append(UNDECIDED if is_open else DECIDED)
             for line in each_waited_for(show(answer), "writing"):
                 print(between + line, flush=True)
                 between = ""

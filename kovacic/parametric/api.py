@@ -150,8 +150,8 @@ def under_assumptions(
 ) -> tuple[Decision, str, bool]:
     """The decision where the assumptions hold, a sentence that says for which of these values, and is that proven?
 
-    Where the assumptions imply another case, that is the decision if no certificate is asked for.  Else it is undecided, with
-    the case in its reason: omega depends on the value of a parameter, so that no single omega is the answer.
+    Where the assumptions imply another case, that is the decision if no certificate is asked for.  Else there is none, because
+    omega depends on the value of a parameter, so that no single omega is the answer; its reason says the case, which is proven.
     """
     if decision.status is Status.UNDECIDED:
         return decision, "", False
@@ -161,11 +161,18 @@ def under_assumptions(
     if answer.generic.case != decision.case:
         if not certify:
             return Decision(answer.generic.structure, ()), "", True
-        reason = (
-            f"with {known} the equation is in case {answer.generic.case} ({answer.theory}), by an omega that depends on the "
-            "values of the parameters: give values, or use kovacic.conditions and its solve_at"
-        )
-        return Decision(None, (), undecided=reason), "", False
+        return Decision(None, (), undecided=_for_all_of_them(answer)), "", True
+    return decision, f"with {known} the answer holds{_exceptions(answer)} ({answer.theory})", True
+
+
+def _exceptions(answer: ParametricAnswer) -> str:
     exceptions = " or ".join(str(region.statement) for region in answer.regions)
-    exception = f" except where {exceptions}" if exceptions else ""
-    return decision, f"with {known} the answer holds{exception} ({answer.theory})", True
+    return f" except where {exceptions}" if exceptions else ""
+
+
+def _for_all_of_them(answer: ParametricAnswer) -> str:
+    """The case that isn't the generic one, for all values with the assumptions."""
+    return (
+        f"case {answer.generic.case} for all values with {answer.assumptions}{_exceptions(answer)} ({answer.theory}); omega "
+        "depends on the values: give some, or use kovacic.conditions, its theorem and solve_at"
+    )

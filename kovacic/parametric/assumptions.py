@@ -8,16 +8,16 @@ with these properties; None where none follows.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache, reduce
 from itertools import product
 from math import ceil, floor
 from random import Random
 from typing import Any
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from kovacic.algebra.embedding import enclosure
 from kovacic.algebra.function_field import FunctionPoly
@@ -25,6 +25,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
 from kovacic.parametric.functions import Coset, common_divisor, degrees, element, numerator, over_parameters
+from kovacic.reading.read import read_input
 
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 _INTEGERS = Coset(Fraction(0), Fraction(1))
@@ -36,7 +37,15 @@ _COSETS = {
 }
 _INEQUALITIES = {"positive": ">0", "negative": "<0", "nonnegative": ">=0", "nonpositive": "<=0"}
 WORDS = (*_COSETS, "rational", "irrational", "noninteger", "nonzero", *_INEQUALITIES)
-_BOUND = re.compile(r"(>=|<=|>|<)([+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?)")
+_RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
+_BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL})")
+_UNEQUAL = re.compile(rf"!=({_RATIONAL})")
+#: A bound that is no rational number: sqrt(2).
+_ALGEBRAIC = re.compile(r"(>=|<=|>|<)([^\s<>=]*[a-z(][^\s<>=]*)")
+#: Bits of a rational bound beside one that isn't.
+_BITS = 64
+#: Bits of the balls that are compared.
+_PRECISION = 512
 
 
 @dataclass(frozen=True)
@@ -50,6 +59,33 @@ class Bound:
     def admits(self, number: Fraction) -> bool:
         distance = self.sign * (number - self.end)
         return distance > 0 or (distance == 0 and not self.strict)
+
+
+@lru_cache(maxsize=256)
+def _end(text: str) -> Any:
+    """A ball with the real number that a text denotes.  Raises `InputError` for any other text."""
+    number = read_input(text, var="x_").S
+    is_constant = number.num.degree <= 0 and number.den.degree <= 0 and number.field.ground == QQ
+    ball = enclosure(number.num[0] / number.den[0]) if is_constant and number else None
+    if ball is None or not ball.imag.contains(0):
+        raise InputError(f"{text!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
+    return ball.real
+
+
+def _ends(words: Iterable[str]) -> list[tuple[int, Any]]:
+    """The direction of each bound that isn't rational, and a ball with its end."""
+    matches = filter(None, map(_ALGEBRAIC.fullmatch, words))
+    return [(1 if ">" in match[1] else -1, _end(match[2])) for match in matches]
+
+
+def _beyond(sign: int, end: Any) -> Fraction:
+    """A rational number from which on all numbers are admitted that lie on this side of the end."""
+    with ctx.workprec(_PRECISION):
+        steps = (end * 2**_BITS).floor() if sign > 0 else (end * 2**_BITS).ceil()
+        whole = (steps - sign).unique_fmpz()
+    if whole is None:
+        raise InputError("a bound is too large to be compared with")
+    return Fraction(int(whole), 2**_BITS)
 
 
 _NO_BOUND = Bound(1, Fraction(0), False)
@@ -75,16 +111,21 @@ class Known:
     def bounds(self) -> list[Bound]:
         """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
         found: dict[int, Bound] = {}
-        for match in filter(None, (_BOUND.fullmatch(_INEQUALITIES.get(word, word)) for word in self.words)):
-            sign, end, strict, coset = 1 if ">" in match[1] else -1, Fraction(match[2]), "=" not in match[1], self.coset
-            if coset is not None:
-                steps = (end - coset.start) / coset.step
-                nearest = coset.start + (ceil(steps) if sign > 0 else floor(steps)) * coset.step
-                end, strict = nearest + sign * coset.step * (strict and nearest == end), False
-            known = found.get(sign)
-            if known is None or sign * (end - known.end) > 0 or (end == known.end and strict):
-                found[sign] = Bound(sign, end, strict)
+        for bound in self._each_bound():
+            if self.coset is not None:
+                bound = _among(bound, self.coset)
+            known = found.get(bound.sign)
+            distance = Fraction(0) if known is None else bound.sign * (bound.end - known.end)
+            if known is None or distance > 0 or (distance == 0 and bound.strict):
+                found[bound.sign] = bound
         return [*found.values()]
+
+    def _each_bound(self) -> Iterator[Bound]:
+        """What each word says; for one that isn't rational, a weaker one."""
+        for match in filter(None, (_BOUND.fullmatch(_INEQUALITIES.get(word, word)) for word in self.words)):
+            yield Bound(1 if ">" in match[1] else -1, Fraction(match[2]), "=" not in match[1])
+        for sign, end in _ends(self.words):
+            yield Bound(sign, _beyond(sign, end), True)
 
     @property
     def nonzero(self) -> bool:
@@ -98,13 +139,18 @@ class Known:
         if self.rational is True or not self.bounds or getattr(value.field, "approximation", None) is None:
             return self.rational is not True
         ball = enclosure(value)
-        ends = ((b.sign, arb(fmpq(b.end.numerator, b.end.denominator))) for b in self.bounds)
-        return ball.imag.contains(0) and not any((ball.real - end) * sign < 0 for sign, end in ends)
+        ends = [(b.sign, _ball(b.end)) for b in self.bounds] + _ends(self.words)
+        return ball.imag.contains(0) and not any(_is_beyond(sign, ball.real, end) for sign, end in ends)
 
     def _admits(self, number: Fraction) -> bool:
-        classes = all(_COSETS[word].contains(number) for word in self.words if word in _COSETS)
-        noninteger = "noninteger" not in self.words or number.denominator > 1
-        return classes and noninteger and self.rational is not False and all(b.admits(number) for b in self.bounds)
+        if not all(_COSETS[word].contains(number) for word in self.words if word in _COSETS):
+            return False
+        if self.rational is False or ("noninteger" in self.words and number.denominator == 1):
+            return False
+        if any(Fraction(match[1]) == number for match in filter(None, map(_UNEQUAL.fullmatch, self.words))):
+            return False
+        is_beyond = any(_is_beyond(sign, _ball(number), end) for sign, end in _ends(self.words))
+        return not is_beyond and all(bound.admits(number) for bound in self.bounds)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
@@ -112,6 +158,29 @@ class Known:
             return self.coset.start + random.randint(-6, 6) * self.coset.step
         denominator = random.choice(_DENOMINATORS)
         return Fraction(random.randint(-6 * denominator, 6 * denominator), denominator)
+
+
+def _among(bound: Bound, coset: Coset) -> Bound:
+    """The same bound for numbers of a class, by the nearest of them."""
+    steps = (bound.end - coset.start) / coset.step
+    nearest = coset.start + (ceil(steps) if bound.sign > 0 else floor(steps)) * coset.step
+    excluded = bound.strict and nearest == bound.end
+    return Bound(bound.sign, nearest + bound.sign * coset.step * excluded, False)
+
+
+def _ball(number: Fraction) -> Any:
+    with ctx.workprec(_PRECISION):
+        return arb(fmpq(number.numerator, number.denominator))
+
+
+def _is_beyond(sign: int, value: Any, end: Any) -> bool:
+    """Does a value provably lie on the wrong side of the end?"""
+    with ctx.workprec(_PRECISION):
+        return bool((value - end) * sign < 0)
+
+
+def _is_relation(word: str) -> bool:
+    return any(pattern.fullmatch(word) for pattern in (_BOUND, _UNEQUAL, _ALGEBRAIC))
 
 
 @dataclass(frozen=True)
@@ -153,8 +222,8 @@ class Assumptions:
     def __str__(self) -> str:
         parts = []
         for name, known in self.known:
-            words = " ".join(word for word in known.words if not _BOUND.fullmatch(word))
-            bounds = [re.sub("^([<>]=?)", rf"{name} \1 ", word) for word in known.words if _BOUND.fullmatch(word)]
+            words = " ".join(word for word in known.words if not _is_relation(word))
+            bounds = [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in known.words if _is_relation(word)]
             parts += [f"{name} {words}"] * bool(words) + bounds
         return ", ".join(parts)
 
@@ -276,14 +345,15 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for name, what in (assume or {}).items():
         if str(name) not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-        text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what)).replace("!=0", "nonzero")
+        text = re.sub(r"!=0(?![\d/])", "nonzero", re.sub(r"([<>]=?|!=)\s+", r"\1", str(what)))
         words = text.replace(",", " ").split()
-        unknown = [word for word in words if word not in (*WORDS, "real", "complex") and not _BOUND.fullmatch(word)]
+        unknown = [word for word in words if word not in (*WORDS, "real", "complex") and not _is_relation(word)]
         if unknown or not words:
             raise InputError(
                 f"{' '.join(unknown) or what!r} isn't an assumption that is known",
-                hint=f"known are {', '.join(WORDS)}, >=1/2, a value",
+                hint=f"known are {', '.join(WORDS)}, >=1/2, !=1, a value",
             )
+        _ends(words)  # of which each has to be a real number
         found.setdefault(str(name), []).extend(words)
     words_of = {name: [w for w in dict.fromkeys(found.get(name, ())) if w not in ("real", "complex")] for name in names}
     return Assumptions(tuple((name, Known(tuple(words))) for name, words in words_of.items() if words))

@@ -19,7 +19,10 @@ from kovacic.reading.lexer import tokenize
 from kovacic.reading.read import read_input
 
 #: What is known about a parameter, in words and inequalities; anything else is its value.
-_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,]+),?)*\s*")
+_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*")
+#: `0 < E <= 20`: the lower end, two signs around a name, the upper end.
+_CHAIN = re.compile(r"\s*([^<>=!]+?)\s*([<>]=?)\s*(\w+)\s*([<>]=?)\s*([^<>=!]+?)\s*")
+_TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
 class Template:
@@ -63,6 +66,31 @@ def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
     return text
 
 
+def relations(text: str) -> tuple[str, str] | None:
+    """The name in an inequality with two ends, and what it says of the name; None for any other text.
+
+    >>> relations("0 < E <= 20")
+    ('E', '>0 <=20')
+    """
+    match = _CHAIN.fullmatch(text)
+    if match is None:
+        return None
+    first, sign, name, other, last = match.groups()
+    return name, f"{_TURNED[sign]}{first} {other}{last}"
+
+
+def value_text(value: Any, parameter: str, variable: str, limits: Limits = DEFAULT_LIMITS) -> str:
+    """The value of a parameter as text: a number, or a function b^2 of other parameters.  Raises `InputError` for others."""
+    text = exact_text(value, "the value of a parameter")
+    read = read_input(text, var="x_", limits=limits).S
+    names = parameters_of(read.field)
+    if read.num.degree > 0 or read.den.degree > 0 or {parameter, variable} & {*names}:
+        raise InputError(
+            f"{text!r} isn't a number", hint="the value of a parameter is a number, or a function of others"
+        )
+    return text
+
+
 def with_values(
     S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits
 ) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
@@ -75,18 +103,24 @@ def with_values(
     >>> text, rest
     ('(4*(3/2)^2 - 1)/(4*x^2) - k', {'k': 'integer'})
     """
-    given = assume if isinstance(assume, Mapping) else {}
+    given = {name: _told(str(name), what) for name, what in assume.items()} if isinstance(assume, Mapping) else {}
     values = {str(name): what for name, what in given.items() if _WORDS.fullmatch(str(what)) is None}
     if not values:
-        return S, parsed, assume
+        return S, parsed, given or assume
     names = parameters_of(parsed.S.field)
     for name in values:
         if name not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-    texts = {name: number_text(value, limits) for name, value in values.items()}
+    texts = {name: value_text(value, name, parsed.variable, limits) for name, value in values.items()}
     change = None if parsed.equation is None else parsed.equation.change
     text = parsed.text if change is None and not isinstance(S, str) else str(S).strip()
     filled = Template(text, [*texts]).filled(texts)
     rest = {name: what for name, what in given.items() if str(name) not in texts}
     variable = parsed.variable if change is None else change.variable
     return filled, read_input(filled, var=variable, limits=limits, exponentials=True), rest or None
+
+
+def _told(name: str, what: Any) -> Any:
+    """What is said of a parameter; an inequality with two ends in two parts."""
+    both = relations(what) if isinstance(what, str) else None
+    return what if both is None or both[0] != name else both[1]

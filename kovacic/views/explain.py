@@ -135,7 +135,8 @@ class _Writer:
         yield Heading("The proof of this program")
         yield from map(self._exclusion, decision.exclusions)
         if decision.undecided is not None:
-            yield say(f"Undecided: {decision.undecided}.")
+            known = "Liouvillian solutions exist" if self.answer.assumed else "Undecided"
+            yield say(f"{known}: {decision.undecided}.")
         elif decision.structure is None:
             yield say("Nothing is left but SL2(C): the equation has no Liouvillian solution, and this is a proof.")
         elif decision.invariant is not None:

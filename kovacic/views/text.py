@@ -43,7 +43,7 @@ def one_line(answer: Answer) -> str:
     """The equation and the verdict."""
     equation = _given(answer)
     if answer.status is Status.UNDECIDED:
-        return f"{equation}: undecided, {in_one_line(answer.reason or '')}"
+        return f"{equation}: {'' if answer.assumed else 'undecided, '}{in_one_line(answer.reason or '')}"
     if answer.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
     if answer.omega is not None:
@@ -64,7 +64,9 @@ def render(
         yield style(f"  note: {visible(notice)}", "faint")
     if answer.equation is not None and not answer.equation.is_normal_form:
         yield f"  normal form: {normal_form(answer).text}, of which the following speaks"
-    if answer.status is Status.UNDECIDED:
+    if answer.assumed and answer.reason is not None:
+        yield f"  {style('Liouvillian solutions exist', 'good')}: {visible(answer.reason)}"
+    elif answer.status is Status.UNDECIDED:
         yield f"  {style('undecided', 'unsure')}: {visible(answer.reason or '')}"
     elif answer.status is Status.NONE_EXISTS:
         yield f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)"
@@ -197,7 +199,7 @@ def html_view(answer: Answer) -> str:
     words = {
         Status.LIOUVILLIAN: "Liouvillian solutions exist",
         Status.NONE_EXISTS: "no Liouvillian solution exists",
-        Status.UNDECIDED: f"undecided: {answer.reason}",
+        Status.UNDECIDED: f"{'' if answer.assumed else 'undecided: '}{answer.reason}",
     }
     rows.append(("status", words[answer.status]))
     if answer.case is not None:
