@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from batch_lines import answers_of, lines_of, random_runs
+from processes import started
 
 import kovacic
 from kovacic.batch.backends import CHUNK
@@ -126,3 +127,23 @@ def test_a_scheduler_that_is_not_there_is_an_error() -> None:
         pytest.raises(InputError, match="can't be reached"),
     ):
         list(kovacic.solve_many(["x"], backend="dask", scheduler=address))
+
+
+def test_a_scheduler_that_ends_is_named(tmp_path: Path) -> None:
+    """From the shell: the answers so far, one sentence, and nothing of the engine's own traces."""
+    cluster = Cluster(tmp_path)
+    lines = tmp_path / "in.txt"
+    lines.write_text("\n".join(f"x^2 + {k}" for k in range(100 * CHUNK)))
+    run = ["batch", str(lines), "--backend", "dask", "--scheduler", cluster.address, "-q"]
+    pipes = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE)
+    try:
+        cluster.wait_for_workers()
+        with started([sys.executable, "-m", "kovacic", *run], **pipes) as process:
+            assert '"line": 1,' in process.stdout.readline()
+            cluster.scheduler.kill()
+            _, errors = process.communicate(timeout=90)
+    finally:
+        cluster.stop()
+    assert process.returncode == 4
+    assert errors.startswith(f"kovacic: the dask scheduler at {cluster.address} has ended")
+    assert len(errors.splitlines()) == 1

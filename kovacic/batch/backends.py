@@ -11,7 +11,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from contextlib import contextmanager
 from itertools import islice
 
@@ -73,6 +73,10 @@ def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
                     records = done.result()
                 except KovacicError:
                     raise
+                except CancelledError as error:  # nothing here cancels what it waits for
+                    where = "" if job.scheduler is None else f" at {job.scheduler}"
+                    said = f"the {job.backend} scheduler{where} has ended, or can't be reached any more"
+                    raise KovacicError(f"{said}; the answers so far were given out") from error
                 except Exception as error:
                     raise KovacicError(f"{job.backend} gave a chunk of equations up: {error}") from error
                 yield from records

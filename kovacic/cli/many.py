@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 import click
 
 from kovacic.cli import options
+from kovacic.errors import needs
 
 if TYPE_CHECKING:
     from kovacic.batch.files import Done
@@ -193,6 +194,8 @@ def _answer_all(
     from kovacic.batch.records import Summary
 
     job = Job(**run)
+    if job.backend == "dask":
+        _hush_dask()
     summary, start = Summary(), time.monotonic()
     with ExitStack() as stack:
         if not quiet:
@@ -207,6 +210,14 @@ def _answer_all(
             if refresh is not None:
                 refresh()
     return summary.exit_status
+
+
+def _hush_dask() -> None:
+    """Dask's log has tracebacks of what is said in a sentence here; its levels are those of its settings at its import."""
+    with needs("dask", "the backend dask"):
+        import dask.config
+    names = ("distributed", "distributed.client", "distributed.core", "distributed.batched")
+    dask.config.set(logging=dict.fromkeys(names, "critical"))
 
 
 @contextmanager
