@@ -121,6 +121,7 @@ def test_a_scheduler_that_is_not_there_is_an_error() -> None:
         free.bind(("127.0.0.1", 0))
         address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
     import dask
+    import distributed  # noqa: F401 - whose settings come with it, and would go with those of the block
 
     with (
         dask.config.set({"distributed.comm.timeouts.connect": "1s"}),
