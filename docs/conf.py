@@ -35,11 +35,13 @@ napoleon_use_rtype = False
 myst_enable_extensions = ["dollarmath", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["build", "_build"]
-suppress_warnings = ["myst.strikethrough"]
+suppress_warnings = ["myst.strikethrough", "ref.python"]  # two classes are called Verdict
 
 default_role = "code"
 smartquotes = False  # snippets are to be pasted
-autodoc_typehints = "none"
+autodoc_typehints = "signature"
+python_use_unqualified_type_names = True
+nitpick_ignore_regex = [("py:.*", ".*")]  # types in signatures are words, too
 autodoc_preserve_defaults = True
 autodoc_member_order = "bysource"
 autoclass_content = "class"
@@ -84,7 +86,22 @@ def _as_rst(app: Any, what: str, name: str, thing: object, options: object, line
     lines[:] = result
 
 
+def _one_by_one(app: Any, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
+    """Attributes that are described together, `num, den : Poly`, get an entry each, as parameters do."""
+    if "Attributes" not in lines:
+        return
+    start = lines.index("Attributes") + 2
+    for k in reversed(range(start, len(lines))):
+        together = re.fullmatch(r"(\w+(?:, \w+)+) : (.*)", lines[k])
+        if together is not None:
+            end = next((j for j in range(k + 1, len(lines)) if not lines[j].startswith(" ")), len(lines))
+            said = lines[k + 1 : end]
+            lines[k:end] = [line for each in together[1].split(", ") for line in (f"{each} : {together[2]}", *said)]
+
+
 def _draw(app: Any) -> None:
+    if tags.has("reference"):  # noqa: F821 - Sphinx gives it to this file; a test builds the reference alone
+        return
     runpy.run_path(str(HERE / "pictures.py"))["draw_all"](HERE / "_static" / "pictures")
 
 
@@ -97,4 +114,5 @@ def setup(app: Any) -> None:
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_display, None))
     app.connect("builder-inited", _draw)
     app.connect("source-read", _fill)
+    app.connect("autodoc-process-docstring", _one_by_one, priority=100)  # before napoleon
     app.connect("autodoc-process-docstring", _as_rst)

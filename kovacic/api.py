@@ -23,7 +23,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The case alone: `status`, `case` (1, 2, 3 or None), and the `reason` of an undecided equation."""
+    """What `kovacic.decide` returns: the case alone.
+
+    Attributes
+    ----------
+    status : Status
+        LIOUVILLIAN, NONE_EXISTS or UNDECIDED.
+    case : int or None
+        Kovacic's case, 1 to 3.
+    reason : str or None
+        Why an equation is undecided.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> kovacic.decide("x^2 + 3")
+    Verdict(status=<Status.LIOUVILLIAN: 'liouvillian'>, case=1, reason=None)
+    """
 
     status: Status
     case: int | None

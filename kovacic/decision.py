@@ -91,7 +91,15 @@ Evidence = NecessaryCondition | NoInvariant | NoRationalOmega
 
 @dataclass(frozen=True)
 class Exclusion:
-    """A structure that the group provably doesn't have, and why."""
+    """A structure that the group provably doesn't have, and why.
+
+    Attributes
+    ----------
+    structure : Structure
+        The one that is excluded.
+    evidence : tuple
+        Each a necessary condition that fails, an invariant that doesn't exist, or an omega that doesn't.
+    """
 
     structure: Structure
     evidence: tuple[Evidence, ...]
@@ -99,9 +107,25 @@ class Exclusion:
 
 @dataclass(frozen=True)
 class SemiInvariant:
-    """A form f of degree `degree` in the solutions with f'/f = theta + P'/P; P has its zeros at ordinary points.
+    """A form f in the solutions with f'/f = theta + P'/P.
 
     Its linear factors are the solutions whose logarithmic derivatives are the conjugates of omega.
+
+    Attributes
+    ----------
+    degree : int
+        That of the form, and so the number of the conjugates.
+    theta : RatFunc
+        Its poles are at those of S, and at infinity.
+    P : Poly
+        Its zeros are ordinary points.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> form = kovacic.solve("x^2 + 3").semi_invariant
+    >>> print(form.degree, form.theta, form.P, form.logarithmic_derivative)
+    1 x x (x**2 + 1)/x
     """
 
     degree: int
@@ -116,7 +140,22 @@ class SemiInvariant:
 
 @dataclass(frozen=True)
 class RiccatiPolynomial:
-    """`sum_k (-1)^k A_k/(P D^k) W^(m-k)`, the monic polynomial of omega, with A_0 = P."""
+    """The monic polynomial of omega = y'/y, minimal over C(x): `sum_k (-1)^k A_k/(P D^k) W^(m-k)`, with A_0 = P.
+
+    Attributes
+    ----------
+    P, D : Poly
+        P has its zeros at ordinary points, and D is the product of the poles of S.
+    numerators : tuple of Poly
+        A_0, ..., A_m.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> riccati = kovacic.solve("1/x - 3/(16*x^2)").riccati
+    >>> riccati.degree, [str(c) for c in riccati.coefficients]
+    (2, ['(-16*x + 1)/(16*x**2)', '-1/(2*x)', '1'])
+    """
 
     P: Poly
     D: Poly
@@ -124,6 +163,7 @@ class RiccatiPolynomial:
 
     @property
     def degree(self) -> int:
+        """The degree of omega over C(x): 1, 2, 4, 6 or 12."""
         return len(self.numerators) - 1
 
     @property

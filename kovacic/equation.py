@@ -36,7 +36,15 @@ ENERGY = "E"
 
 @dataclass(frozen=True)
 class Change:
-    """The variable of an equation is a function `expression`, as text, of the `variable` that was given: exp(2*x)."""
+    """Which function of the user's variable the variable of an equation is.
+
+    Attributes
+    ----------
+    variable : str
+        The user's.
+    expression : str
+        The function: exp(2*x).
+    """
 
     variable: str
     expression: str
@@ -48,11 +56,27 @@ class Change:
 
 @dataclass(frozen=True)
 class Equation:
-    """a y'' + b y' + c y = f + h over one field, a not zero; f is rational, and h a SymPy expression or None.
+    """a y'' + b y' + c y = f + h over one field, a not zero.
 
-    `change` says which function of the user's variable the variable is, where coefficients in exp(k x) were given.  Then h is
-    in the user's variable, and what is beside f on the right-hand side there, divided by the coefficient of y''.
+    Attributes
+    ----------
+    a, b, c, f : RatFunc
+        The coefficients, and the rational part of the right-hand side.
+    h : sympy.Expr or None
+        The rest of the right-hand side.
+    variable, unknown : str
+        The names of x and y.
+    change : Change or None
+        Which function of the user's variable the variable is, where coefficients in exp(k x) were given.  Then h is in the
+        user's variable, and what is beside f on the right-hand side there, divided by the coefficient of y''.
 
+    Raises
+    ------
+    ValueError
+        Where a is zero.
+
+    Examples
+    --------
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> bessel = Equation(x**2, x, x**2 - 1, x * 0)
@@ -88,6 +112,7 @@ class Equation:
 
     @property
     def is_homogeneous(self) -> bool:
+        """Is the right-hand side zero?"""
         return not self.f and self.h is None
 
     @property
@@ -96,7 +121,13 @@ class Equation:
         return not self.b and self.is_homogeneous
 
     def text(self, *, caret: bool = True) -> str:
-        """`x^2*y'' + x*y' + (x^2 - 1)*y = 0`, with ** for powers where `caret` is False."""
+        """As it is written: `x^2*y'' + x*y' + (x^2 - 1)*y = 0`.
+
+        Parameters
+        ----------
+        caret : bool
+            With False, powers are written as Python writes them.  True by default.
+        """
         y = self.unknown
         terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]
         left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)

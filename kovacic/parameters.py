@@ -17,11 +17,39 @@ class Conditions(ParametricAnswer):
 
     @classmethod
     def of(cls, found: ParametricAnswer) -> Conditions:
-        """The same conditions, with `solve_at`."""
+        """The same conditions, with `solve_at`.
+
+        Parameters
+        ----------
+        found : ParametricAnswer
+            The data.
+        """
         return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
 
     def solve_at(self, values: Mapping[Any, Any]) -> Solution:
-        """The verified answer at a point: the omega that the region makes possible."""
+        """The verified answer at a point.
+
+        Parameters
+        ----------
+        values : mapping
+            A number for each parameter, rational or algebraic: {"n": "1/2"}.
+
+        Returns
+        -------
+        Solution
+            With the omega that the region makes possible.
+
+        Raises
+        ------
+        InputError
+            Where S isn't defined, or a parameter has no value.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").solve_at({"n": "1/2"}).case
+        1
+        """
         return Solution.of(self.answer_at(values))
 
     def theorem(self, *, format: str = "text") -> str:

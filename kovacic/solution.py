@@ -38,18 +38,58 @@ if TYPE_CHECKING:
 class Solution(Answer):
     """The answer for one equation y'' = S y: frozen, comparable, picklable, verified.
 
-    `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
-    certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
-    whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
-    time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
-    equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
-    answer for all values with the assumptions, `known`, but for those that the notices name.  `limits` hold for each view that
-    is computed later: where one would take longer, it raises `LimitExceeded`, and the groups are None.
+    Attributes
+    ----------
+    text : str
+        The input as it was given.
+    variable : str
+        The name of x.
+    S : RatFunc
+        The coefficient.
+    decision : Decision
+        The claim with its certificates: the data behind `status`, `case`, `riccati`, `proof` and so on.
+    notices : tuple of str
+        What was noticed when the input was read: decimals taken as exact fractions, names taken as parameters, ...
+    verified : bool
+        Has the decision passed its independent check?  Always, for what `solve` returns.
+    seconds : float or None
+        Wall-clock time of reading, deciding and verifying together; None for an answer that was read from JSON.
+    equation : Equation or None
+        The equation of which y'' = S y is the normal form, None where S itself was given.
+    assumed : bool
+        Does a theorem prove the answer for all values with the assumptions, `known`, but for those that the notices name?
+    limits : Limits
+        They hold for each view that is computed later: where one would take longer, it raises `LimitExceeded`, and the groups
+        are None.
+    known : Assumptions or None
+        What was assumed about the parameters.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")
+    >>> answer.status, answer.case, answer.omega, answer.constants, answer.gauge
+    (<Status.LIOUVILLIAN: 'liouvillian'>, 1, <RatFunc c>, <RationalPoly x**2 + 1>, <RatFunc -1/(2*x)>)
+    >>> answer.solutions
+    (cos(x)/sqrt(x), sin(x)/sqrt(x))
+    >>> answer
+    <Solution of x^2*y'' + x*y' + (x^2 - 1/4)*y = 0: case 1, omega = c>
     """
 
     @classmethod
     def of(cls, answer: Answer) -> Solution:
-        """The same answer, with its methods."""
+        """The same answer, with its methods.
+
+        Parameters
+        ----------
+        answer : Answer
+            The data of an answer.
+
+        Returns
+        -------
+        Solution
+            With the same fields.
+        """
         return cls(**{field.name: getattr(answer, field.name) for field in fields(answer)})
 
     @property
@@ -72,7 +112,12 @@ class Solution(Answer):
 
     @property
     def closed_form(self) -> ClosedForm | None:
-        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
+        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution.
+
+        >>> import kovacic
+        >>> kovacic.solve("x^2 + 3").closed_form.y1
+        x*exp(x**2/2)
+        """
         return derived.closed_form(self)
 
     @property
@@ -272,13 +317,35 @@ class Solution(Answer):
     @property
     @limited
     def generic_conditions(self) -> GenericConditions:
-        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
+        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters.
+
+        >>> import kovacic
+        >>> print(kovacic.solve("n*x").generic_conditions)
+        n != 0
+        """
         from kovacic.parametric.restriction import generic_conditions
 
         return generic_conditions(self)
 
     def verify(self) -> Verification:
-        """Recompute every claim, the group's too, by independent code; true exactly when all of them hold."""
+        """Recompute every claim, the group's too, by independent code.
+
+        Returns
+        -------
+        Verification
+            True exactly when all claims hold.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> print(kovacic.solve("1").verify())
+        passed: omega satisfies a polynomial of degree 1
+        passed: the roots of the polynomial solve omega' + omega^2 = S
+        passed: the sum of the roots is the logarithmic derivative of the semi-invariant
+        passed: P has its zeros at ordinary points
+        passed: the invariant is a rational form
+        passed: the Galois group is the one that is named
+        """
         return derived.verification(self)
 
     @limited
@@ -323,8 +390,33 @@ class Solution(Answer):
     ) -> Solution:
         """The answer that was written by `to_json`, verified again.
 
-        Raises `InputError` where it isn't one, contradicts itself, or has a key twice; and `VerificationFailed` where it
-        doesn't pass its check.  With `unverified=True` it is returned all the same, and its `verified` is False.
+        Parameters
+        ----------
+        text : str or mapping
+            The line of JSON, or the object that it stands for.
+        limits : Limits
+            Bounds on the work; by default those of `Limits()`.
+        unverified : bool
+            With True, an answer that fails its check is returned all the same, and its `verified` is False.  False by default.
+
+        Returns
+        -------
+        Solution
+            Equal to the one that was written.
+
+        Raises
+        ------
+        InputError
+            Where it isn't an answer, contradicts itself, or has a key twice.
+        VerificationFailed
+            Where it doesn't pass its check.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> line = kovacic.solve("x").to_json()
+        >>> kovacic.Solution.from_json(line).status
+        <Status.NONE_EXISTS: 'none'>
         """
         from kovacic.views.json import loads
 
@@ -370,7 +462,29 @@ class Solution(Answer):
         return explain(self, format=format, solutions=solutions)
 
     def citation(self, *, style: str = "text") -> str:
-        """What the answer rests on in the literature, as text or as BibTeX (`style="bibtex"`)."""
+        """What the answer rests on in the literature.
+
+        Parameters
+        ----------
+        style : str
+            "text", the default, or "bibtex".
+
+        Returns
+        -------
+        str
+            The references, one after the other.
+
+        Raises
+        ------
+        ValueError
+            For another style.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> kovacic.solve("x").citation(style="bibtex").splitlines()[0]
+        '@article{Kov86,'
+        """
         from kovacic.views.bibliography import citation
 
         return citation(self, style=style)

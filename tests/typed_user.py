@@ -48,3 +48,8 @@ def values(answer: Solution) -> None:
     answer.lambdify(which=1)  # type: ignore[call-arg]
     answer.plot(0, 1, x0=0, y0=1, dy0=0, points=100, title="y")
     answer.plot(0, 1, digts=30)  # type: ignore[call-arg]
+    assert_type(kovacic.evaluate("a*b", 1, x0=0, y0=1, dy0=0, var="b", params={"a": 1}), Ball)
+    kovacic.tabulate("x", 0, 1, x0=0, y0=1, dy0=0, var="x", careful=False)
+    kovacic.tabulate("x", 0, 1, x0=0, digts=30)  # type: ignore[call-arg]
+    kovacic.monodromy("1/x^2", digts=30)  # type: ignore[call-arg]
+    answer.to_json(ful=True)  # type: ignore[call-arg]

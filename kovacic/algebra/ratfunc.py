@@ -14,6 +14,24 @@ from kovacic.limits import check_time
 class RatFunc(Immutable):
     """`num/den` in lowest terms, den monic; arithmetic with `+ - * / **`, polynomials and scalars.
 
+    Immutable and hashable; equal exactly where the functions are.  `sympy.sympify` takes it, and a notebook shows the formula.
+
+    Attributes
+    ----------
+    num, den : Poly
+        Numerator and denominator, coprime.
+
+    Raises
+    ------
+    ZeroDivisionError
+        For a zero denominator.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> S = kovacic.solve("(x^2 - 1)/(2*x)").S
+    >>> print(S, S.degree, S(3), S.derivative())
+    (x**2 - 1)/(2*x) 1 4/3 (x**2 + 1)/(2*x**2)
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> print((x**2 - 1) / (2 * x - 2))
@@ -53,10 +71,12 @@ class RatFunc(Immutable):
 
     @property
     def field(self) -> Field:
+        """The field of the coefficients: Q, Q(t), or one with an algebraic constant."""
         return self.num.field
 
     @property
     def is_polynomial(self) -> bool:
+        """Is the denominator 1?"""
         return self.den.degree == 0
 
     @property
@@ -131,6 +151,7 @@ class RatFunc(Immutable):
         return RatFunc(_homogenise(self.num, point, top), _homogenise(self.den, point, top))
 
     def derivative(self) -> RatFunc:
+        """The derivative by the variable."""
         num, den = self.num, self.den
         if den.degree == 0:
             return RatFunc(num.derivative(), den, reduced=True)
@@ -139,7 +160,13 @@ class RatFunc(Immutable):
         return RatFunc(num.derivative() * radical - num * (den.derivative() // common), den * radical)
 
     def to_str(self, variable: str = "x") -> str:
-        """Python/SymPy syntax with integer coefficients."""
+        """Python/SymPy syntax with integer coefficients.
+
+        Parameters
+        ----------
+        variable : str
+            The name of the variable, which a function doesn't know; "x" by default.
+        """
         return quotient_str(self.num, self.den, variable)
 
     def _sympy_(self) -> Any:
@@ -158,6 +185,11 @@ class RatFunc(Immutable):
 
     def __repr__(self) -> str:
         return f"<RatFunc {self.to_str()}>"
+
+    def _repr_latex_(self) -> str:
+        from sympy import latex
+
+        return f"${latex(self._sympy_())}$"
 
 
 def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:

@@ -95,13 +95,29 @@ def sign(value: sp.Expr) -> int | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RollingBall:
-    """A ball of mass m and radius R with central moments A1 = A2, A3 and its centre of mass off centre by a.
+    """A dynamically symmetric ball.
 
-    Units: any consistent ones, moments in mass * length^2.  Parameters are exact numbers or symbols; whatever can be
-    decided about them is: a body that can't exist raises `InputError` with the inequality that fails, namely m > 0,
-    R > 0, A1 > 0, A3 > 0, A3 <= 2 A1 (which is int z^2 dm >= 0), and A1 + A3/2 <= m (R^2 - a^2), which holds exactly
-    when some mass distribution within the ball has these moments and this centre of mass.
+    Units: any consistent ones, moments in mass * length^2.  Each parameter is an exact number, text such as "1/5" or
+    "sqrt(2)", or a symbol.
 
+    Parameters
+    ----------
+    m, R : number, str or sympy.Expr
+        Mass and radius.
+    a : number, str or sympy.Expr
+        The distance of the centre of mass from the centre, along the axis.
+    A1, A3 : number, str or sympy.Expr
+        The central moments of inertia: A1 = A2 across the axis, A3 about it.
+
+    Raises
+    ------
+    InputError
+        For a body that can't exist, as far as that can be decided, with the inequality that fails: m > 0, R > 0, A1 > 0,
+        A3 > 0, A3 <= 2 A1 (which is int z^2 dm >= 0), and A1 + A3/2 <= m (R^2 - a^2), which holds exactly when some mass
+        distribution within the ball has these moments and this centre of mass.
+
+    Examples
+    --------
     >>> RollingBall(m=1, R=2, a=0, A1=2, A3=1).on_sphere(R1=3).ratio
     2/3
     >>> RollingBall(m=1, R=1, a=0, A1="1/5", A3="1/2")
@@ -138,7 +154,23 @@ class RollingBall:
         return self.m, self.R, self.a, self.A1, self.A3
 
     def on_sphere(self, R1: Scalar) -> BallOnSphere:
-        """On a sphere of radius R1 > 0, or inside one for R1 < -R; raises `InputError` for another R1."""
+        """The ball on a sphere, or inside one.
+
+        Parameters
+        ----------
+        R1 : number, str or sympy.Expr
+            The radius: R1 > 0, or R1 < -R for a ball inside of it.
+
+        Returns
+        -------
+        BallOnSphere
+            With its equations.
+
+        Raises
+        ------
+        InputError
+            For 0, and for a ball that doesn't fit inside.
+        """
         radius = exact(R1, "R1")
         if radius == 0:
             what = "the fixed sphere needs a radius R1 other than 0"
@@ -160,7 +192,7 @@ class RollingBall:
 
 @dataclass(frozen=True, slots=True)
 class Rolling:
-    """What the linear equations depend on: rho, D(x), its leading coefficient l (0 exactly if A1 = A3), and m R^2 A1."""
+    """What the linear equations depend on: `BallOnSphere` says what each is."""
 
     ratio: sp.Expr
     D: sp.Expr
@@ -201,7 +233,7 @@ class Rolling:
 
     @property
     def S(self) -> sp.Expr:
-        """The right-hand side of (13), y'' = S(x) y."""
+        """S of (13), y'' = S(x) y."""
         D, half = self.D, self.half
         return sp.factor((2 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * half**2) / (4 * D**2))
 
@@ -210,6 +242,16 @@ class InRoots(Rolling):
     """All balls with R/R1 = rho and the different roots x1, x2 of D: up to a constant D is (x - x1)(x - x2).
 
     Of the body, only A3/A1 occurs besides.  S is written as the paper prints it.
+
+    Parameters
+    ----------
+    rho : sympy.Expr
+        R/R1.
+
+    Examples
+    --------
+    >>> print(InRoots(sp.Rational(1, 2)).ratio)
+    1/2
     """
 
     def __init__(self, rho: sp.Expr) -> None:
@@ -217,13 +259,36 @@ class InRoots(Rolling):
 
     @property
     def S(self) -> sp.Expr:
+        """S of (13), y'' = S(x) y, as the paper prints it."""
         pole = sp.Rational(1, 8) * (1 + 8 * self.ratio**2) / (x1 - x2)
         return pole / (X - x1) - pole / (X - x2) - sp.Rational(3, 16) * ((X - x1) ** -2 + (X - x2) ** -2)
 
 
 @dataclass(frozen=True, slots=True)
 class BallOnSphere(Rolling):
-    """A ball on the sphere of radius R1."""
+    """A ball on the sphere of radius R1; `RollingBall.on_sphere` makes it.
+
+    Attributes
+    ----------
+    ratio : sympy.Expr
+        rho = R/R1; 0 on the plane.
+    D : sympy.Expr
+        D(x), x = cos u.
+    leading : sympy.Expr
+        Its leading coefficient l; 0 exactly if A1 = A3.
+    weight : sympy.Expr
+        m R^2 A1.
+    ball : RollingBall
+        The body.
+    R1 : sympy.Expr
+        The radius of the sphere; infinite for the plane.
+
+    Examples
+    --------
+    >>> place = RollingBall(m=1, R=2, a="1/5", A1=1, A3="4/3").on_sphere(3)
+    >>> place.kind, place.ratio
+    ('generic: D has two simple roots', 2/3)
+    """
 
     ball: RollingBall
     R1: sp.Expr

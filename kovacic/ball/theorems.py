@@ -45,7 +45,17 @@ def theorem(place: Rolling) -> tuple[str, int | None]:
 
 @dataclass(frozen=True, slots=True)
 class BallSolution:
-    """omega = y'/y for a solution y or two; the general y, omega_3 and n with constants c1, c2, as functions of x = cos u."""
+    """The solution of the linear equations of a ball, as functions of x = cos u with constants c1, c2.
+
+    Attributes
+    ----------
+    omega : tuple of sympy.Expr
+        y'/y for a solution y or two.
+    y, omega_3, n : sympy.Expr
+        The general ones.
+    E : sympy.Expr or None
+        That of which powers occur: D'/2 + sqrt(l D), or its negative where that is positive.
+    """
 
     omega: tuple[sp.Expr, ...]
     y: sp.Expr
@@ -57,6 +67,11 @@ class BallSolution:
         """Do omega, y, n and omega_3 as they're printed satisfy (13) and the linear system (see `linear_system`)?
 
         By substitution, to 30 digits, at one point and for one value of each symbol.
+
+        Parameters
+        ----------
+        place : Rolling
+            What it was found for.
         """
         (a1, a2, b1, b2), S = place.linear_system, place.S
         n, w, y = self.n, self.omega_3, self.y
@@ -79,6 +94,18 @@ def closed_form(place: Rolling) -> BallSolution:
     N = 2 rho, omega is written in the roots x1, x2.  On the plane y is what belongs to omega_3.  y = D^(3/4) omega_3, but for
     a constant D (A1 = A3 and a = 0), where its power is left out: y = omega_3 = c1 + c2 x.
 
+    Parameters
+    ----------
+    place : Rolling
+        A `BallOnSphere`, or `InRoots`.
+
+    Returns
+    -------
+    BallSolution
+        Its `solves` checks it.
+
+    Examples
+    --------
     >>> from kovacic.ball.body import RollingBall
     >>> closed_form(RollingBall(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).n
     -5*c2/2

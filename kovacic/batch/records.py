@@ -60,17 +60,38 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """The answer to one item: its number, a word for statistics out of `LABELS`, the time, and a line of JSON.
+    """The answer to one equation of a batch.
 
-    The JSON is schema 1 with the keys `line` (the number) and those of `Item.extra` before it.  Without an answer, `status`
-    is "error" and `error` has `type` and `message`, and for a bad input `position` and `hint`; the label is then "bad input",
-    or "failed" where an answer didn't pass its check or its processes were lost.
+    Attributes
+    ----------
+    number : int
+        Its place in the input, from 1.
+    label : str
+        The verdict in a word: "case 1", "case 2", "case 3 (4)" with the degree of omega, "none", "undecided", "bad input", or
+        "failed" where an answer didn't pass its check or its processes were lost.
+    seconds : float
+        The time it took.
+    json : str
+        Its line in schema 1, with the keys `line` (the number) and those of the input, such as "id", before it.  Without an
+        answer, `status` is "error" and `error` has `type` and `message`, and for a bad input `position` and `hint`.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> good, bad = kovacic.solve_many(["x^2 + 3", "x^2 +"], jobs=1)
+    >>> good.number, good.label, good.case, good.error, good.data["status"], str(good.solution.omega)
+    (1, 'case 1', 1, None, 'liouvillian', '(x**2 + 1)/x')
+    >>> bad.label, bad.case, bad.error
+    ('bad input', None, "the expression ends after '+'")
     """
 
     number: int
     label: str
     seconds: float
     json: str
+
+    def __repr__(self) -> str:
+        return f"<Record {self.number}: {self.label}>"
 
     @property
     def data(self) -> dict[str, Any]:

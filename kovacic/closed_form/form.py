@@ -19,6 +19,7 @@ from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, 
 from kovacic.decision import Decision
 from kovacic.errors import VerificationFailed
 from kovacic.limits import check_time
+from kovacic.numerals import as_latex
 
 EXACT = "exact"
 NUMERICAL = "numerical, 50 digits"
@@ -26,10 +27,31 @@ NUMERICAL = "numerical, 50 digits"
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """y1 and y2, SymPy expressions in `variable`; `structure` is the same as data, without SymPy.
+    """Two independent solutions, y1 and y2; iterating gives both, and a notebook shows them as formulas.
 
-    `checked` is "exact" if the equation was verified in rational functions from the factors, or "numerical, 50 digits";
-    what is shown has been checked at a point in either case.  `notes` say what was left as an integral and why.
+    Attributes
+    ----------
+    y1, y2 : sympy.Expr
+        Expressions in `variable`.
+    variable : sympy.Symbol
+        That of the equation.
+    structure
+        The same as data, without SymPy; it may change between versions.
+    gauge : RatFunc
+        The logarithmic derivative of the factor that is in y1 and y2: 0 where S itself was given.
+    checked : str
+        "exact" if the equation was verified in rational functions from the factors, or "numerical, 50 digits"; what is shown
+        has been checked at a point in either case.
+    notes : tuple of str
+        What was left as an integral, and why.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> form = kovacic.solve("x^2 + 3").closed_form
+    >>> y1, y2 = form
+    >>> y1, form.checked
+    (x*exp(x**2/2), 'exact')
     """
 
     y1: Any
@@ -42,6 +64,9 @@ class ClosedForm:
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.y1, self.y2))
+
+    def _repr_latex_(self) -> str:
+        return rf"$y_1 = {as_latex(self.y1)},\quad y_2 = {as_latex(self.y2)}$"
 
 
 def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x") -> ClosedForm:

@@ -131,12 +131,42 @@ class RationalFunction:
 
 @dataclass(frozen=True)
 class ProductForm:
-    """The product at the head of this module: call it with an array of points, `log` gives the sign (or phase factor)
-    and log |y|, without overflow.
+    """A solution as a product of powers and an exponential: call it with a number or an array.
 
-    `base` is the point near the middle where powers are positive.  `is_real` says that the function is real; then pairs of
-    conjugate factors are merged.  `polynomial` stands for a factor with many zeros.  `careful` stands
-    for double-doubles, else it is plain double arithmetic; `measured` is the error that `lambdify` found.
+    It keeps no state, and threads may share it.
+
+    Attributes
+    ----------
+    region : Region
+        Where it is defined: `low` and `high`.
+    base : ExactPoint
+        The point near the middle where powers are positive.
+    factors : tuple of RootFactor
+        The powers.
+    exponent : RationalFunction
+        In the exponential.
+    is_real : bool
+        Is the function real?  Then pairs of conjugate factors are merged.
+    sheet : RationalFunction
+        What stands beside a square root in the exponent, in case 2.
+    conic : Conic or None
+        The square root of case 2.
+    polynomial : TabulatedFunction or None
+        A factor with many zeros.
+    careful : bool
+        Double-doubles; else it is plain double arithmetic.
+    measured : Measured or None
+        The error that `lambdify` found; None where it wasn't measured.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 100))
+    >>> f
+    <ProductForm on [0, 100], real>
+    >>> sign, size = f.log(100.0)      # exp(5000) is beyond the doubles
+    >>> print(f(100.0), sign, f"{size:.6f}")
+    inf 1.0 5004.605170
     """
 
     region: Region
@@ -150,12 +180,47 @@ class ProductForm:
     careful: bool = True
     measured: Measured | None = None
 
+    def __repr__(self) -> str:
+        return f"<ProductForm on {self.region}, {'real' if self.is_real else 'complex'}>"
+
     def __call__(self, x: Any) -> Any:
-        """y(x) as doubles, or complex doubles (inf or 0 where the value is beyond their range)."""
+        """y(x).
+
+        Parameters
+        ----------
+        x : number or array
+            Within the region.
+
+        Returns
+        -------
+        float, complex or array
+            Of the shape of x; inf or 0 where the value is beyond the doubles.
+
+        Raises
+        ------
+        InputError
+            For an argument outside of the region, or one that isn't numerical.
+        """
         return in_blocks(self._values, self.region.points(x))
 
     def log(self, x: Any) -> tuple[Any, Any]:
-        """(sign, log |y(x)|), or for complex functions (y/|y|, log |y|)."""
+        """The sign (or for complex functions y/|y|) and log |y|, without overflow.
+
+        Parameters
+        ----------
+        x : number or array
+            Within the region.
+
+        Returns
+        -------
+        pair
+            Each of the shape of x.
+
+        Raises
+        ------
+        InputError
+            For an argument outside of the region, or one that isn't numerical.
+        """
         points = self.region.points(x)
         with np.errstate(all="ignore"):
             value, binary, growth = self._parts(points.reshape(-1), careful=True)

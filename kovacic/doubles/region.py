@@ -25,7 +25,15 @@ BLOCK = 16384
 
 
 class Measured(NamedTuple):
-    """Errors in units in the last place of |y|, at so many `points` where there is a value to compare with."""
+    """Errors in units in the last place of |y|.
+
+    Attributes
+    ----------
+    median, worst : float
+        Of all points.
+    points : int
+        Where there is a value to compare with.
+    """
 
     median: float
     worst: float
@@ -50,6 +58,10 @@ class Region:
     low: complex
     high: complex
     singular: tuple[bool, bool] = (False, False)
+
+    def __str__(self) -> str:
+        low, high = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
+        return f"[{low:g}, {high:g}]"
 
     @property
     def is_real(self) -> bool:

@@ -70,10 +70,33 @@ Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 @dataclass(frozen=True, eq=False)
 class TabulatedFunction:
-    """Polynomials in (x - centre) 2^-exponent, times 2^power, valid up to the next of `edges`; call it with an array of points.
+    """A solution by polynomials, piece by piece: call it with a number or an array.
 
-    `coefficients` has the shape (parts, 2, terms, pieces): real and imaginary part (one part for a real function), high and
-    low half.  `base` is x0, where that is a regular point.
+    A piece is a polynomial in (x - centre) 2^-exponent, times 2^power.  It keeps no state, and threads may share it.
+
+    Attributes
+    ----------
+    region : Region
+        Where it is defined: `low` and `high`.
+    base : ExactPoint or None
+        x0, where that is a regular point.
+    edges, centres, exponents, powers : array
+        Of the pieces; one is valid up to the next of the edges.
+    coefficients : array
+        Of the shape (parts, 2, terms, pieces): real and imaginary part (one part for a real function), high and low half.
+    careful : bool
+        Double-doubles; else it is plain double arithmetic.
+    measured : Measured or None
+        The error that `lambdify` found; None where it wasn't measured.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> sine = kovacic.tabulate("-1", 0, 10, x0=0, y0=0, dy0=1)
+    >>> sine
+    <TabulatedFunction on [0, 10], 4 pieces>
+    >>> print(f"{sine(10.0):.15f}", sine([0.0, 0.0]))
+    -0.544021110889370 [0. 0.]
     """
 
     region: Region
@@ -87,9 +110,28 @@ class TabulatedFunction:
     measured: Measured | None = None
 
     def __call__(self, x: Any) -> Any:
-        """y(x) as doubles, or complex doubles (inf or 0 beyond their range); raises InputError outside of the interval."""
+        """y(x).
+
+        Parameters
+        ----------
+        x : number or array
+            Within the interval.
+
+        Returns
+        -------
+        float, complex or array
+            Of the shape of x; inf or 0 where the value is beyond the doubles.
+
+        Raises
+        ------
+        InputError
+            For an argument outside of the interval, or one that isn't numerical.
+        """
         points = self.region.points(x)
         return in_blocks(self._values, points, 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2)
+
+    def __repr__(self) -> str:
+        return f"<TabulatedFunction on {self.region}, {self.centres.size} pieces>"
 
     def _values(self, flat: Any) -> Any:
         parts, powers = self.parts(flat)
@@ -98,6 +140,14 @@ class TabulatedFunction:
 
     def parts(self, flat: Any) -> tuple[list[Any], Any]:
         """Real and imaginary part as double-doubles or arrays, and the powers of two, None where all are 0.
+
+        Parameters
+        ----------
+        flat : array
+            Of one dimension, within the interval.
+
+        Notes
+        -----
 
         Piece by piece, so that the coefficients are numbers, where many points lie on each.
         """
@@ -134,12 +184,39 @@ def tabulate(
 ) -> TabulatedFunction:
     """One solution on [start, stop] in double precision; the interval must be regular.
 
-    The equation and which solution it is are `given` as for `kovacic.evaluate`: x0, which may lie outside of the interval and
-    be a singular point, with y0 and dy0, frobenius, or which; params; path (y0 and dy0 only where coefficients are rational in
-    exp(k x), sin(k x), ...).  `careful` stands for double-doubles: a unit in
-    the last place, at 20 times the cost of plain ones.  Values may be complex.  Raises InputError (an empty interval, a
-    singular point in it or between it and x0) and LimitExceeded (more than 5,000 pieces, or the time).
+    Parameters
+    ----------
+    equation
+        S or an equation, as for `kovacic.evaluate`, real for real x.
+    start, stop : number
+        The ends of the interval, real; no singular point lies between them or at one.
+    x0 : number
+        Where the solution starts; it may lie outside of the interval, and be a singular point.
+    y0, dy0, frobenius, which, path
+        Which solution, as for `kovacic.evaluate`; y0 and dy0 only, where coefficients are rational in exp(k x), sin(k x), ...
+    careful : bool
+        Double-doubles (the default): a unit in the last place, at 20 times the cost of plain ones.
+    params : mapping
+        Values of the parameters by name.
+    var : str
+        The name of the variable, where the equation is text or a SymPy expression.
+    limits : Limits
+        What the work may cost.
 
+    Returns
+    -------
+    TabulatedFunction
+        Its values may be complex.
+
+    Raises
+    ------
+    InputError
+        For an empty interval, and a singular point in it or between it and x0.
+    LimitExceeded
+        For more than 5,000 pieces, and where the time is over.
+
+    Examples
+    --------
     >>> f = tabulate("-1", 0, 10, x0=0, y0=0, dy0=1)
     >>> print(f"{f(10.0):.15f}")      # sin 10
     -0.544021110889370

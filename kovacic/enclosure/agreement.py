@@ -66,7 +66,15 @@ _PRIMITIVE = {
 
 @dataclass(frozen=True)
 class Agreement:
-    """`verdict` is True, False (a proof) or None (the matrices can't tell); `reason` is a sentence."""
+    """What `Solution.compare_with_monodromy` returns.
+
+    Attributes
+    ----------
+    verdict : bool or None
+        True, False (a proof that it isn't this group), or None, where the matrices can't tell.
+    reason : str
+        What was seen, in a sentence.
+    """
 
     verdict: bool | None
     reason: str

@@ -14,6 +14,7 @@ F. Johansson, "Arb: efficient arbitrary-precision midpoint-radius interval arith
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
@@ -78,7 +79,19 @@ def _operator(compute: Callable[[acb, acb], acb]) -> Callable[[Ball, object], Ba
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """How a value was computed: by which `method`, with how many `bits` in the last of so many `runs`, for `digits` digits."""
+    """How a value was computed.
+
+    Attributes
+    ----------
+    digits : int
+        How many were asked for.
+    method : str
+        "taylor" or "closed form".
+    bits : int
+        The working precision of the last run.
+    runs : int
+        How often the precision was raised, and one.
+    """
 
     digits: int
     method: Literal["taylor", "closed form"]
@@ -94,10 +107,21 @@ class Route:
 class Ball:
     """A number known up to a proven error: the exact value z satisfies |z - midpoint| <= radius.
 
-    `re`, `im`, `rad` are dyadic rationals (m, e), m 2^e; `real` says that the exact value is certainly real.  `route` says
-    how a value of a solution was computed; None for other balls.  A ball whose radius isn't finite (nothing is known) doesn't
-    exist: what would make one raises.
+    A ball whose radius isn't finite (nothing is known) doesn't exist: what would make one raises.  Balls are immutable and
+    hashable, with `+ - * / **` and comparisons that return True, False, or None where that isn't certain.  `str` has all digits
+    that are known and a radius that covers what was rounded; `format` takes what a Decimal takes.
 
+    Attributes
+    ----------
+    re, im, rad : pair of int
+        Midpoint and radius, dyadic rationals (m, e), m 2^e.
+    real : bool
+        Is the exact value certainly real?
+    route : Route or None
+        How a value of a solution was computed; None for other balls.
+
+    Examples
+    --------
     >>> b = Ball.exact(3, -1)
     >>> float(b), complex(b), b.radius
     (1.5, (1.5+0j), 0.0)
@@ -113,14 +137,36 @@ class Ball:
 
     @classmethod
     def exact(cls, mantissa: int, exponent: int = 0) -> Ball:
-        """The exact real number mantissa * 2^exponent."""
+        """The exact real number mantissa * 2^exponent.
+
+        Parameters
+        ----------
+        mantissa, exponent : int
+            Any integers.
+        """
         m = whole(mantissa, "the mantissa", least=None)
         e = whole(exponent, "the exponent", least=None)
         return cls(dyadic(m, e))
 
     @classmethod
     def of(cls, value: object) -> Ball:
-        """The ball of a number or a ball of any kind that `evaluate` takes; constants such as "pi" to 100 digits."""
+        """The ball of a number.
+
+        Parameters
+        ----------
+        value : number
+            A number or a ball of any kind that `kovacic.evaluate` takes; constants such as "pi" are taken to 100 digits.
+
+        Raises
+        ------
+        InputError
+            For what isn't a finite number.
+
+        Examples
+        --------
+        >>> Ball.of("1/3").contains("0.3333333333"), Ball.of("1/3").contains("1/3")
+        (False, True)
+        """
         number = as_number(value, "the number")
         parts = (number.re, number.im) if isinstance(number, ExactPoint) else ()
         with working_precision(400 + max((part.numerator.bit_length() for part in parts), default=0)):
@@ -153,10 +199,12 @@ class Ball:
         return self.overlaps(Ball.exact(0))
 
     def contains(self, number: object) -> bool:
-        """True if the number (int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational) lies in
-        the ball.
+        """Does the number lie in the ball?
 
-        A Ball is accepted as well: True if it lies in this one as a whole.
+        Parameters
+        ----------
+        number : number or Ball
+            int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational; or a ball, as a whole.
         """
         if isinstance(number, Ball):
             return _reaches(self, number, -1)
@@ -164,7 +212,13 @@ class Ball:
         return bool((point - ExactPoint(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
     def overlaps(self, other: object) -> bool:
-        """True if the two exact values can be equal; False proves that they differ.  `other` is a ball or a number."""
+        """Can the two exact values be equal?  False proves that they differ.
+
+        Parameters
+        ----------
+        other : number or Ball
+            The other one.
+        """
         return _reaches(self, other if isinstance(other, Ball) else Ball.of(other), 1)
 
     @property
@@ -295,7 +349,18 @@ class Ball:
         return False if arb(other_high) < arb(low) or (strict and other_high == low) else None
 
     def equals(self, other: object) -> bool | None:
-        """Is the exact value that number?  False if the balls are apart, True if both are exact and the same, else None."""
+        """Is the exact value that number?
+
+        Parameters
+        ----------
+        other : number or Ball
+            The other one.
+
+        Returns
+        -------
+        bool or None
+            False if the balls are apart, True if both are exact and the same, else None.
+        """
         second = other if isinstance(other, Ball) else Ball.of(other)
         return (self.is_exact() and second.is_exact()) or None if self.overlaps(second) else False
 
@@ -318,6 +383,10 @@ class Ball:
             return f"<Ball {self}>"
         re, im, _ = self._decimal_disc(_SHOWN)
         return f"<Ball {self._as_number(re, im)}... ± {_rounded_up(arb(self.rad))}>"
+
+    def _repr_latex_(self) -> str:
+        text = str(self).replace("±", r"\pm").replace("j", r"\,i")
+        return "$" + re.sub(r"e([+-]?\d+)", lambda power: rf" \cdot 10^{{{int(power[1])}}}", text) + "$"
 
     def _as_number(self, re: str, im: str) -> str:
         return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"

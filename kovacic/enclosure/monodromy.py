@@ -36,11 +36,29 @@ BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
 
 @dataclass(frozen=True)
 class LocalMonodromy:
-    """One singular point: its enclosure, the multiplicity of the pole of S, exponents, loop and matrix.
+    """One singular point, and what a solution becomes on the way around it.
 
-    `exponents` and `trace` (-2 cos(pi Delta), from the exponents) are None at an irregular singular point (multiplicity 3
-    or more). The loop runs once counter-clockwise around this point alone, from and to the base point; `matrix` acts on (y,
-    y') there.
+    Attributes
+    ----------
+    point : Ball
+        The singular point.
+    multiplicity : int
+        That of the pole of S.
+    exponents : pair of Ball, or None
+        None at an irregular singular point (multiplicity 3 or more).
+    trace : Ball or None
+        -2 cos(pi Delta), from the exponents.
+    loop : tuple of ExactPoint
+        Once counter-clockwise around this point alone, from and to the base point.
+    matrix : pair of pairs of Ball
+        It acts on (y, y') at the base point.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> (point,) = kovacic.monodromy("-2/(9*x^2)")
+    >>> point.multiplicity, point.consistent, point.is_identity_to_the_power(3)
+    (2, True, True)
     """
 
     point: Ball
@@ -49,6 +67,9 @@ class LocalMonodromy:
     trace: Ball | None
     loop: tuple[ExactPoint, ...]
     matrix: BallMatrix
+
+    def __repr__(self) -> str:
+        return f"<LocalMonodromy around {self.point}>"
 
     def acb_mat(self) -> acb_mat:
         """The matrix as python-flint's, at the working precision in force."""
@@ -62,7 +83,18 @@ class LocalMonodromy:
             return m.det().contains(1) and (self.trace is None or m.trace().overlaps(ball_to_flint(self.trace)))
 
     def is_identity_to_the_power(self, order: int) -> bool:
-        """True if the matrix to this power may be the identity; False proves that it isn't."""
+        """Can the matrix to this power be the identity?
+
+        Parameters
+        ----------
+        order : int
+            The power.
+
+        Returns
+        -------
+        bool
+            False proves that it isn't.
+        """
         with working_precision(1000):
             m, one = self.acb_mat(), acb_mat([[1, 0], [0, 1]])
             t = m.trace() if self.trace is None else ball_to_flint(self.trace)
@@ -85,11 +117,37 @@ def connection_matrix(
     """Balls around the matrix that turns coordinates at the first point of `path` into those at the last one, of the same
     solution continued along this polygon.
 
-    At an ordinary point the coordinates are (y, y'), at a regular singular one (or "oo") those in its Frobenius basis, as
-    for `evaluate`.  Constants and values of parameters are as there, too; where these are balls, the radii are what they
-    allow.  A path to or from infinity goes along the line through 0 and its neighbour.  The radii are at most
-    10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
+    Parameters
+    ----------
+    equation
+        S or an equation without a right-hand side, as for `kovacic.evaluate`.
+    path : sequence of numbers
+        The vertices, at least two.  At an ordinary end the coordinates are (y, y'), at a regular singular one (or "oo") those
+        in its Frobenius basis, as for `kovacic.evaluate`.  A path to or from infinity goes along the line through 0 and its
+        neighbour.
+    params : mapping
+        Values of the parameters by name; where these are balls, the radii are what they allow.
+    var : str
+        The name of the variable, where the equation is text or a SymPy expression.
+    digits : int
+        The radii are at most 10^-digits relative to the largest entry; 15 by default.
+    limits : Limits
+        What the work may cost.
 
+    Returns
+    -------
+    pair of pairs of Ball
+        The rows of the matrix.
+
+    Raises
+    ------
+    InputError
+        For fewer than two vertices, and for a path through a singular point.
+    LimitExceeded
+        Where a limit is reached first.
+
+    Examples
+    --------
     >>> ((a, b), (c, d)) = connection_matrix(([1], [1]), [0, 1])   # cosh, sinh
     >>> float(a), float(b)
     (1.5430806348152437, 1.1752011936438014)
@@ -171,8 +229,32 @@ def monodromy(
 
     The loops go straight to the points and around them; they generate the fundamental group, and come in the order, seen
     from the base point, in which M_n ... M_1 is the monodromy of a counter-clockwise loop around all of them.
-    Raises LimitExceeded if the limits don't suffice.
 
+    Parameters
+    ----------
+    equation
+        S or an equation, as for `kovacic.evaluate`; a right-hand side doesn't matter.
+    params : mapping
+        Values of the parameters by name.
+    var : str
+        The name of the variable, where the equation is text or a SymPy expression.
+    digits : int
+        The accuracy of the matrices: 15 by default.
+    limits : Limits
+        What the work may cost.
+
+    Returns
+    -------
+    tuple of LocalMonodromy
+        One for each finite singular point.
+
+    Raises
+    ------
+    LimitExceeded
+        If the limits don't suffice.
+
+    Examples
+    --------
     >>> (point,) = monodromy(([-2], [0, 0, 9]))   # exponents 1/3, 2/3
     >>> [f"{e.mid.real:.6f}" for e in point.exponents], f"{point.trace.mid.real:.6f}", point.is_identity_to_the_power(3)
     (['0.666667', '0.333333'], '-1.000000', True)

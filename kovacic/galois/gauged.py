@@ -45,10 +45,26 @@ class Torus(NamedTuple):
 
 @dataclass(frozen=True)
 class EquationGroup:
-    """The group of the given equation, in GL2(C): `normal_form` is that of the normal form.
+    """The group of the equation as it was given, in GL2(C).
 
-    `scalars` is N for a gauge factor whose N-th power is the first rational one, None if there is none.  `order` is None if
-    the group is infinite (`finite` False) or its order wasn't determined (`finite` True or None).
+    Attributes
+    ----------
+    normal_form : Group
+        That of the normal form, in SL2(C).
+    scalars : int or None
+        N for a gauge factor whose N-th power is the first rational one, None if there is none.
+    name : str
+        In plain characters.
+    finite : bool or None
+        None if that wasn't determined.
+    order : int or None
+        None if the group is infinite (`finite` False) or its order wasn't determined (`finite` True or None).
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0").equation_group
+    <EquationGroup G_m>
     """
 
     normal_form: Group
@@ -59,6 +75,9 @@ class EquationGroup:
 
     def __str__(self) -> str:
         return self.name
+
+    def __repr__(self) -> str:
+        return f"<EquationGroup {self.name}>"
 
 
 def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatFunc) -> EquationGroup | None:

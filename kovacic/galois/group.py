@@ -98,11 +98,35 @@ _SMALL = {
 class Group:
     """A subgroup of SL2(C) up to conjugation.
 
-    `n` is the parameter of the family where it has one: the order of the cyclic group or of the component group of
-    {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  GroupKind.IMPRIMITIVE says that the order wasn't
-    determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why.  `form` is
-    the rational form of degree 2 of a reducible group, if there is one.  On a curve of positive genus, `function` has u^n, or
-    shows that no power of u is a function; or `orders` has primes p with the orders of the divisor of u modulo p.
+    Attributes
+    ----------
+    kind : GroupKind
+        The family.  GroupKind.IMPRIMITIVE says that the order wasn't determined: then n is the least value that wasn't
+        excluded, and the group may be infinite.
+    ground : Ground
+        Why it is this one and no other; its value is a sentence.
+    n : int or None
+        The parameter of the family where it has one: the order of the cyclic group or of the component group of
+        {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.
+    form : SemiInvariant or None
+        The rational form of degree 2 of a reducible group, if there is one.
+    orders : tuple of pairs
+        On a curve of positive genus, primes p with the orders of the divisor of u = y1/y2 modulo p.
+    function : CurveFunction or None
+        On such a curve, u^n, or what shows that no power of u is a function.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> group = kovacic.solve("-3/(16*x^2)").group
+    >>> group.name, group.order, group.finite, group.dimension, group.description
+    ('mu_4', 4, True, 0, 'the cyclic group of order 4')
+    >>> group
+    <Group mu_4>
+    >>> group.generators()
+    (Matrix([
+    [I,  0],
+    [0, -I]]),)
     """
 
     kind: GroupKind
@@ -166,7 +190,13 @@ class Group:
     def generators(self) -> tuple[Any, ...] | None:
         """SymPy matrices that generate the group, acting on (y1, y2) suitably chosen and scaled.
 
-        For a finite group they generate it; for G_m there is one, with a free parameter t.  None for the other groups.
+        Returns
+        -------
+        tuple of sympy.Matrix, or None
+            For a finite group they generate it; for G_m there is one, with a free parameter t.  None for the other groups.
+
+        Notes
+        -----
         The diagonal ones are diagonal in the basis of the solutions with y'/y rational (cyclic, G_m) or of degree 2
         (dicyclic); the bases of the primitive groups are those of Klein's forms [Ikosaeder (1884), part I, chapter II].
         """
@@ -194,6 +224,12 @@ class Group:
 
     def __str__(self) -> str:
         return self.name
+
+    def __repr__(self) -> str:
+        return f"<Group {self.name}>"
+
+    def _repr_latex_(self) -> str:
+        return f"${self.latex}$"
 
 
 def _rotation(n: int | None) -> Any:

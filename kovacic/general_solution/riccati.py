@@ -12,6 +12,7 @@ from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.riccati_equation import read_riccati
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.numerals import as_latex
 from kovacic.solution import Solution, solve
 
 
@@ -19,10 +20,29 @@ from kovacic.solution import Solution, solve
 class RiccatiSolutions:
     """All rational and algebraic solutions of w' = p + q w + r w^2, as SymPy expressions in the variable.
 
-    `rational`: the rational ones where they are finitely many.  `family`: all solutions, with a constant C1, where all are
-    algebraic and known in closed form (C1 may be infinite: then it is `rational[0]`'s place).  `polynomial`: a polynomial in
-    w with the algebraic solutions of least degree as its roots, None without one.  `all_algebraic`: are all solutions
-    algebraic?  None if that wasn't determined.  `solution` is the answer for the linear equation.
+    Iterating gives the rational ones, and a notebook shows what there is.
+
+    Attributes
+    ----------
+    rational : tuple of sympy.Expr
+        The rational solutions, where they are finitely many.
+    family : sympy.Expr or None
+        All solutions, with a constant C1, where all are algebraic and known in closed form; C1 may be infinite.
+    polynomial : sympy.Expr or None
+        A polynomial in w with the algebraic solutions of least degree as its roots.
+    all_algebraic : bool or None
+        Are all solutions algebraic?  None if that wasn't determined.
+    solution : Solution
+        The answer for the linear equation.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> found = kovacic.solve_riccati("w' = x^2 + 3 - w^2")
+    >>> found.rational, found.family, found.polynomial, found.all_algebraic
+    (((x**2 + 1)/x,), None, None, False)
+    >>> kovacic.solve_riccati("w' = 2*w/x + w^2").family
+    -3*C1*x**2/(C1*x**3 + 1)
     """
 
     rational: tuple[Any, ...]
@@ -34,6 +54,12 @@ class RiccatiSolutions:
     def __iter__(self) -> Any:
         return iter(self.rational)
 
+    def _repr_latex_(self) -> str:
+        found = [("w", w) for w in (self.family, *self.rational) if w is not None]
+        if self.polynomial is not None:
+            found.append((as_latex(self.polynomial), 0))
+        return r",\quad ".join(f"{left} = {as_latex(right)}" for left, right in found).join("$$")
+
 
 @limited
 def solve_riccati(
@@ -41,11 +67,28 @@ def solve_riccati(
 ) -> RiccatiSolutions:
     """All rational and algebraic solutions of the Riccati equation w' = p + q w + r w^2 with rational p, q, r.
 
-    The coefficients are texts, numbers or SymPy expressions; or `p` is the equation, as text or from
-    SymPy, and alone.  If the group of the linear equation is trivial or {1, -1} all
-    solutions are rational, with a constant: then `family` has them.  Raises `InputError` for r = 0, which isn't a Riccati
-    equation, and what `solve` raises.
+    Parameters
+    ----------
+    p, q, r : str, number or sympy.Expr
+        The coefficients; or `p` alone is the equation, as text or from SymPy.
+    var : str
+        The name of the variable, where it isn't clear.
+    limits : Limits
+        Bounds on the input and on the work.
 
+    Returns
+    -------
+    RiccatiSolutions
+        If the group of the linear equation is trivial or {1, -1} all solutions are rational, with a constant: then `family` has
+        them.
+
+    Raises
+    ------
+    InputError
+        For r = 0, which isn't a Riccati equation, and what `kovacic.solve` raises.
+
+    Examples
+    --------
     >>> found = solve_riccati("x^2 + 3", 0, -1)
     >>> found.rational, found.family, found.all_algebraic
     (((x**2 + 1)/x,), None, False)

@@ -43,13 +43,47 @@ _SCREEN = 24
 
 @dataclass(frozen=True)
 class ParametricAnswer:
-    """The partition of parameter space for y'' = S y: frozen and picklable.
+    """For which values of its parameters y'' = S y has Liouvillian solutions: frozen and picklable.
 
-    `generic` holds where no region's statement does; the regions are tried in their order.  `complete` is True where the
-    list is proven to be complete, else a sentence such as "up to degree 12 (...)".  All of it holds for values with the
-    `assumptions`.  `constant` is the value of the algebraic constant in S, which is a parameter of `S` here.  `equation` is the
-    equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None where S
-    itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
+    `str` has the regions in lines, and a notebook shows them as cases.  The regions are tried in their order: the first one
+    whose statement holds decides.  All of it holds for values with the `assumptions`.
+
+    Attributes
+    ----------
+    S : RatFunc
+        The coefficient of the normal form; an algebraic constant in it is a parameter here.
+    variable : str
+        The name of x.
+    parameters : tuple of str
+        The names of the parameters.
+    generic : RegionVerdict
+        What holds where no region's statement does.
+    regions : tuple of ParameterRegion
+        The other values, in their order.
+    complete : bool or str
+        True where the list is proven to be complete, else a sentence such as "up to degree 12 (...)".
+    theory : str
+        By which theorems.
+    limits : Limits
+        They hold for what is asked later, too.
+    notices : tuple of str
+        What was noticed when the input was read.
+    assumptions : Assumptions
+        What was assumed about the parameters.
+    constant : ParameterPoint
+        The value of the algebraic constant in S.
+    equation : Equation or None
+        The equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None where
+        S itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> answer = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+    >>> print(answer.regions[0], "|", answer.generic, "|", answer.complete)
+    n - 1/2 in Z: case 1 | no Liouvillian solution | True
+    >>> answer.case_at({"n": "1/2"}), answer.case_at({"n": 1})
+    (1, None)
     """
 
     S: RatFunc
@@ -71,22 +105,56 @@ class ParametricAnswer:
         return self.complete is True or not str(self.complete).startswith("only as far")
 
     def region_at(self, values: Mapping[Any, Any]) -> ParameterRegion | None:
-        """The region that contains a point; None for the generic one."""
+        """The region that contains a point; None for the generic one.
+
+        Parameters
+        ----------
+        values : mapping
+            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+
+        Raises
+        ------
+        InputError
+            Where a parameter has no value, or one that contradicts an assumption.
+        """
         return self.region_of(self.point(values))
 
     def region_of(self, point: ParameterPoint) -> ParameterRegion | None:
-        """The same for a point of `self.point`."""
+        """The same for a point of `self.point`.
+
+        Parameters
+        ----------
+        point : ParameterPoint
+            What `point` returned.
+        """
         return next((region for region in self.regions if region.statement.holds(point)), None)
 
     def determinant(self, number: int) -> tuple[Determinant, ...]:
         """Delta_d of the conditions with a natural number d, for one d and each way in which the exponents give it.
 
+        Parameters
+        ----------
+        number : int
+            d, from 0.
+
+        Returns
+        -------
+        tuple of Determinant
+            Their `str` is a polynomial in the parameters, which must vanish.
+
+        Raises
+        ------
+        InputError
+            For what isn't a natural number, or where no region has such a condition.
+        LimitExceeded
+            Where it takes longer than the limits allow.
+
+        Examples
+        --------
         >>> import kovacic
         >>> quartic = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x")
         >>> [str(delta) for delta in quartic.determinant(1)]
         ['a^4 - 8*a^2*c + 32*a + 16*c^2', 'a^4 - 8*a^2*c + 32*a + 16*c^2']
-
-        Raises `InputError` for what isn't a natural number, or where no region has such a condition, and `LimitExceeded`.
         """
         parts = [part for region in self.regions for part in both(region.statement).parts]
         natural = [part for part in parts if isinstance(part, Natural)]
@@ -98,10 +166,24 @@ class ParametricAnswer:
 
     @limited
     def case_at(self, values: Mapping[Any, Any]) -> int | None:
-        """The case at a point with rational or algebraic coordinates: {"n": Fraction(3, 2)}, {n: sqrt(2)}.
+        """The case at a point; where the regions claim nothing (see `complete`), the equation is decided there.
 
-        Where the regions claim nothing (see `complete`) the equation is decided there.  Raises `InputError` where S isn't
-        defined, or a parameter has no value.
+        Parameters
+        ----------
+        values : mapping
+            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+
+        Returns
+        -------
+        int or None
+            Kovacic's case, 1 to 3; None without a Liouvillian solution.
+
+        Raises
+        ------
+        InputError
+            Where S isn't defined, or a parameter has no value.
+        LimitExceeded
+            Where it isn't decided within the limits.
         """
         point = self.point(values)
         verdict = self.predicted(point)
@@ -116,7 +198,13 @@ class ParametricAnswer:
 
     @limited
     def answer_at(self, values: Mapping[Any, Any]) -> Answer:
-        """The verified answer at a point: the omega that the region makes possible."""
+        """The verified answer at a point, as data: `solve_at` returns it with its methods.
+
+        Parameters
+        ----------
+        values : mapping
+            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+        """
         point = self.point(values)
         try:
             S = point.restricted(self.S)
@@ -129,7 +217,13 @@ class ParametricAnswer:
         return replace(answer, verified=verified)
 
     def predicted(self, point: ParameterPoint) -> RegionVerdict | None:
-        """What the regions claim; None where S isn't defined."""
+        """What the regions claim; None where S isn't defined.
+
+        Parameters
+        ----------
+        point : ParameterPoint
+            What `point` returned.
+        """
         try:
             point.restricted(self.S)
         except ZeroDivisionError:
@@ -140,7 +234,18 @@ class ParametricAnswer:
         return self.generic if self.complete is True else RegionVerdict(self.generic.structure, known=False)
 
     def point(self, values: Mapping[Any, Any]) -> ParameterPoint:
-        """The values of the parameters as constants of one field."""
+        """The values of the parameters as constants of one field.
+
+        Parameters
+        ----------
+        values : mapping
+            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+
+        Raises
+        ------
+        InputError
+            Where a parameter has no value, or one that contradicts an assumption.
+        """
         given = {str(name): value for name, value in values.items()}
         missing = ", ".join(name for name in self.parameters if name not in given)
         unknown = ", ".join(name for name in given if name not in self.parameters)
@@ -156,7 +261,24 @@ class ParametricAnswer:
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
         """Solve the equation without parameters at exact points inside and outside of the regions, and compare.
 
-        As far as the time limit allows.
+        Parameters
+        ----------
+        samples : int
+            The number of points: 200 by default, fewer if the time is over.
+        seed : int
+            The same points for the same seed, 1 by default.
+
+        Returns
+        -------
+        CheckReport
+            True when every sample agrees.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> report = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").check(20)
+        >>> bool(report), report.inside + report.outside
+        (True, 20)
         """
         samples = whole(samples, "samples")
         seed = whole(seed, "seed", least=None)
@@ -203,8 +325,18 @@ class ParametricAnswer:
     def from_json(cls, text: str | Mapping[str, Any]) -> ParametricAnswer:
         """The conditions that `to_json` wrote, but for `ParameterRegion.solution`.
 
-        Raises `InputError` for other data.
+        Parameters
+        ----------
+        text : str or mapping
+            The line of JSON, or the object that it stands for.
 
+        Raises
+        ------
+        InputError
+            For other data.
+
+        Examples
+        --------
         >>> import kovacic
         >>> answer = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
         >>> type(answer).from_json(answer.to_json()) == answer
@@ -264,7 +396,31 @@ class ParametricAnswer:
         steps: int = 48,
         fixed: Mapping[str, Any] | None = None,
     ) -> Any:
-        """A map of two parameters, or a strip for one: see `kovacic.parametric.plot.plot`."""
+        """A map of two parameters, or a strip for one, coloured by what the regions claim.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes
+            Where to draw; by default a new figure.
+        parameters : sequence of str
+            Which one or two; by default the first ones.
+        ranges : sequence of pairs
+            From and to, for each of them.
+        steps : int
+            Points in either direction: 48 by default.
+        fixed : mapping
+            The values of all other parameters.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those that were drawn into.
+
+        Raises
+        ------
+        InputError
+            For more than two parameters, or an empty range.
+        """
 
         def label_at(values: Mapping[Any, Any]) -> str:
             return str(self.predicted(self.point(values)) or "S not defined")
@@ -275,9 +431,12 @@ class ParametricAnswer:
         )
 
     def text(self, *, all: bool = False) -> str:
-        """The partition in lines: regions in a row with the same case are written together, and at most a screen of them.
+        """The partition in lines: regions in a row with the same case are written together.
 
-        With `all=True` every region is written.
+        Parameters
+        ----------
+        all : bool
+            Write every region; by default at most a screen of them.
         """
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}{known}"]
@@ -305,6 +464,9 @@ class ParametricAnswer:
 
     def __str__(self) -> str:
         return self.text()
+
+    def __repr__(self) -> str:
+        return f"<Conditions on {', '.join(self.parameters)} for y'' = {self.right.text}: {len(self.regions)} regions>"
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:

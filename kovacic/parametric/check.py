@@ -29,8 +29,14 @@ class Disagreement:
 class CheckReport:
     """The outcome of `kovacic.parameters.Conditions.check`: true when every sample agrees.
 
-    `inside` and `outside` count the points that were solved in a special region and in the generic one; `open` those for
-    which the regions claim nothing.
+    Attributes
+    ----------
+    inside, outside : int
+        The number of points that were solved in a special region, and in the generic one.
+    open : int
+        The number of points for which the regions claim nothing.
+    disagreements : tuple of Disagreement
+        The points at which the regions and the engine differ.
     """
 
     inside: int

@@ -32,9 +32,23 @@ _LINE = 100
 
 @dataclass(frozen=True)
 class RegionVerdict:
-    """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
+    """What holds in a region of parameters.
 
-    `family` says more about the group than the structure does.
+    Attributes
+    ----------
+    structure : Structure or None
+        The structure of the group; None without a Liouvillian solution.
+    known : bool
+        Is anything claimed?
+    family : str or None
+        More about the group than the structure says.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> generic = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").generic
+    >>> print(generic, "|", generic.case, "|", generic.group)
+    no Liouvillian solution | None | SL2(C)
     """
 
     structure: Structure | None
@@ -43,19 +57,34 @@ class RegionVerdict:
 
     @classmethod
     def of(cls, decision: Decision) -> RegionVerdict:
-        """What the engine's decision says."""
+        """What the engine's decision says.
+
+        Parameters
+        ----------
+        decision : Decision
+            Of one equation.
+        """
         return cls(decision.structure, decision.status is not Status.UNDECIDED)
 
     def to_dict(self) -> dict[str, Any]:
+        """Its part of the JSON object."""
         return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionVerdict:
+        """The way back from `to_dict`.
+
+        Parameters
+        ----------
+        data : mapping
+            What `to_dict` returned.
+        """
         structure = data["structure"]
         return cls(None if structure is None else Structure(structure), data["known"], data["family"])
 
     @property
     def case(self) -> int | None:
+        """Kovacic's case, 1 to 3; None without a Liouvillian solution."""
         return None if self.structure is None else self.structure.case
 
     @property
@@ -86,11 +115,29 @@ _GROUPS = {
 
 @dataclass(frozen=True)
 class ParameterRegion:
-    """One region: where `statement` holds and no earlier region's.
+    """One region: where its `statement` holds and no earlier region's.
 
-    `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
-    is proven that the statement describes all such values and nothing else, else what isn't proven.  `defined` is False where
-    S isn't defined.  `determinants` has the first ones of a statement with a natural number.
+    Attributes
+    ----------
+    statement : Statement
+        Logic about the parameters; `str` of the condition begins with its text.
+    verdict : RegionVerdict
+        What holds there.
+    complete : bool or str
+        True where it is proven that the statement describes all such values and nothing else, else what isn't proven.
+    defined : bool
+        False where S isn't defined.
+    determinants : tuple of str
+        The first ones of a statement with a natural number in it.
+    origin : callable or None
+        What `solution` asks; None where no formula is known.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> region = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
+    >>> print(region, "|", region.case, "|", region.complete)
+    n - 1/2 in Z: case 1 | 1 | True
     """
 
     statement: Statement
@@ -103,10 +150,21 @@ class ParameterRegion:
     def solution(self, number: int | None = None) -> tuple[PolynomialSolution, ...]:
         """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
 
-        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions.  Where the condition has a determinant
-        Delta_d in it they are given for one d, the `number`: the coefficients of P are functions of the parameters, and in
-        the region y is a solution where `where` holds.  () where no formula is known; `why_no_solution` says why.
+        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions.
 
+        Parameters
+        ----------
+        number : int
+            Where the condition has a determinant Delta_d in it, they are given for this d: the coefficients of P are functions
+            of the parameters, and in the region y is a solution where `where` holds.
+
+        Returns
+        -------
+        tuple of PolynomialSolution
+            () where no formula is known; `why_no_solution` says why.
+
+        Examples
+        --------
         >>> import kovacic
         >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
         >>> bessel.solution()[0].degree
@@ -135,10 +193,12 @@ class ParameterRegion:
 
     @property
     def case(self) -> int | None:
+        """Kovacic's case in the region; None without a Liouvillian solution."""
         return self.verdict.case
 
     @property
     def group(self) -> str:
+        """The family of the Galois group, in words."""
         return self.verdict.group if self.defined else "S isn't defined"
 
     @property
@@ -152,6 +212,9 @@ class ParameterRegion:
         data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
         data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
         return data | ({"determinants": list(self.determinants)} if self.determinants else {})
+
+    def __repr__(self) -> str:
+        return f"<ParameterRegion {self.statement.text()}: {self.verdict if self.defined else self.group}>"
 
     def __str__(self) -> str:
         known = "" if self.complete is True or not self.defined else f" [{self.complete}]"

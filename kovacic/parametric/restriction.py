@@ -51,7 +51,22 @@ def structure_changes(problem: Problem) -> list[FunctionPoly]:
 
 @dataclass(frozen=True)
 class GenericConditions:
-    """What must not vanish, and the squares of the exponent differences that were taken for irrational ones."""
+    """For which values of the parameters an answer holds; true where there is a condition.
+
+    Attributes
+    ----------
+    nonzero : tuple
+        Polynomials in the parameters that must not vanish.
+    irrational_squares : tuple
+        Squares of differences of exponents, which were taken for irrational.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> conditions = kovacic.solve("n*x").generic_conditions
+    >>> bool(conditions), str(conditions)
+    (True, 'n != 0')
+    """
 
     nonzero: tuple[FunctionPoly, ...]
     irrational_squares: tuple[FunctionPoly, ...]

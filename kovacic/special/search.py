@@ -10,6 +10,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
+from kovacic.numerals import as_latex
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
@@ -26,11 +27,31 @@ EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
 
 @dataclass(frozen=True)
 class SpecialFunctions:
-    """y1 and y2, SymPy expressions, and the verified pull-back that they come from; all None where nothing was found.
+    """Two solutions in special functions; true where they were found, and iterating gives both.
 
-    `searched` says which classes were gone through, `stopped` why a search ended early.  That nothing was found proves nothing:
-    functions f outside of the classes, and combinations of u(f) and its derivative, aren't looked for.
-    """
+    That nothing was found proves nothing: functions f outside of the classes, and combinations of u(f) and its derivative,
+    aren't looked for.
+
+    Attributes
+    ----------
+    pullback : Pullback or None
+        The verified pull-back of a standard equation that the solutions come from; None where nothing was found.
+    searched : tuple of str
+        The classes that were gone through.
+    stopped : str or None
+        Why a search ended early.
+    y1, y2 : sympy.Expr or None
+        The solutions.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> found = kovacic.solve("x").special
+    >>> bool(found), *found
+    (True, airyai(x), airybi(x))
+    >>> print(kovacic.solve("x^5 + 1/x^3").special)
+    no special function was found; searched: Airy's equation in f(x), f rational; Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational; Bessel's equation in the square root of f(x), f rational
+    """  # noqa: E501 - the last line is printed
 
     pullback: Pullback | None
     searched: tuple[str, ...]
@@ -48,6 +69,14 @@ class SpecialFunctions:
 
     def __bool__(self) -> bool:
         return self.pullback is not None
+
+    def __repr__(self) -> str:
+        return f"<SpecialFunctions: {f'{self.y1}, {self.y2}' if self else 'none was found'}>"
+
+    def _repr_latex_(self) -> str | None:
+        if self.pullback is None:
+            return None
+        return rf"$y_1 = {as_latex(self.y1)},\quad y_2 = {as_latex(self.y2)}$"
 
     def __str__(self) -> str:
         if self.pullback is not None:

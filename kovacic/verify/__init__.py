@@ -18,6 +18,7 @@ Everything else is written here, in the plainest way, and a contract in pyprojec
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.ratfunc import RatFunc
@@ -34,7 +35,15 @@ _OMEGA_DEGREE = dict(zip(Structure, (1, 2, 4, 6, 12), strict=True))
 
 @dataclass(frozen=True)
 class Check:
-    """One statement that was checked, and whether it holds."""
+    """One statement that was checked.
+
+    Attributes
+    ----------
+    statement : str
+        A sentence.
+    passed : bool
+        Does it hold?
+    """
 
     statement: str
     passed: bool
@@ -44,11 +53,32 @@ class Check:
 class Verification:
     """All checks of one decision; true exactly when every one passed and there was something to check.
 
-    `unchecked` has the statements that the kernel can't recompute.
+    Attributes
+    ----------
+    checks : tuple of Check
+        What was recomputed.
+    unchecked : tuple of str
+        The statements that the kernel can't recompute.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> report = kovacic.solve("x").verify()
+    >>> bool(report), report.unchecked, report.checks[0]
+    (True, (), Check(statement="the Galois group isn't reducible (case 1)", passed=True))
     """
 
     checks: tuple[Check, ...]
     unchecked: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        passed = sum(check.passed for check in self.checks)
+        return f"<Verification: {passed} of {len(self.checks)} checks passed, {len(self.unchecked)} not made>"
+
+    def _repr_html_(self) -> str:
+        rows = [(check.statement, "passed" if check.passed else "FAILED") for check in self.checks]
+        rows += [(statement, "not checked") for statement in self.unchecked]
+        return "".join(["<table>", *(f"<tr><td>{escape(s)}</td><td>{r}</td></tr>" for s, r in rows), "</table>"])
 
     def __bool__(self) -> bool:
         return bool(self.checks) and all(check.passed for check in self.checks)
