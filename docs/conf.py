@@ -48,7 +48,7 @@ autoclass_content = "class"
 
 html_theme = "furo"
 html_title = f"kovacic {version}"
-html_static_path = ["_static"]
+html_static_path = ["_static", "../kovacic/writing/math.woff2"]
 html_css_files = ["formulas.css"]
 html_show_sourcelink = False
 html_copy_source = False

@@ -45,8 +45,9 @@ def test_a_guide_starts_with_something_that_runs(page: Path) -> None:
 
 
 def test_the_reference_has_every_public_name() -> None:
-    reference = (ROOT / "docs" / "reference" / "api.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"^\.\. auto\w+:: kovacic\.(\w+)$", reference, re.MULTILINE)) == set(kovacic.__all__)
+    pages = (ROOT / "docs" / "reference" / name for name in ("api.md", "types.md"))
+    reference = "".join(page.read_text(encoding="utf-8") for page in pages)
+    assert set(re.findall(r"^\.\. auto\w+:: kovacic\.(\w+)(?:\(\))?$", reference, re.MULTILINE)) == set(kovacic.__all__)
 
 
 def test_every_benchmark_is_listed_with_its_question() -> None:

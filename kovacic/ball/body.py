@@ -287,7 +287,7 @@ class BallOnSphere(Rolling):
     --------
     >>> place = RollingBall(m=1, R=2, a="1/5", A1=1, A3="4/3").on_sphere(3)
     >>> place.kind, place.ratio
-    ('generic: D has two simple roots', 2/3)
+    ('D has two simple roots, a complex conjugate pair', 2/3)
     """
 
     ball: RollingBall

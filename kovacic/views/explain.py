@@ -6,6 +6,7 @@ First the paper's own steps, line by line (`steps`), then what this package clai
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from io import StringIO
 
 from kovacic import derived
@@ -26,9 +27,10 @@ from kovacic.views.sentences import (
     reason,
     shorter_pair,
     solutions_of,
+    verdict_of,
 )
 from kovacic.views.steps import DEGREE, Steps
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, page, say
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, anchor, page, say
 from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.writing.omega import constants_math, omega_math
 
@@ -46,6 +48,9 @@ _BY_INVARIANT = {
     Structure.OCTAHEDRAL: "an invariant of degree 8, the least one of the binary octahedral group",
     Structure.ICOSAHEDRAL: "an invariant of degree 12, the least one of the binary icosahedral group",
 }
+#: Longer solutions stand in their own part only.
+_SHORT = 200
+_PICTURE = "A picture"
 #: Steps of Taylor's method times their bits, or values of closed forms: some seconds.
 _PICTURE_WORK = 400_000
 
@@ -63,15 +68,33 @@ def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> 
     blocks = document(answer, solutions=solutions)
     if format != "html":
         return FORMATS[format].render(blocks)
-    body = FORMATS[format].render(blocks) + _picture(answer)
-    return page(shortened(answer.text), body)
+    return page(shortened(answer.text), _body(blocks, _picture(answer)))
+
+
+def _body(blocks: list[Block], picture: str) -> str:
+    """The equation and the answer, a table of contents, and the rest."""
+    starts = [k for k, block in enumerate(blocks) if isinstance(block, Heading)]
+    titles = [block.text for block in blocks[starts[2] :] if isinstance(block, Heading)]
+    if picture:
+        titles.append(_PICTURE)
+    html = FORMATS["html"]
+    contents = "".join(f'<li><a href="#{anchor(title)}">{html.plain(title)}</a></li>' for title in titles)
+    first = html.render(blocks[: starts[2]])
+    return f"{first}\n<nav><ul>{contents}</ul></nav>\n\n{html.render(blocks[starts[2] :])}{picture}"
 
 
 def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
     writer = _Writer(answer)
     steps = writer.steps
-    parts = [writer.equation, steps.local_data, steps.necessary, steps.search, writer.cases]
+    parts: list[Callable[[], Iterator[Block]]] = [
+        writer.equation,
+        partial(writer.verdict, solutions=solutions),
+        steps.local_data,
+        steps.necessary,
+        steps.search,
+        writer.cases,
+    ]
     if answer.status is Status.LIOUVILLIAN:
         parts += [writer.certificate, writer.omega]
     if solutions and answer.status is not Status.UNDECIDED:
@@ -106,7 +129,8 @@ def _picture(answer: Answer) -> str:
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
     svg = drawing.getvalue()[drawing.getvalue().index("<svg") :]
     caption = "The solution with y = 1, y&#x27; = 0 in the middle of its longest interval without a singular point."
-    return f"\n<h2>A picture</h2>\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
+    heading = FORMATS["html"].heading(_PICTURE, 2)
+    return f"\n{heading}\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
 
 
 class _Writer:
@@ -129,6 +153,18 @@ class _Writer:
             yield Formula(normal_form(answer, v))
             yield say(f"In the following y stands for {v}.")
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
+
+    def verdict(self, *, solutions: bool) -> Iterator[Block]:
+        """The answer in short."""
+        found, more = verdict_of(self.answer)
+        yield Heading("The answer")
+        yield say(f"{found[0].upper()}{found[1:]}: {more}.")
+        semi = self.answer.semi_invariant
+        if not solutions or self.answer.status is Status.UNDECIDED or (semi and semi.P.degree > LARGEST_DEGREE):
+            return
+        pair, _ = solutions_of(self.answer)
+        if pair and max(len(y.text) for _, y in pair) <= _SHORT:
+            yield from (Formula(name.equals(y)) for name, y in pair)
 
     def cases(self) -> Iterator[Block]:
         decision = self.answer.decision

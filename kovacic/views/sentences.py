@@ -14,6 +14,8 @@ from kovacic.writing.omega import omega_math
 #: Characters; beside a longer formula another pair is offered.
 SCREEN = 600
 #: What is said before it.
+#: Verdicts.
+SOLVABLE, UNSOLVABLE, UNDECIDED = "Liouvillian solutions exist", "no Liouvillian solution exists", "undecided"
 SHORTER = "shorter, in special functions:"
 
 
@@ -87,3 +89,18 @@ def _named(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:
     y = unknown_of(answer)
     names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
     return list(zip(names, map(of_sympy, values), strict=False))
+
+
+def verdict_of(answer: Answer) -> tuple[str, str]:
+    """What was found, and which case or why."""
+    if answer.assumed and answer.reason is not None:
+        return SOLVABLE, answer.reason
+    if answer.riccati is not None:
+        return SOLVABLE, f"case {answer.case}, omega = y'/y is {of_degree(answer.riccati.degree)}"
+    if answer.reason is not None:
+        return UNDECIDED, answer.reason
+    return UNSOLVABLE, "the Galois group is SL2(C)"
+
+
+def of_degree(degree: int) -> str:
+    return "rational" if degree == 1 else f"algebraic of degree {degree}"

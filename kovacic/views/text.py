@@ -16,14 +16,19 @@ from kovacic.reading.lexer import is_equation
 from kovacic.shown import in_one_line, visible
 from kovacic.views.sentences import (
     SHORTER,
+    SOLVABLE,
+    UNDECIDED,
+    UNSOLVABLE,
     equation_of,
     formulas_of,
     normal_form,
+    of_degree,
     omega_of,
     reason,
     shorter_pair,
     solutions_of,
     unknown_of,
+    verdict_of,
 )
 from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, shortened
 from kovacic.writing.omega import omega_lines
@@ -33,6 +38,7 @@ if TYPE_CHECKING:
 
 #: Longer formulas aren't typeset in a table.
 _LONGEST = 3000
+_ROLES = {SOLVABLE: "good", UNSOLVABLE: "bad", UNDECIDED: "unsure"}
 _NEITHER = {Status.NONE_EXISTS: "no Liouvillian solution", Status.UNDECIDED: "undecided"}
 
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
@@ -48,7 +54,7 @@ def one_line(answer: Answer) -> str:
         return f"{equation}: no Liouvillian solution"
     if answer.omega is not None:
         return f"{equation}: case {answer.case}, omega = {omega_of(answer).text}"
-    degree = "" if answer.riccati is None else f", omega {_of_degree(answer.riccati.degree)}"
+    degree = "" if answer.riccati is None else f", omega {of_degree(answer.riccati.degree)}"
     return f"{equation}: case {answer.case}{degree}"
 
 
@@ -64,16 +70,8 @@ def render(
         yield style(f"  note: {visible(notice)}", "faint")
     if answer.equation is not None and not answer.equation.is_normal_form:
         yield f"  normal form: {normal_form(answer).text}, of which the following speaks"
-    if answer.assumed and answer.reason is not None:
-        yield f"  {style('Liouvillian solutions exist', 'good')}: {visible(answer.reason)}"
-    elif answer.status is Status.UNDECIDED:
-        yield f"  {style('undecided', 'unsure')}: {visible(answer.reason or '')}"
-    elif answer.status is Status.NONE_EXISTS:
-        yield f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)"
-    else:
-        assert answer.riccati is not None
-        case = f"case {answer.case}, omega = y'/y is {_of_degree(answer.riccati.degree)}"
-        yield f"  {style('Liouvillian solutions exist', 'good')}: {case}"
+    said, more = verdict_of(answer)
+    yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     yield from (f"  {line}" for line in solutions or ())
     if answer.riccati is not None:
         yield from (f"  {line}" for line in omega_lines(answer.riccati, formulas_of(answer)))
@@ -170,10 +168,6 @@ def _exclusions(answer: Answer) -> list[str]:
         which = f" ({', '.join(structures)})" if case == 3 else ""
         lines.append(f"not case {case}{which}: {reasons}")
     return lines
-
-
-def _of_degree(degree: int) -> str:
-    return "rational" if degree == 1 else f"algebraic of degree {degree}"
 
 
 def latex_view(answer: Answer) -> str:

@@ -6,8 +6,11 @@ A sentence is a plain string, `Math`, or a sequence of these.
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pkgutil import get_data
+from string import Template
 
 from kovacic import shown
 from kovacic.writing.breaking import LINE, breakable, pieces, width
@@ -23,6 +26,11 @@ Sentence = str | Math | Sequence[str | Math]
 class Heading:
     text: str
     level: int = 2
+
+
+def anchor(heading: str) -> str:
+    """The name of a heading in the address of a page."""
+    return re.sub(r"\W+", "-", heading).strip("-").lower()
 
 
 @dataclass(frozen=True)
@@ -185,7 +193,7 @@ FORMATS = {
         plain=shown.latex,
     ),
     "html": Format(
-        heading=lambda text, level: f"<h{level}>{text}</h{level}>",
+        heading=lambda text, level: f'<h{level} id="{anchor(text)}">{text}</h{level}>',
         math=_html_math,
         formula=_html_formula,
         table=_html_table,
@@ -196,20 +204,24 @@ FORMATS = {
 
 
 def page(title: str, body: str) -> str:
-    """A page of HTML that needs nothing from elsewhere, in ASCII."""
-    written = _HTML.replace("BODY", body, 1).replace("TITLE", shown.html(title), 1)
+    """A page of HTML that needs nothing from elsewhere, the font of its formulas included, in ASCII."""
+    font = b64encode(get_data("kovacic.writing", "math.woff2") or b"").decode("ascii")
+    written = _HTML.substitute(title=shown.html(title), font=font, body=body)
     return written.encode("ascii", "xmlcharrefreplace").decode()
 
 
-_HTML = """<!doctype html>
+_HTML = Template("""<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>TITLE</title>
+<title>$title</title>
 <style>
+@font-face { font-family: "kovacic math"; src: url(data:font/woff2;base64,$font) format("woff2") }
 body { max-width: 52rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 Georgia, serif; color: #222; background: #fff }
 table { border-collapse: collapse; margin: 1rem 0 } td, th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
-h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } svg { max-width: 100%; height: auto } math { font-size: 1.08em }
+h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } svg { max-width: 100%; height: auto }
+math { font-family: "kovacic math", math; font-size: 1.08em }
 p { overflow-x: auto }
 mtd { text-align: left; math-style: normal } figure { margin: 1rem 0 } figcaption { color: #666; font-size: .9em }
+nav ul { columns: 16rem; padding-left: 1.2rem } a { color: #04529c }
 </style></head><body>
-BODY</body></html>
-"""
+$body</body></html>
+""")
