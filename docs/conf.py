@@ -35,7 +35,7 @@ napoleon_use_rtype = False
 myst_enable_extensions = ["dollarmath", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["build", "_build"]
-suppress_warnings = ["myst.strikethrough", "ref.python"]  # two classes are called Verdict
+suppress_warnings = ["myst.strikethrough"]
 
 default_role = "code"
 smartquotes = False  # snippets are to be pasted

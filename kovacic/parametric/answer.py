@@ -466,7 +466,8 @@ class ParametricAnswer:
         return self.text()
 
     def __repr__(self) -> str:
-        return f"<Conditions on {', '.join(self.parameters)} for y'' = {self.right.text}: {len(self.regions)} regions>"
+        names, regions = ", ".join(self.parameters), f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
+        return f"<Conditions on {names} for y'' = {self.right.text}: {regions}>"
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
