@@ -21,7 +21,7 @@ _NAMES = {
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
     "enclosure.ball": ("Ball",),
-    "enclosure.evaluate": ("evaluate",),
+    "enclosure.evaluate": ("Prepared", "evaluate", "prepared"),
     "enclosure.monodromy": ("connection_matrix", "monodromy"),
     "enclosure.precision": ("AccuracyWarning",),
     "equation": ("Equation",),

@@ -7,7 +7,9 @@ from kovacic.decision import Status as Status
 from kovacic.decision import Structure as Structure
 from kovacic.doubles.tabulate import tabulate as tabulate
 from kovacic.enclosure.ball import Ball as Ball
+from kovacic.enclosure.evaluate import Prepared as Prepared
 from kovacic.enclosure.evaluate import evaluate as evaluate
+from kovacic.enclosure.evaluate import prepared as prepared
 from kovacic.enclosure.monodromy import connection_matrix as connection_matrix
 from kovacic.enclosure.monodromy import monodromy as monodromy
 from kovacic.enclosure.precision import AccuracyWarning as AccuracyWarning

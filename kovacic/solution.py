@@ -169,7 +169,8 @@ class Solution(Answer):
         derivative : bool
             With True, pairs of balls, y and y', come back.  False by default.
         y0, dy0, frobenius, which, path
-            The solution and the way, as for `kovacic.evaluate`; y0 and dy0 only where coefficients in exp(k x) were given.
+            The solution and the way, as for `kovacic.evaluate`; y0 and dy0 only where coefficients
+            aren't rational.
         params : mapping
             Values of the parameters by name: {"a": 2}.
         digits : int

@@ -17,7 +17,7 @@ from published import load
 import kovacic
 import kovacic.doubles.tabulate as kovacic_tables
 from kovacic.doubles import double_double as dd
-from kovacic.doubles.chart import PieceChart
+from kovacic.doubles.chart import RationalChart
 from kovacic.doubles.lambdify import lambdify, measure, samples
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import BLOCK, MEDIAN, WORST
@@ -191,7 +191,7 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
     """The closed form in balls, and the integration of the equation."""
     problem = as_problem(kovacic.solve(S))
     base, points = as_point("1/3", "x"), [as_point(v, "x") for v in ("1/7", "2/3", "5/8")]
-    found = PieceChart(problem, {}).beginning(0, base).states(points, 50, None)
+    found = RationalChart(problem, {}).beginning(0, base).states(points, 50, None)
     slope = ball_from_flint(omega(problem, 0, base, 4000))
     exact = evaluate_states(problem, points, x0=base, y0=1, dy0=slope, digits=50)
     for (y, dy), state in zip(found, exact, strict=True):
@@ -615,9 +615,9 @@ def test_states_carried_by_the_series_are_those_of_enclosures(
 
 def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     """Here no state is lost: the solution oscillates."""
-    asked, states = [], PieceChart.states
+    asked, states = [], RationalChart.states
     monkeypatch.setattr(
-        PieceChart, "states", lambda self, points, *rest: asked.extend(points) or states(self, points, *rest)
+        RationalChart, "states", lambda self, points, *rest: asked.extend(points) or states(self, points, *rest)
     )
     table = tabulate("x", -300, 0, x0=0, y0=1, dy0=0, careful=False)
     assert len(asked) < len(table.centres) / 20

@@ -6,7 +6,7 @@ A symbol has a ball (flint's `acb`) or, where derivatives are wanted, a Taylor s
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache, reduce
 from operator import add, mul
 from typing import Any
@@ -28,6 +28,26 @@ _MEROMORPHIC = """
 _INVERSE = "asin acos atan asinh acosh atanh"
 _NAMES = {getattr(sympy, name): name for name in (_MEROMORPHIC + _INVERSE).split()}
 _CUT = {getattr(sympy, name) for name in _INVERSE.split()}
+#: Of power series flint has fewer functions: others are quotients,
+_QUOTIENTS: dict[str, Callable[[Any], Any]] = {
+    "cot": lambda s: s.cos() / s.sin(),
+    "sec": lambda s: 1 / s.cos(),
+    "csc": lambda s: 1 / s.sin(),
+    "sinh": lambda s: (s.exp() - (-s).exp()) / 2,
+    "cosh": lambda s: (s.exp() + (-s).exp()) / 2,
+    "tanh": lambda s: 1 - 2 / ((2 * s).exp() + 1),
+    "coth": lambda s: 1 + 2 / ((2 * s).exp() - 1),
+    "sech": lambda s: 2 / (s.exp() + (-s).exp()),
+    "csch": lambda s: 2 / (s.exp() - (-s).exp()),
+}
+#: or have a derivative that it knows, on their principal branches.
+_SLOPES: dict[str, Callable[[Any], Any]] = {
+    "asin": lambda s: (1 - s * s).rsqrt(),
+    "acos": lambda s: -(1 - s * s).rsqrt(),
+    "asinh": lambda s: (1 + s * s).rsqrt(),
+    "acosh": lambda s: (s - 1).rsqrt() * (s + 1).rsqrt(),
+    "atanh": lambda s: 1 / (1 - s * s),
+}
 
 
 class BallEvaluator:
@@ -70,6 +90,8 @@ class BallEvaluator:
             return root_near(fmpz_poly([int(c) for c in integers]), acb(_coarse_value(e)))
         if e.func in _NAMES and len(e.args) == 1:
             return self._applied(e)
+        if e.func is sympy.acot:
+            return self(sympy.atan(1 / e.args[0]))
         return self.other(e)
 
     def _power(self, base: Any, exponent: Any) -> Value:
@@ -91,7 +113,13 @@ class BallEvaluator:
         if self.analytic and e.func in _CUT:
             return self(e.rewrite(sympy.log))
         value, name = self(e.args[0]), _NAMES[e.func]
-        return getattr(value, name)() if hasattr(value, name) else self.other(e)
+        if hasattr(value, name):
+            return getattr(value, name)()
+        if name in _QUOTIENTS:
+            return _QUOTIENTS[name](value)
+        if name in _SLOPES:
+            return (_SLOPES[name](value) * value.derivative()).integral() + getattr(value[0], name)()
+        return self.other(e)
 
     def other(self, e: Any) -> Value:
         """What isn't arithmetic and an elementary function."""

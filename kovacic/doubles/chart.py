@@ -1,35 +1,36 @@
 """An equation seen from the middle of a piece, x = c + H u, |u| <= 1, and the states of one of its solutions in balls.
 
-Where a Y'' + b Y' + c Y = f has the variable t = exp(k x), sin(k x), ..., the equation for y(x) = Y(t(x)) is
-
-    y'' + (b t'/a - t''/t') y' + (c t'^2/a) y = t'^2 f/a,    ' = d/du.                                                    (1)
+Two kinds: rational coefficients, exact (`RationalChart`), and any functions of x, by their power series (`AnalyticChart`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from flint import acb, acb_series, arb, arb_poly, ctx, fmpq_poly
+from flint import acb, arb, arb_poly, fmpq_poly
 
-from kovacic.doubles.double_double import horner
+from kovacic.answer import Answer
 from kovacic.doubles.region import Region, region_of
-from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
+from kovacic.enclosure.analytic import analytic_question
+from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
 from kovacic.enclosure.constants import in_balls
 from kovacic.enclosure.forcing import Forcing, forcing_of
+from kovacic.enclosure.functions import coefficients_of_any
+from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, to_double, working_precision
 from kovacic.enclosure.precision import start_bits
-from kovacic.enclosure.problem import NumericProblem, as_problem, change_of
+from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, NotRational
-from kovacic.limits import Limits, check_time, count_work
-from kovacic.reading.read import read_input
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
+from kovacic.reading.change_of_variable import function_of_x, without_change
 
 _SLOPE_BITS = 4000
 """Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
@@ -40,61 +41,27 @@ _NOISE = 2.0**-40
 
 
 @dataclass(frozen=True)
-class PieceChart:
-    """The equation a y'' + b y' + c y = f, and which solution: the options of `evaluate`.
-
-    Where `answer`, the equation or solution in x, has a change of variable, the problem is that in t; else t = x.
-    """
+class RationalChart:
+    """The equation a y'' + b y' + c y = f, and which solution: the options of `evaluate`."""
 
     problem: NumericProblem
     given: dict[str, Any]
     branch: Exponential | None = None
-    answer: Any = None
-    params: Mapping[str, object] | None = None
-
-    @cached_property
-    def _functions(self) -> tuple[Any, Callable[[Any, Any], Any]]:
-        """t, a SymPy expression, and expressions as functions of x in balls or series."""
-        import sympy
-
-        from kovacic.enclosure.change import function_with_values
-        from kovacic.reading.change_of_variable import user_variable
-
-        x = user_variable(self.answer.equation)
-        t = function_with_values(self.answer.equation, self.params).rewrite([sympy.sinh, sympy.cosh], sympy.exp)
-        return t, lambda f, at: in_balls(f, {x: at})
-
-    def _values(self, x: acb) -> tuple[acb, acb]:
-        """t and dt/dx."""
-        if self.answer is None:
-            return x, acb(1)
-        t, at = self._functions
-        return at(t, x), at(t.diff(), x)
 
     def region(self, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
-        """See `region_of`; raises InputError, with the reason, where t isn't known to be real and monotone."""
-        found = region_of(self.problem if self.answer is None else None, interval)
-        if self.answer is not None and self.given:
-            self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
-        return found
-
-    def _in_t(self, x: ExactPoint) -> ExactPoint:
-        with working_precision(_SLOPE_BITS + 200):
-            return x if self.answer is None else midpoint(self._values(acb(x.x))[0])
+        """See `region_of`."""
+        return region_of(self.problem, interval)
 
     def base(self, which: int, candidates: list[ExactPoint]) -> ExactPoint:
         """The first of the points where the logarithmic derivative number `which` is finite."""
-        points = [self._in_t(x) for x in candidates]
-        return candidates[points.index(finite_base(self.problem, which, points))]
+        return finite_base(self.problem, which, candidates)
 
-    def beginning(self, which: int, base: ExactPoint) -> PieceChart:
+    def beginning(self, which: int, base: ExactPoint) -> RationalChart:
         """The solution with this logarithmic derivative, 1 at the base."""
-        branches = exponentials(self.problem) if self.answer is None else []
+        branches = exponentials(self.problem)
         if branches:
             return replace(self, given={"x0": base}, branch=branches[which])
-        slope = omega(self.problem, which, self._in_t(base), _SLOPE_BITS)
-        with working_precision(_SLOPE_BITS + 200):
-            slope *= self._values(to_acb(base))[1]
+        slope = omega(self.problem, which, base, _SLOPE_BITS)
         return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
 
     def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
@@ -102,13 +69,7 @@ class PieceChart:
         if self.branch is not None:
             return self._closed(self.branch, points, digits)
         options |= {"digits": digits, "limits": limits, **self.given}
-        if self.answer is None:
-            return [s.state for s in evaluate_states(self.problem, points, **options)]
-        from kovacic.enclosure.change import evaluate_in_x
-
-        options |= {"params": self.params, "derivative": True, "path": self.given.get("path")}  # along the real axis
-        found = evaluate_in_x(self.answer, [*points], **options)
-        return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
+        return [s.state for s in evaluate_states(self.problem, points, **options)]
 
     def _closed(self, branch: Exponential, points: Sequence[ExactPoint], digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
@@ -132,9 +93,14 @@ class PieceChart:
             prec *= 2
 
     @cached_property
-    def forcing(self) -> Forcing | None:
+    def _forcing(self) -> Forcing | None:
         """f/a, None where it is zero."""
         return forcing_of(self.problem)
+
+    @property
+    def is_forced(self) -> bool:
+        """Is there a right-hand side?"""
+        return self._forcing is not None
 
     @cached_property
     def _equation(self) -> Sequence[Any]:
@@ -142,14 +108,12 @@ class PieceChart:
 
     @cached_property
     def singular(self) -> list[ExactPoint]:
-        """The midpoints of enclosures; values beyond one are refused where there is a change of variable."""
-        return self.problem.singular_points(128) if self.answer is None else []
+        """The midpoints of their enclosures."""
+        return self.problem.singular_points(128)
 
     def steepness(self, x: Any, h: Any) -> Any:
         """Lower bounds of the larger characteristic root |r|, a r^2 + h b r + h^2 c = 0, at points x: by |r1 r2| and
         |r1 + r2|, in plain doubles with room for their errors; infinite where a singular point is nearer than 4 h."""
-        if self.answer is not None:
-            return 0.0 * x
         parts = [[arb(v) for v in reversed(part.coeffs())] for part in self._equation]
         largest = max(abs(v).mid() for part in parts for v in part)
         doubles = [np.array([float(v / largest) for v in part]) for part in parts]
@@ -163,53 +127,138 @@ class PieceChart:
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
-        if self.answer is not None:
-            return self._changed(centre, e, terms)
         line: Any = fmpq_poly([centre.x, power_of_two(e)])
         line = line if self.problem.embedded is None else arb_poly(line)
         found = [[arb(v) for v in part(line).coeffs()[:terms]] for part in self._equation]
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
-    def _changed(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """Equation (1); not numbers where a(c) or t'(c) may be zero.  Raises InputError where it isn't real."""
-        (t, at), cap = self._functions, ctx.cap
-        ctx.cap = terms + 2  # FLINT's series end there
-        try:
-            s = at(t, acb_series([centre.x, arb((1, e))]))
-            a, b, c = (horner(reversed(p.coeffs()), s) if p else acb_series([]) for p in self._equation)
-            d = s.derivative()
-            found = [(b * d / a - d.derivative() / d).coeffs()[:terms], (c * d * d / a).coeffs()[:terms]]
-        except (ZeroDivisionError, ValueError):
-            return [[arb(1)], [], [arb("nan")]]
-        finally:
-            ctx.cap = cap
-        if not all(v.imag.contains(0) for part in found for v in part):
-            raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
-        return [[arb(1)], *([v.real for v in part] for part in found)]
+    @property
+    def irregular(self) -> list[ExactPoint]:
+        """Those singular points near which solutions may be as large as exp(1/distance)."""
+        return [midpoint(root) for root, order in self.problem.system.roots("den", 128) if order > 2]
+
+    def is_regular(self, centre: ExactPoint, e: int) -> bool:
+        """Is the disc with the scale 2^e, and twice as much, free of singular points?  `steepness` knows."""
+        return True
 
     def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
-        """t'^2 f/a at u."""
-        assert self.forcing is not None
-        t, slope = self._values(acb(centre.x) + acb(u) * acb(arb((1, e))))
-        return (self.forcing.value(t) * slope**2).real * arb((1, 2 * e))
+        """H^2 f/a at u."""
+        assert self._forcing is not None
+        return self._forcing.value(acb(centre.x) + acb(u) * acb(arb((1, e)))).real * arb((1, 2 * e))
+
+
+@dataclass(frozen=True)
+class AnalyticChart:
+    """y'' + b y' + c y = f with any functions of x, and which solution: the options of `evaluate`.
+
+    Where the equation is rational in t, a function of x, and was solved, `problem` is that in t.
+    """
+
+    coefficients: Coefficients
+    given: dict[str, Any]
+    equation: Any
+    problem: NumericProblem | None = None
+
+    @cached_property
+    def _functions(self) -> CoefficientField:
+        return CoefficientField(self.coefficients)
+
+    @property
+    def is_forced(self) -> bool:
+        """Is there a right-hand side?"""
+        return bool(self.coefficients.f != 0)
+
+    @property
+    def singular(self) -> list[ExactPoint]:
+        """None is known: a way through one is refused."""
+        return []
+
+    @property
+    def irregular(self) -> list[ExactPoint]:
+        """As `singular`."""
+        return []
+
+    def region(self, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
+        """See `region_of`; raises InputError where a singular point is in the interval or on the way to it."""
+        found = region_of(None, interval)
+        if self.given and found[0].is_real:
+            self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
+        return found
+
+    def _variable_at(self, x: ExactPoint) -> tuple[acb, acb]:
+        """t and dt/dx."""
+        t = function_of_x(self.equation)
+        known = self.coefficients.at(to_acb(x))
+        return in_balls(t, known), in_balls(t.diff(self.coefficients.variable), known)
+
+    def _in_t(self, x: ExactPoint) -> ExactPoint:
+        with working_precision(_SLOPE_BITS + 200):
+            return midpoint(self._variable_at(x)[0])
+
+    def base(self, which: int, candidates: list[ExactPoint]) -> ExactPoint:
+        """The first of the points where the logarithmic derivative number `which` is finite."""
+        assert self.problem is not None
+        points = [self._in_t(x) for x in candidates]
+        return candidates[points.index(finite_base(self.problem, which, points))]
+
+    def beginning(self, which: int, base: ExactPoint) -> AnalyticChart:
+        """The solution with this logarithmic derivative, 1 at the base."""
+        assert self.problem is not None
+        slope = omega(self.problem, which, self._in_t(base), _SLOPE_BITS)
+        with working_precision(_SLOPE_BITS + 200):
+            slope *= self._variable_at(base)[1]
+        return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
+
+    def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
+        """y and dy/dx, to so many digits where they can be had, along the real axis."""
+        options |= {"digits": digits, "limits": limits, **self.given}
+        options["path"] = self.given.get("path")
+        return [s.state for s in analytic_question(self.coefficients, **options).states(points)]
+
+    def steepness(self, x: Any, h: Any) -> Any:
+        """Nothing is known beforehand."""
+        return 0.0 * x
+
+    def is_regular(self, centre: ExactPoint, e: int) -> bool:
+        """Are the coefficients known to be analytic in the disc with twice the scale 2^e?"""
+        with working_precision(64):
+            return self._functions.sizes(centre, arb((1, e + 1))) is not None
+
+    def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
+        """1, H b and H^2 c, so many terms in u; not numbers where they aren't finite."""
+        parts = self._functions.series(centre, e, terms)
+        if parts is None:
+            return [[arb(1)], [], [arb("nan")]]
+        rows = [part.coeffs() for part in parts[:2]]
+        if not all(v.imag.contains(0) for row in rows for v in map(acb, row)):
+            raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
+        return [[arb(1)], *([acb(v).real for v in row] for row in rows)]
+
+    def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
+        """H^2 f at u."""
+        x = acb(centre.x) + acb(u) * acb(arb((1, e)))
+        return acb(self._functions.values(x)[2]).real * arb((1, 2 * e))
+
+
+PieceChart = RationalChart | AnalyticChart
 
 
 def chart_of(
     equation: object, given: dict[str, Any], params: Mapping[str, object] | None, *, constants: bool = True
 ) -> PieceChart:
     """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
-    answer: Any = equation
-    if change_of(equation) is None:
+    change = change_of(equation)
+    if change is None:
         try:
-            return PieceChart(_real_problem(equation, params, constants), given)
-        except NotRational as reason:
-            answer = read_input(equation, exponentials=True)
-            if answer.equation is None or answer.equation.change is None:
-                raise reason from None
-    from kovacic.reading.change_of_variable import without_change  # imports SymPy
-
-    return PieceChart(_real_problem(without_change(answer), params, constants), given, None, answer, params)
+            return RationalChart(_real_problem(equation, params, constants), given)
+        except NotRational:
+            pass
+    coefficients = coefficients_of_any(equation, params, DEFAULT_LIMITS)
+    problem = None
+    if isinstance(equation, Answer) and not constants:
+        problem = _real_problem(without_change(equation), params, constants)
+    return AnalyticChart(coefficients, given, getattr(equation, "equation", None), problem)
 
 
 def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:

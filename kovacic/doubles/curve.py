@@ -117,7 +117,7 @@ def arcs(
     here = coefficients(chart, _grid(chart, interval, width))
     finest = _FINEST * float(width)
     too_fine = here.frequency * finest > 2 * np.pi
-    if chart.forcing is not None:
+    if chart.is_forced:
         # The envelope is that of a solution of the homogeneous equation.
         too_fine[:] = False
     for first, last in _stretches(too_fine):

@@ -26,15 +26,15 @@ from flint import acb
 
 from kovacic.api import find_answer
 from kovacic.doubles.arrangement import product_form
-from kovacic.doubles.chart import PieceChart, chart_of
+from kovacic.doubles.chart import PieceChart, RationalChart, chart_of
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.evaluate import InitialValues
 from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.problem import with_variable
 from kovacic.enclosure.states import Path
+from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
@@ -214,11 +214,11 @@ def _chart(
     if start:
         return chart
     problem = chart.problem
-    if params and problem.S is not None:
+    if params and problem is not None and problem.S is not None:
         # The answer was one for generic values.
         problem = replace(problem, decision=find_answer(problem.S, limits=limits or DEFAULT_LIMITS).decision)
         chart = replace(chart, problem=problem)
-    if problem.decision is None or problem.decision.semi_invariant is None:
+    if problem is None or problem.decision is None or problem.decision.semi_invariant is None:
         raise InputError(
             "lambdify needs a Liouvillian solution, found by kovacic.solve, or initial values",
             hint="x0=, y0= and dy0= serve every S",
@@ -250,7 +250,7 @@ class _Job:
         return table_of(self.chart, self.interval, careful, self.limits)
 
     def _product_form(self, careful: bool) -> ProductForm | None:
-        if self.base is None or self.chart.answer is not None:
+        if self.base is None or not isinstance(self.chart, RationalChart):
             return None
         with working_precision(_PREC):
             return product_form(self.chart.problem, self.number, self.region, self.base, careful)

@@ -36,7 +36,7 @@ from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.evaluate import StartOptions
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
-from kovacic.enclosure.problem import with_variable
+from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.limits import Limits, check_time, limited
 
@@ -193,7 +193,7 @@ def tabulate(
     x0 : number
         Where the solution starts; it may lie outside of the interval, and be a singular point.
     y0, dy0, frobenius, which, path
-        Which solution, as for `kovacic.evaluate`; y0 and dy0 only, where coefficients are rational in exp(k x), sin(k x), ...
+        Which solution, as for `kovacic.evaluate`; y0 and dy0 only, where coefficients aren't rational.
     careful : bool
         Double-doubles (the default): a unit in the last place, at 20 times the cost of plain ones.
     params : mapping
@@ -248,7 +248,7 @@ def table_of(
     series = Pair(*np.stack(found, axis=-1))
     states, powers = _states(chart, cells, series, variant, limits)
     coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
-    if chart.forcing is not None:
+    if chart.is_forced:
         coefficients += scaled(series[:, 2, None], -powers)
     x0 = chart.given.get("x0")
     return _assembled(region, x0 if isinstance(x0, ExactPoint) else None, cells, coefficients, powers, variant)
@@ -320,14 +320,14 @@ def _pieces(
 
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
-    terms, count, size = variant.terms, 2 if chart.forcing is None else 3, len(cells)
-    found = [chart.local(ExactPoint(centre), e, terms) for centre, e in cells]
+    terms, count, size = variant.terms, 2 if not chart.is_forced else 3, len(cells)
+    found = [_local(chart, ExactPoint(centre), e, terms) for centre, e in cells]
     length = max(2, *(len(part) + i for local in found for i, part in enumerate(local)))
     numbers, source, z = (np.zeros((2, *shape, size)) for shape in ((3, length), (terms, count), (terms, count)))
     for k, ((centre, e), local) in enumerate(zip(cells, found, strict=True)):
         for i, part in enumerate(local):
             numbers[:, i, i : i + len(part), k] = halves(part)
-        if chart.forcing is not None:
+        if chart.is_forced:
             nodes, inverse = _interpolation(terms)
             values = [[chart.source(ExactPoint(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
             source[:, :, 2, k] = halves((inverse * arb_mat(values)).entries())
@@ -350,6 +350,13 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
         good = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
         good &= (sizes[:, :2].sum(0) <= GROWTH).all(0)
     return [z[..., k] if fine else None for k, fine in enumerate(good)]
+
+
+def _local(chart: PieceChart, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
+    """The coefficients on a piece; not numbers where it is too near to a singular point."""
+    if not chart.is_regular(centre, e):
+        return [[arb(1)], [], [arb("nan")]]
+    return chart.local(centre, e, terms)
 
 
 @lru_cache
@@ -384,7 +391,7 @@ def _states(
             v[..., which], powers[which] = _rounded(rows, variant)
         lost[which] = 0.0
 
-    sparse = variant is _PLAIN and chart.forcing is None
+    sparse = variant is _PLAIN and not chart.is_forced
     enclose(known := np.unique(np.append(np.arange(0, size, _STRIDE if sparse else 1), size - 1)))
     for sign, matrices in zip((1, -1), _transfers(series, exponents) if len(known) < size else (), strict=False):
         k = known

@@ -27,6 +27,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.enclosure.closed_form import CaseOneForm
 from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
@@ -120,6 +121,10 @@ class Classical:
             return multiply(start.at(b), start.coordinates)
         basis = _start(self, zero, True, ctx.prec)
         return multiply(basis.at(b), basis.coordinates if a == zero else inverse(basis.at(a)))
+
+
+Closed = CaseOneForm | Classical
+"""The ways that share nothing with Taylor's method."""
 
 
 def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:

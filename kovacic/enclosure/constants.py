@@ -91,11 +91,12 @@ def to_ball(number: Number) -> acb:
     return to_acb(number) if isinstance(number, ExactPoint) else number.value()
 
 
-def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = False) -> acb:
+def in_balls(expression: Any, values: Mapping[Any, Any], *, analytic: bool = False) -> acb:
     """A SymPy expression at these values of its symbols, at the working precision in force.
 
-    With `analytic` the result isn't finite where the expression isn't analytic on the balls, for quadratures.  Raises
-    InputError for functions that aren't known here.
+    With `analytic` the result isn't finite where the expression isn't analytic on the balls, for quadratures.  Values may be
+    power series, too: then the result is one, or a ball where it is a number.  Raises InputError for functions that aren't
+    known here.
     """
     from kovacic.closed_form.balls import BallEvaluator  # imports SymPy
 

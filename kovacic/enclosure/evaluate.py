@@ -21,10 +21,11 @@ from typing import Any, Literal, TypedDict, Unpack, overload
 
 from kovacic.enclosure.ball import Ball
 from kovacic.enclosure.precision import AccuracyWarning, Method
-from kovacic.enclosure.problem import change_of, with_variable
-from kovacic.enclosure.states import Path, evaluate_states
+from kovacic.enclosure.problem import change_of
+from kovacic.enclosure.states import Path, question_of
+from kovacic.enclosure.variable import with_variable
 from kovacic.errors import NotRational, check_keywords
-from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.limits import Limits, limited
 
 
 class InitialValues(TypedDict, total=False):
@@ -90,8 +91,8 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     ----------
     equation
         S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high), an equation
-        a y'' + b y' + c y = f, or a solution of this package.  f is rational, or has exp, log, sin, cos, ... in it.  a, b and
-        c may be rational in exp(k x), sin(k x), ..., too (then with y0 and dy0, where that function is real and monotone).
+        a y'' + b y' + c y = f, or a solution of this package.  All of them may have exp, log, sqrt, sin, tan, erf, ... in
+        them: then with y0 and dy0, by Taylor's method, where they are analytic (b/a, c/a and f/a) all along the path.
         There may be algebraic constants; then no bound is lost, but the start is at a regular point.
     x : number, sequence or array
         Where: a number, a sequence of numbers, or a NumPy array.
@@ -134,8 +135,8 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     Raises
     ------
     InputError
-        A singular point at an end or on the path, with its distance; an irregular one as the start; digits out of range; a
-        number that isn't finite; an unknown method.
+        A singular point or branch cut at an end or on the path, with its place; an irregular one as the start; digits out of
+        range; a number that isn't finite; an unknown method.
     LimitExceeded
         Where nothing could be said within the limits.
 
@@ -161,48 +162,123 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     >>> decaying = evaluate("x^2 + a", [1, 2], x0=0, y0=1, which="decaying", params={"a": -1})
     >>> print([f"{value:.10f}" for value in decaying])                   # exp(-x^2/2)
     ['0.6065306597', '0.1353352832']
+    >>> legendre = evaluate("y'' + cot(x)*y' + 6*y = 0", 2, x0=1, y0="(3*cos(1)^2 - 1)/2", dy0="-3*sin(1)*cos(1)")
+    >>> print(f"{legendre:.10f}")                                        # P2(cos 2)
+    -0.2402327156
     >>> evaluate("-1/(4*x^2)", -1, x0=1, y0=1, dy0="1/2", path="above").contains(1j)      # x^(1/2)
     True
     """
     check_keywords("evaluate", options, Options.__annotations__)
+    return _prepared(equation, x0, options).values(x, derivative=derivative)
+
+
+class Prepared:
+    """One solution, of which values are asked for: made by `prepared`, called with points."""
+
+    def __init__(self, question: Any, start: Mapping[str, object]) -> None:
+        self._question = question
+        self._start = dict(start)
+        self.digits: int = question.digits
+
+    @overload
+    def __call__(self, x: OnePoint, *, derivative: Literal[False] = ...) -> Ball: ...
+    @overload
+    def __call__(self, x: OnePoint, *, derivative: Literal[True]) -> tuple[Ball, Ball]: ...
+    @overload
+    def __call__(self, x: ManyPoints, *, derivative: Literal[False] = ...) -> tuple[Ball, ...]: ...
+    @overload
+    def __call__(self, x: ManyPoints, *, derivative: Literal[True]) -> tuple[tuple[Ball, Ball], ...]: ...
+    @overload
+    def __call__(self, x: object, *, derivative: bool = ...) -> Any: ...
+    def __call__(self, x: object, *, derivative: bool = False) -> Any:
+        """A ball that contains y(x), or a pair with y'(x), as `evaluate` returns them; a tuple or an array for many points."""
+        return self.values(x, derivative=derivative)
+
+    def __repr__(self) -> str:
+        start = ", ".join(f"{name}={value}" for name, value in self._start.items() if value is not None)
+        return f"<Prepared {start}, {self.digits} digits>"
+
+    def values(self, x: object, *, derivative: bool) -> Any:
+        """The same; a warning names the line that called the caller."""
+        shape = getattr(x, "shape", None)
+        many = shape != () and isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
+        points: list[Any] = list(x) if many and not shape else [x]  # type: ignore[call-overload]
+        if shape:
+            import numpy as np
+
+            points = list(np.asarray(x, dtype=object).flat)
+        holes = {i for i, p in enumerate(points) if shape is not None and p != p}
+        results = self._question.states([p for i, p in enumerate(points) if i not in holes])
+        for result in results:
+            if result.note is not None:
+                warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=3)
+        found: list[Any] = [(result.y, result.dy) if derivative else result.y for result in results]
+        if shape is None:
+            return tuple(found) if many else found[0]
+        values = iter(found)
+        if shape == ():
+            return next(values, math.nan)
+        array = np.empty(len(points), dtype=object)
+        for i in range(len(points)):
+            array[i] = math.nan if i in holes else next(values)
+        return array.reshape(shape)
+
+
+@limited
+def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Prepared:
+    """A solution as a function whose values are balls: what was expanded for one value serves the next ones.
+
+    A value of an interval that was passed is that of a polynomial, with its proven error, and takes some tenths of a
+    millisecond; the interval grows with the questions.  The solution may be called from several threads, which wait for one
+    another.
+
+    Parameters
+    ----------
+    equation
+        As for `evaluate`.
+    x0 : number
+        Where the solution starts.
+    y0, dy0, frobenius, which, path, params, var, digits, method, limits
+        The solution, its accuracy, and what each call may cost, as for `evaluate`.
+
+    Returns
+    -------
+    Prepared
+        Called with a number, a sequence or an array, and `derivative`, it returns what `evaluate` does.
+
+    Raises
+    ------
+    InputError
+        What `evaluate` raises for the start; calls raise what it raises for their points.
+
+    Examples
+    --------
+    >>> airy = prepared("x", x0=0, y0=1, dy0=0, digits=20)
+    >>> airy
+    <Prepared x0=0, y0=1, dy0=0, 20 digits>
+    >>> print(f"{airy(1):.12f}")
+    1.172299970058
+    >>> y, slope = airy("1/2", derivative=True)
+    >>> print(f"{slope:.12f}")
+    0.125521375496
+    >>> mathieu = prepared("y'' + (2 + cos(x))*y = 0", x0=0, y0=1, dy0=0)
+    >>> print([f"{value:.10f}" for value in mathieu([1, 20, 19])])
+    ['-0.1309461246', '-0.5693716766', '0.0697325246']
+    """
+    check_keywords("prepared", options, Options.__annotations__)
+    return _prepared(equation, x0, options)
+
+
+def _prepared(equation: object, x0: object, options: Mapping[str, Any]) -> Prepared:
+    """The solution, whether the coefficients are rational or any functions of x."""
     given: dict[str, Any] = {"x0": x0, **options}
     equation = with_variable(equation, given.pop("var", None), given.get("limits"))
-    if change_of(equation) is not None:
-        return _in_given_variable(equation, x, derivative, given)
-    shape = getattr(x, "shape", None)
-    many = shape != () and isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
-    points: list[Any] = list(x) if many and not shape else [x]  # type: ignore[call-overload]
-    if shape:
-        import numpy as np
+    start = {name: given.get(name) for name in ("x0", "y0", "dy0", "frobenius", "which")}
+    if change_of(equation) is None:
+        try:
+            return Prepared(question_of(equation, **given), start)
+        except NotRational:
+            pass
+    from kovacic.enclosure.analytic import analytic_question  # imports SymPy
 
-        points = list(np.asarray(x, dtype=object).flat)
-    holes = {i for i, p in enumerate(points) if shape is not None and p != p}
-    try:
-        results = evaluate_states(equation, [p for i, p in enumerate(points) if i not in holes], **given)
-    except NotRational as reason:  # rational in exp(k x), perhaps
-        from kovacic.reading.read import read_input
-
-        parsed = read_input(equation, limits=options.get("limits") or DEFAULT_LIMITS, exponentials=True)
-        if parsed.equation is None or parsed.equation.change is None:
-            raise reason from None
-        return _in_given_variable(parsed, x, derivative, given)
-    for result in results:
-        if result.note is not None:
-            warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=2)
-    found: list[Any] = [(result.y, result.dy) if derivative else result.y for result in results]
-    if shape is None:
-        return tuple(found) if many else found[0]
-    values = iter(found)
-    if shape == ():
-        return next(values, math.nan)
-    array = np.empty(len(points), dtype=object)
-    for i in range(len(points)):
-        array[i] = math.nan if i in holes else next(values)
-    return array.reshape(shape)
-
-
-def _in_given_variable(equation: Any, x: object, derivative: bool, options: Mapping[str, Any]) -> Any:
-    """As `evaluate`, where the coefficients are rational in a function of x."""
-    from kovacic.enclosure.change import evaluate_in_x  # imports SymPy
-
-    return evaluate_in_x(equation, x, derivative=derivative, **options)
+    return Prepared(analytic_question(equation, **given), start)

@@ -13,14 +13,13 @@ from a regular singular point begins with its Frobenius series.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from typing import Any
 
 from flint import acb, ctx
 
-from kovacic.enclosure.classical import Classical, classical_of
-from kovacic.enclosure.closed_form import CaseOneForm
+from kovacic.enclosure.classical import Classical, Closed, classical_of
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import check_apart
 from kovacic.enclosure.forcing import Forcing, forcing_of
@@ -34,10 +33,10 @@ from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.system import check_segment
 from kovacic.enclosure.transport import Leg, walk
+from kovacic.enclosure.way import Way, ray
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 
-Closed = CaseOneForm | Classical
 _KEPT = 4  # precisions at which the beginning of a journey is kept for the next targets
 
 
@@ -78,6 +77,13 @@ class Journey:
                 found |= zip(ray, states, strict=True)
             states = [found[i] for i in range(len(stops))]
         return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
+
+    def knows(self, targets: Sequence[Number], prec: int) -> bool:
+        """Do the ways that were gone by Taylor's method at this precision lead to all of the targets?"""
+        if (None, prec) not in self._begun or self.chain or self.side is not None:
+            return False
+        traveller, _ = self._begun[None, prec]
+        return all(isinstance(target, ExactPoint) and traveller.knows(target) for target in targets)
 
     def classical(self, work: int | None) -> Classical | None:
         """The equation that S is pulled back from, if it is found in so much work."""
@@ -122,6 +128,7 @@ class Traveller:
     growth: acb
     forcing: Forcing | None = None
     particular: State = (acb(0), acb(0))
+    ways: dict[ExactPoint, Way] = field(default_factory=dict)
 
     @classmethod
     def at(cls, problem: NumericProblem, x0: ExactPoint | Singular, closed: Closed | None, prec: int) -> Traveller:
@@ -141,7 +148,11 @@ class Traveller:
             check_segment(self.problem.gauge_poles, x, x)
         if self.gauge is not None:
             self.product = self.product.after((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
+        self._arrive(x)
+
+    def _arrive(self, x: ExactPoint) -> None:
         self.here = x
+        self.ways = {}
 
     def go(self, stop: ExactPoint, start: State) -> None:
         """Straight on to a point."""
@@ -163,7 +174,7 @@ class Traveller:
                     self.particular = apply(leg.matrix, (y + change[0], dy + change[1]))
                 self.product = self.product.after(leg.matrix)
         self.growth *= self._growth(stop)
-        self.here = stop
+        self._arrive(stop)
 
     def fan(self, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """The user's (z, z') at the ends of straight lines from here."""
@@ -172,17 +183,42 @@ class Traveller:
         alone = self.forcing is not None or is_split(self.problem.system, self.prec // max(1, len(stops)))
         if alone or isinstance(self.here, Singular):
             return self._by_rays(stops, start, alone=alone)
+        if self.here.is_real() and all(stop.is_real() for stop in stops):
+            return self._by_ways(self.here, stops, start)
         return self._by_discs(self.here, stops, start)
+
+    def knows(self, stop: ExactPoint) -> bool:
+        """Is there a way from here that contains the point?"""
+        if not isinstance(self.here, ExactPoint) or stop == self.here:
+            return False
+        way = self.ways.get(ray(self.here, stop))
+        return way is not None and way.contains(stop)
+
+    def _by_ways(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
+        """Along the real axis, on ways that are kept for the next call."""
+        found: dict[ExactPoint, State] = {}
+        for stop in sorted(set(stops), key=lambda stop: abs(stop.x - here.x)):
+            self._check_gauge(here, stop)
+            found[stop] = self.state(start) if stop == here else self._on_way(here, stop, start, len(stops))
+        return [found[stop] for stop in stops]
+
+    def _on_way(self, here: ExactPoint, stop: ExactPoint, start: State, targets: int) -> State:
+        direction = ray(here, stop)
+        way = self.ways.get(direction)
+        if way is None or not way.has(stop):
+            discs = partial(walk, self.problem.system, prec=self.prec, targets=targets)
+            way = self.ways[direction] = Way(here, discs, start, self.product)
+        return self._given(way.state(stop), stop)
 
     def _by_rays(self, stops: Sequence[ExactPoint], start: State, *, alone: bool) -> list[State]:
         """Stop by stop along each straight way: out of a singular point, or all the way where the stops can't share discs."""
         found: dict[int, State] = {}
-        for ray in _rays(self.here, stops):
+        for stops_of_ray in _rays(self.here, stops):
             one = replace(self)
-            while ray and (alone or isinstance(one.here, Singular)):
-                first = ray.pop(0)
+            while stops_of_ray and (alone or isinstance(one.here, Singular)):
+                first = stops_of_ray.pop(0)
                 found[first] = one.visit(stops[first], start)
-            found |= zip(ray, one.fan([stops[i] for i in ray], start), strict=True)
+            found |= zip(stops_of_ray, one.fan([stops[i] for i in stops_of_ray], start), strict=True)
         return [found[i] for i in range(len(stops))]
 
     def _by_discs(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
@@ -208,7 +244,8 @@ class Traveller:
         """The user's (z, z') at points that a disc serves, from the state where it is entered."""
         for end in ends:
             self._check_gauge(here, end)
-        return [*map(self._given, leg.states(entering, ends), ends)]
+        local = leg.local(entering)
+        return [self._given(local.state(end), end) for end in ends]
 
     def by_closed_form(self, closed: Closed, stop: ExactPoint, start: State) -> State:
         """The user's (z, z') at the end of a straight line from here."""

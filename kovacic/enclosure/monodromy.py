@@ -25,9 +25,10 @@ from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.precision import number_of_digits, start_bits
-from kovacic.enclosure.problem import NumericProblem, as_problem, with_variable
+from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
+from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, limited, limits_of
 

@@ -11,14 +11,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
-from typing import Literal
+from typing import Literal, Protocol
 
 from flint import acb, arb
 
 from kovacic.enclosure.ball import Ball, Route, finite_ball
+from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import upper_exponent
-from kovacic.enclosure.journey import Closed, Journey
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
@@ -83,8 +83,18 @@ def number_of_digits(given: object, limits: Limits) -> int:
     return digits
 
 
+class Travel(Protocol):
+    """A journey to targets."""
+
+    def is_exact(self, targets: Sequence[Number]) -> bool:
+        """True if a higher precision makes every ball smaller."""
+
+    def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:
+        """The states at the targets, at about so many bits."""
+
+
 def raise_precision(
-    journey: Journey, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits
+    journey: Travel, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits
 ) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough."""
     exact = journey.is_exact(targets)
@@ -149,7 +159,7 @@ class _Run:
     finite: bool
 
     @classmethod
-    def made(cls, journey: Journey, targets: Sequence[Number], closed: Closed | None, route: Route) -> _Run:
+    def made(cls, journey: Travel, targets: Sequence[Number], closed: Closed | None, route: Route) -> _Run:
         """Make the journey once, at the precision of this route."""
         doubled = route.runs == 1 or closed is not None
         with working_precision(route.bits + 40):

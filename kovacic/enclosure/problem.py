@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from typing import Any
 
 from flint import acb_poly, fmpq_poly, fmpz_poly
 
@@ -16,15 +17,46 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
-from kovacic.enclosure.constants import Number, as_number
+from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System, Zeros
 from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
-from kovacic.errors import InputError
-from kovacic.limits import Limits, limits_of
+from kovacic.errors import InputError, NotRational
 
 _BITS = 40  # to which constants are known where nothing was asked for
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """y'' + b y' + c y = f with any functions: SymPy expressions in `variable` and the names of `values`."""
+
+    variable: Any
+    b: Any
+    c: Any
+    f: Any
+    values: tuple[tuple[str, Number], ...] = ()
+
+    @property
+    def parts(self) -> tuple[Any, Any, Any]:
+        """b, c and f."""
+        return self.b, self.c, self.f
+
+    def given(self, values: Mapping[str, object] | None) -> Coefficients:
+        """With the values of the parameters; raises InputError unless each has one."""
+        names = {symbol.name for part in self.parts for symbol in part.free_symbols} - {self.variable.name}
+        found = values_of_parameters(tuple(sorted(names)), values or {})
+        return replace(self, values=tuple(sorted(found.items())))
+
+    def at(self, x: Any) -> dict[Any, Any]:
+        """What the symbols stand for where the variable is x."""
+        symbol = type(self.variable)
+        return {symbol(name): to_ball(value) for name, value in self.values} | {self.variable: x}
+
+    @property
+    def is_exact(self) -> bool:
+        """True unless a parameter's value is a ball."""
+        return not any(getattr(value, "fixed", False) for _, value in self.values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,10 +147,15 @@ def as_problem(
     with `constants` coefficients that aren't rational."""
     if isinstance(equation, NumericProblem):
         return equation
+    if isinstance(equation, Coefficients):
+        raise NotRational(f"numerical evaluation needs coefficients that are rational in {equation.variable} here")
     if isinstance(equation, System):
         return NumericProblem(equation)
     if params is None and isinstance(equation, str):
-        found = _of_text(equation)
+        known = _of_text(equation)
+        if isinstance(known, NotRational):
+            raise known.with_traceback(None)
+        found = known
     elif params is None and isinstance(equation, Answer):
         found = problem_of(equation)
     else:
@@ -128,19 +165,6 @@ def as_problem(
     if found.embedded is not None and not constants:
         raise InputError("numerical evaluation needs S with rational coefficients here, and values such as '1/3'")
     return found
-
-
-def with_variable(equation: object, var: object, limits: Limits | None = None) -> object:
-    """The equation, read with this name of its variable; as it was given where none is named."""
-    if var is None:
-        return equation
-    if isinstance(equation, Answer):
-        if str(var) != equation.variable:
-            raise InputError(f"the variable of this answer is {equation.variable}, not {var}")
-        return equation
-    from kovacic.reading.read import read_input
-
-    return read_input(equation, var=var, limits=limits_of(limits), exponentials=True)
 
 
 def change_of(equation: object) -> Change | None:
@@ -157,8 +181,12 @@ def problem_of(answer: Answer) -> NumericProblem:
 
 
 @lru_cache(maxsize=64)
-def _of_text(equation: str) -> NumericProblem:
-    return read_problem(equation)
+def _of_text(equation: str) -> NumericProblem | NotRational:
+    """The problem, or why there is none."""
+    try:
+        return read_problem(equation)
+    except NotRational as reason:
+        return reason
 
 
 def read_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
@@ -166,12 +194,12 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     found = _read(equation)
     given = found.equation
     if given is not None and given.change is not None:
-        raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
+        raise NotRational(f"numerical evaluation needs coefficients that are rational in {given.change.variable} here")
     S = found.S
     gauge = None if given is None else given.gauge or None
     right = None if given is None or given.is_homogeneous else given
     names = _parameters(S, given, right)
-    numbers = _values(names, params or {}) if params is not None or names else {}
+    numbers = values_of_parameters(names, params or {}) if params is not None or names else {}
     values = {name: value.re for name, value in numbers.items() if isinstance(value, ExactPoint) and value.is_real()}
     functions = [S, gauge, None if right is None else right.f]
     has_algebraic = any(f is not None and isinstance(f.field, AlgebraicField) for f in functions)
@@ -210,7 +238,7 @@ def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:
     return replace(right, a=a, b=b, c=c, f=f, h=h)
 
 
-def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
+def values_of_parameters(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
     """The values of the parameters; raises InputError unless there is one for each.  pi and e have theirs."""
     own = {name: text for name, text in ((PI, "pi"), (EULER, "exp(1)")) if name in names}
     given = {str(name): as_number(value, f"the parameter {name}") for name, value in (own | dict(params)).items()}

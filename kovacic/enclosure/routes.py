@@ -13,10 +13,10 @@ from itertools import pairwise
 
 from flint import acb, arb
 
-from kovacic.enclosure.classical import Classical
+from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.journey import Closed, Journey
+from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.precision import Method, start_bits
 from kovacic.enclosure.problem import NumericProblem

@@ -16,7 +16,7 @@ Reference: P. Hartman, "Ordinary Differential Equations" (1964), XI.6 (principal
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from flint import acb, acb_poly, arb
@@ -61,19 +61,30 @@ def middle(number: Number) -> ExactPoint:
 
 
 def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
-    """The state at a number in a ball from that at its midpoint: with r the radius and, on the ball, K >= max(1, |b/a| + |c/a|)
-    and F >= |f/a|, (y, y') changes by at most (exp(K r) - 1) (max(|y|, |y'|) + F)."""
+    """The state at a number in a ball from that at its midpoint."""
+
+    def bounds(ball: acb) -> tuple[arb, arb]:
+        forcing = forcing_of(problem)
+        if problem.embedded is not None:
+            size = problem.embedded.bound(ball)
+        else:
+            a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
+            size = (abs(b / a) + abs(c / a)).upper()
+        return size, arb(0) if forcing is None else abs(forcing.value(ball)).upper()
+
+    return spread_by(bounds, number, state, problem.is_real)
+
+
+def spread_by(bounds: Callable[[acb], tuple[arb, arb]], number: object, state: State, real: bool) -> State:
+    """As `spread`: with r the radius and, on the ball, K >= max(1, |b/a| + |c/a|) and F >= |f/a|, the `bounds`, (y, y') changes
+    by at most (exp(K r) - 1) (max(|y|, |y'|) + F).  `real` says that the equation is."""
     if not isinstance(number, Constant):
         return state
-    ball, forcing = number.value(), forcing_of(problem)
-    if problem.embedded is not None:
-        size = max(arb(1), problem.embedded.bound(ball))
-    else:
-        a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
-        size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
-    largest = max(abs(v).upper() for v in state) + (0 if forcing is None else abs(forcing.value(ball)).upper())
-    change = (size * abs(ball - to_acb(middle(number))).upper()).expm1() * largest
-    real = all(v.imag.is_zero() for v in (ball, *state)) and problem.is_real
+    ball = number.value()
+    size, forcing = bounds(ball)
+    largest = max(abs(v).upper() for v in state) + forcing
+    change = (max(arb(1), size) * abs(ball - to_acb(middle(number))).upper()).expm1() * largest
+    real = real and all(v.imag.is_zero() for v in (ball, *state))
     error = acb(arb(0, change.upper()), arb(0, 0 if real else change.upper()))
     return state[0] + error, state[1] + error
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal
 
@@ -13,7 +14,7 @@ from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
-from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision
+from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.routes import TAYLOR, route_of
 from kovacic.enclosure.singular import Singular
@@ -27,9 +28,37 @@ Path = Sequence[object] | Literal["chain", "above", "below"] | None
 _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
 
 
-def evaluate_states(
+@dataclass(frozen=True)
+class Question:
+    """One solution, of which values are asked for: the journey keeps what was computed for them."""
+
+    journey: Journey
+    digits: int
+    method: Method | None
+    limits: Limits
+
+    def states(self, points: Sequence[object]) -> tuple[PointValue, ...]:
+        """y and y' with the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
+        targets = tuple(as_number(p, "x") for p in points)
+        _check_regular(self.journey.problem, targets)
+        with Budget(self.limits).watched():
+            if self.method is None and self.journey.knows(targets, start_bits(self.digits)):
+                return raise_precision(self.journey, targets, None, self.digits, self.limits)
+            closed = route_of(self.journey, targets, self.method, self.digits)
+            _LOG.info("route: %s", "Taylor's method" if closed is None else closed)
+            if closed is not None:
+                try:
+                    return raise_precision(self.journey, targets, closed, self.digits, self.limits)
+                except NotServed:
+                    if self.method is not None:
+                        said = "the closed form doesn't prove its values on this path"
+                        raise InputError(said, hint=TAYLOR) from None
+                    _LOG.info("it doesn't prove its values on this path: Taylor's method")
+            return raise_precision(self.journey, targets, None, self.digits, self.limits)
+
+
+def question_of(
     equation: object,
-    points: Sequence[object],
     *,
     x0: object,
     y0: object = None,
@@ -41,48 +70,49 @@ def evaluate_states(
     method: Method | None = None,
     path: Path = None,
     limits: Limits | None = None,
-) -> tuple[PointValue, ...]:
-    """As `evaluate`, with y and y' and the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
+) -> Question:
+    """The solution that the keywords of `evaluate` describe."""
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
+    check_method(method)
+    problem = as_problem(equation, params, forced=True, constants=True)
+    start = [comparable(value) for value in (x0, y0, dy0)]
+    given = problem, *start, comparables(frobenius, "frobenius"), which, comparables(path, "path")
+    return Question(looked_up(journey_of, *given), digits, method, limits)
+
+
+def check_method(method: object) -> None:
+    """Raise InputError for an unknown one."""
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
-    problem = as_problem(equation, params, forced=True, constants=True)
-    start = [_comparable(value) for value in (x0, y0, dy0)]
-    given = problem, *start, _comparables(frobenius, "frobenius"), which, _comparables(path, "path")
-    try:
-        hash(given)
-    except (TypeError, ValueError):  # lists, FLINT's balls
-        journey = journey_of.__wrapped__(*given)
-    else:
-        journey = journey_of(*given)
-    targets = tuple(as_number(p, "x") for p in points)
-    _check_regular(problem, targets)
-    with Budget(limits).watched():
-        closed = route_of(journey, targets, method, digits)
-        _LOG.info("route: %s", "Taylor's method" if closed is None else closed)
-        if closed is not None:
-            try:
-                return raise_precision(journey, targets, closed, digits, limits)
-            except NotServed:
-                if method is not None:
-                    raise InputError("the closed form doesn't prove its values on this path", hint=TAYLOR) from None
-                _LOG.info("it doesn't prove its values on this path: Taylor's method")
-        return raise_precision(journey, targets, None, digits, limits)
 
 
-def _comparable(value: object) -> object:
+def evaluate_states(equation: object, points: Sequence[object], **given: Any) -> tuple[PointValue, ...]:
+    """As `evaluate`, with y and y' and the circumstances, for each of `points`."""
+    return question_of(equation, **given).states(points)
+
+
+def comparable(value: object) -> object:
     """A number of NumPy's as a point: SymPy can't compare all of them with its own, when journeys are looked up."""
     return as_point(value, "a number of the start") if type(value).__module__ == "numpy" else value
 
 
-def _comparables(values: object, name: str) -> Any:
+def comparables(values: object, name: str) -> Any:
     """A sequence of numbers as a tuple of such; a word, or None, as it is."""
     if values is None or isinstance(values, str):
         return values
     if isinstance(values, bytes | Mapping | Set) or not isinstance(values, Iterable):
         raise InputError(f"{name} is a sequence of numbers, not {type(values).__name__!r}")
-    return tuple(map(_comparable, values))
+    return tuple(map(comparable, values))
+
+
+def looked_up(cached: Any, *given: Any) -> Any:
+    """A function that keeps its values; of lists and FLINT's balls, which can't be looked up, computed anew."""
+    try:
+        hash(given)
+    except (TypeError, ValueError):
+        return cached.__wrapped__(*given)
+    return cached(*given)
 
 
 @lru_cache(maxsize=32, typed=True)

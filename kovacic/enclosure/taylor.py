@@ -34,12 +34,14 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
-from kovacic.enclosure.frame import Frame, Parts, log2, norm
+from kovacic.enclosure.frame import REACH, Frame, Parts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, floor, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, floor, working_precision
+from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
+_STARTS = (acb(1), acb(0)), (acb(0), acb(1))
 _CHECKED = 64  # the clock is read every so many terms
 
 
@@ -147,27 +149,26 @@ def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any]
 
 def transition(expansion: TaylorSeries, target: ExactPoint) -> Matrix:
     """Enclosure of the transition matrix from the centre to a point of the disc."""
-    first, second = (states_at(expansion, start, [target])[0] for start in ((acb(1), acb(0)), (acb(0), acb(1))))
+    first, second = (local_solution(expansion, start).state(target) for start in _STARTS)
     return fundamental(first, second)
 
 
-def states_at(expansion: TaylorSeries, state: State, targets: list[ExactPoint]) -> list[State]:
-    """The states at points of the disc from the state at the centre."""
-    frame = expansion.frame
-    with working_precision(expansion.w + 10):
-        unit, h, us = arb((1, -expansion.w)), arb((1, frame.e)), [frame.seen(target) for target in targets]
-        real = all(v.imag.is_zero() for v in state) and all(u.is_real() for u in us)
-        real, factors = real and all(im is None for _, im in expansion.columns), (state[0], state[1] * h)
-        kind, total, radii = arb_poly if real else acb_poly, (arb_poly if real else acb_poly)([]), [arb(0), arb(0)]
-        for (re, im), factor, defect in zip(expansion.columns, factors, expansion.defect, strict=True):
+def local_solution(expansion: TaylorSeries, state: State) -> Local:
+    """The solution in the disc from its state at the centre."""
+    frame, precision = expansion.frame, expansion.w + 10
+    with working_precision(precision):
+        unit, h = arb((1, -expansion.w)), arb((1, frame.e))
+        real = all(v.imag.is_zero() for v in state) and all(im is None for _, im in expansion.columns)
+        kind = arb_poly if real else acb_poly
+        total, radii = kind([]), [arb(0), arb(0)]
+        for (re, im), factor, defect in zip(expansion.columns, (state[0], state[1] * h), expansion.defect, strict=True):
             if not factor.is_zero():
                 poly = kind(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im)
                 total += poly * ((factor.real if real else factor) * unit)
                 errors = error_radii(arb((defect + 1, -expansion.w)), frame)
                 radii = [r + abs(factor).upper() * error for r, error in zip(radii, errors, strict=True)]
-        balls = [arb(0, r.upper()) if real else acb(*[arb(0, r.upper())] * 2) for r in radii]
-        points, slope = [u.x if real else to_acb(u) for u in us], total.derivative()
-        return [(acb(total(u) + balls[0]), acb((slope(u) + balls[1]) / h)) for u in points]
+        bounds = radii[0].upper(), radii[1].upper()
+        return Local.of(frame.centre, frame.e, total, bounds, reach=REACH, precision=precision)
 
 
 def error_radii(defect: arb, frame: Frame) -> tuple[arb, arb]:

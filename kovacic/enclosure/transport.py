@@ -23,14 +23,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from flint import fmpq
+from flint import acb, fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.system import System, check_segment, distance_lower, is_apart
-from kovacic.enclosure.taylor import TaylorSeries, expand, states_at, transition
+from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
+from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work, watched_seconds
 
@@ -111,10 +112,20 @@ class Leg:
         matrix = transition(self.expansion, self.disc.leave)
         return matrix if self.to_centre is None else multiply(matrix, self.to_centre)
 
-    def states(self, state: State, targets: list[ExactPoint]) -> list[State]:
-        """The states in the disc, from the one where it is entered: one polynomial for all of them."""
+    @property
+    def leave(self) -> ExactPoint:
+        """Where the disc is left."""
+        return self.disc.leave
+
+    @property
+    def added(self) -> State:
+        """There is no right-hand side."""
+        return acb(0), acb(0)
+
+    def local(self, state: State) -> Local:
+        """The solution in the disc, from its state where the disc is entered."""
         assert self.expansion is not None
-        return states_at(self.expansion, state if self.to_centre is None else apply(self.to_centre, state), targets)
+        return local_solution(self.expansion, state if self.to_centre is None else apply(self.to_centre, state))
 
 
 def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:

@@ -17,7 +17,7 @@ from kovacic.errors import NotRational
 from kovacic.reading.symbolic import read_expression
 
 #: (dt/du)^2 for functions t of u = k x + c, in t.
-_SQUARES: dict[Any, Any] = {
+SQUARES: dict[Any, Any] = {
     sympy.exp: lambda t: t**2,
     sympy.sin: lambda t: 1 - t**2,
     sympy.cos: lambda t: 1 - t**2,
@@ -45,7 +45,7 @@ def slope_squared(equation: Equation) -> Any:
         return sympy.Integer(1)
     t = function_of_x(equation)
     rate = t.args[0].diff(user_variable(equation))
-    return _SQUARES[t.func](sympy.Symbol(equation.variable)) * rate**2
+    return SQUARES[t.func](sympy.Symbol(equation.variable)) * rate**2
 
 
 def without_change(given: Any) -> Any:

@@ -27,10 +27,12 @@ from kovacic.answer import Answer
 from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
 from kovacic.enclosure.evaluate import Accuracy, InitialValues
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint
-from kovacic.enclosure.problem import change_of, with_variable
+from kovacic.enclosure.functions import as_written
+from kovacic.enclosure.points import ExactPoint, as_point
+from kovacic.enclosure.problem import Coefficients, change_of
+from kovacic.enclosure.variable import with_variable
 from kovacic.equation import Parsed
-from kovacic.errors import InputError, check_keywords
+from kovacic.errors import InputError, NotRational, check_keywords
 from kovacic.exact import whole
 from kovacic.limits import Limits, limited, limits_of
 from kovacic.reading.read import read_input
@@ -145,7 +147,7 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
     Beside an irregular singular point, solutions are as large as exp(1/distance).
     """
     cuts = sorted({z.re for z in chart.singular if z.is_real() and a <= z.re <= b})
-    wild = {float(midpoint(root).re) for root, order in chart.problem.system.roots("den", 128) if order > 2}
+    wild = {float(point.re) for point in chart.irregular}
 
     def share(end: Fraction) -> Fraction:
         if end not in cuts:
@@ -272,16 +274,19 @@ def _title(equation: object, title: str | None) -> str:
 
 def _read(equation: object, var: str | None, limits: Limits | None) -> object:
     """The equation with the name of its variable, which the axis has."""
-    if isinstance(equation, str) and var is None:
+    if not isinstance(equation, str) or var is not None:
+        return with_variable(equation, var, limits)
+    try:
         return read_input(equation, limits=limits_of(limits), exponentials=True)
-    return with_variable(equation, var, limits)
+    except NotRational:
+        return as_written(equation, None, limits_of(limits))
 
 
 def _variable(equation: object) -> str:
     change = change_of(equation)
     if change is not None:
         return change.variable
-    return equation.variable if isinstance(equation, Answer | Parsed) else "x"
+    return str(equation.variable) if isinstance(equation, Answer | Parsed | Coefficients) else "x"
 
 
 def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:

@@ -1,0 +1,141 @@
+"""Equations y'' + b y' + c y = f whose coefficients are functions of x that aren't rational: what they are, as expressions.
+
+Where an equation is rational in t = exp(k x), sin(k x), ... it is Y'' + p Y' + q Y = r in t, reduced exactly, and with
+t'^2 = k^2 sigma(t), sigma a polynomial, so that t'' = k^2 sigma'(t)/2,
+
+    y'' + t' (p - sigma'/(2 sigma)) y' + k^2 sigma q y = k^2 sigma r,        y(x) = Y(t(x)).                              (1)
+
+The brackets are rational functions of t in lowest terms: what cancels there is no singular point.  Where t = tan(u) they are
+written in sin(u) and cos(u), since a pole of t alone is none of the equation.  Any other equation is taken as it was written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any
+
+import sympy
+
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Atoms
+from kovacic.enclosure.problem import Coefficients, change_of
+from kovacic.equation import Equation
+from kovacic.errors import NotRational
+from kovacic.limits import Limits
+from kovacic.reading.change_of_variable import SQUARES, function_of_x, user_variable
+from kovacic.reading.parts import parts_of
+from kovacic.reading.read import read_input
+from kovacic.reading.source import source_of
+
+
+def coefficients_of_any(equation: Any, params: Mapping[str, object] | None, limits: Limits) -> Coefficients:
+    """Those of an equation whose coefficients aren't rational: a text, a SymPy expression, or what was read or solved.
+
+    Raises InputError for what isn't a linear equation of second order, or lacks values of its parameters.
+    """
+    if isinstance(equation, Coefficients):
+        return equation if equation.values else equation.given(params)
+    change = change_of(equation)
+    if change is not None:
+        found = _of_parsed(equation)
+    elif isinstance(equation, str):
+        found = _of_text(equation, limits)
+    else:
+        found = _of_input(equation, limits)
+    return found.given(params)
+
+
+@lru_cache(maxsize=64)
+def _of_text(text: str, limits: Limits) -> Coefficients:
+    return _of_input(text, limits)
+
+
+def _of_input(equation: Any, limits: Limits) -> Coefficients:
+    """In t where there is such a variable: then what cancels is known."""
+    try:
+        parsed = read_input(equation, limits=limits, exponentials=True)
+    except NotRational:
+        return as_written(equation, None, limits)
+    return as_written(equation, None, limits) if change_of(parsed) is None else _of_parsed(parsed)
+
+
+def _of_parsed(parsed: Any) -> Coefficients:
+    """Without letters for constants."""
+    found = in_the_given_variable(parsed.equation)
+    for letter, meaning in reversed(getattr(parsed, "letters", ())):
+        b, c, f = (part.xreplace({sympy.Symbol(letter): meaning}) for part in found.parts)
+        found = Coefficients(found.variable, b, c, f)
+    return found
+
+
+def as_written(equation: Any, var: Any, limits: Limits) -> Coefficients:
+    """What stands there, over the coefficient of y''."""
+    source = source_of(equation, None if var is None else str(var), limits)
+    (a, b, c, rest), _ = parts_of(source, limits)
+    return Coefficients(sympy.Symbol(source.variable), b / a, c / a, -rest / a)
+
+
+@lru_cache(maxsize=64)
+def in_the_given_variable(equation: Equation) -> Coefficients:
+    """Equation (1)."""
+    t = function_of_x(equation)
+    x = user_variable(equation)
+    rate = t.args[0].diff(x)
+    field = equation.a.field
+    sigma = RatFunc(_sigma(t, field))
+    b = equation.b / equation.a - sigma.derivative() / (2 * sigma)
+    c = sigma * equation.c / equation.a
+    f = sigma * equation.f / equation.a
+    slope = t.diff(x)
+    if t.func is sympy.tan:  # a polynomial in t
+        slope = rate
+        b *= RatFunc(field.poly([1, 0, 1]))
+    right = rate**2 * _in(t, f)
+    if equation.h is not None:  # over the coefficient of y'', in x
+        right += equation.h
+    return Coefficients(x, slope * _in(t, b), rate**2 * _in(t, c), right)
+
+
+def _sigma(t: Any, field: Field) -> Poly:
+    """(dt/du)^2 for t(u), as a polynomial in t."""
+    T = sympy.Dummy()
+    coefficients = sympy.Poly(SQUARES[t.func](T), T).all_coeffs()
+    return field.poly([int(c) for c in reversed(coefficients)])
+
+
+def _in(t: Any, function: RatFunc) -> Any:
+    """A rational function of t, as an expression; 1 - cos(u)^2 in its denominator is sin(u)^2, which balls know better."""
+    if not function:
+        return sympy.Integer(0)
+    atoms = Atoms(sympy.Dummy("t"))
+    if t.func is sympy.tan:
+        return _in_sines(t.args[0], function, atoms)
+    u = sympy.Dummy("u")
+    root = t.func(u).diff(u).xreplace({u: t.args[0]})
+    denominator, powers = _divided(function.den, _sigma(t, function.field))
+    rest = atoms.ratio(RatFunc(function.num, denominator, reduced=True)).xreplace({atoms.x: t})
+    return rest * root ** (-2 * powers)
+
+
+def _divided(poly: Poly, factor: Poly) -> tuple[Poly, int]:
+    """The polynomial without this factor, and how often it is there."""
+    count = 0
+    while poly.degree >= factor.degree and not poly % factor:
+        poly //= factor
+        count += 1
+    return poly, count
+
+
+def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
+    """A rational function of tan(u) by sin(u) and cos(u): polynomials in tan(u) times powers of cos(u), 1 + tan(u)^2 the latter
+    alone."""
+    denominator, count = _divided(function.den, function.field.poly([1, 0, 1]))
+    powers = 2 * count + denominator.degree - function.num.degree
+
+    def homogeneous(poly: Poly) -> Any:
+        terms = enumerate(atoms.coefficients(poly))
+        return sympy.Add(*(c * sympy.sin(u) ** k * sympy.cos(u) ** (poly.degree - k) for k, c in terms))
+
+    return homogeneous(function.num) / homogeneous(denominator) * sympy.cos(u) ** powers

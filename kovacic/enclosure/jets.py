@@ -1,0 +1,333 @@
+"""Equations y'' + b y' + c y = f with analytic coefficients in a disc: their series, proven bounds, and the solutions' series.
+
+The guarantee: for every point of the disc the returned balls contain the exact solution there.
+
+The mathematics.  With x = z + H u the equation is y'' + B y' + C y = F, ' = d/du, B = H b, C = H^2 c, F = H^2 f.  Where a
+function is analytic for |u| <= R, bounded by M, which balls show (a box that contains the disc), its coefficients are at most
+M R^-n [Cauchy], and the rest of its series after N terms is at most M R^-N R/(R - 1) for |u| <= 1.  The coefficients themselves
+are those of power series in balls.
+
+Let B~, C~, F~ be these polynomials, and Y the polynomial of degree n - 1 that the recurrence
+
+    (k+1)(k+2) a_(k+2) = F~_k - sum_j B~_j (k+1-j) a_(k+1-j) - sum_j C~_j a_(k-j)
+
+gives, in balls.  The defect r = Y'' + B~ Y' + C~ Y - F~ has no terms below u^(n-2), so that its size is bounded by sums of
+absolute values; the rests of B, C and F are added.  The error e satisfies |e''| <= beta |e'| + gamma |e| + rho on every ray, so
+
+    |e|, |e'| <= rho exp(lambda),    lambda = (beta + (beta^2 + 4 gamma)^(1/2))/2,
+
+by comparison with the solution z of z'' = beta z' + gamma z + rho, z(0) = z'(0) = 0, z <= z' <= rho exp(lambda) on [0, 1].
+
+Symbols: z centre, H = 2^e scale, u = (x - z)/H.
+
+Reference: R. E. Moore, "Interval Analysis", Prentice-Hall 1966, chapter 11 (series in intervals); W. Walter, "Differential and
+Integral Inequalities", Springer 1970 (the comparison).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
+
+from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.constants import to_ball
+from kovacic.enclosure.frame import log2
+from kovacic.enclosure.matrices import Matrix, State, fundamental
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.problem import Coefficients
+from kovacic.enclosure.way import Local
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
+
+_ROUGH = 64
+"""Bits of bounds."""
+_RADII = (2, 3, 4, 6, 8, 12, 16)
+_LEAF, _FIRST, _QUIET = 6, 24, 8
+"""Terms of the recurrence that are computed one by one, those of the first block, and so many small ones at its end."""
+_MOST_TERMS = 40
+"""Terms for each bit, at most."""
+_SPARE = 12
+_BOX = 4.0
+"""Bounds by boxes are so many times too large."""
+_LOG2_E = 1.4427
+_REACH = fmpq(1)
+
+
+@dataclass(frozen=True)
+class Jets:
+    """B~, C~, F~ in the disc around `centre`, bounds of the rests, and lambda; to so many `bits`, at this `precision`."""
+
+    centre: ExactPoint
+    e: int
+    parts: tuple[Any, Any, Any]
+    rests: tuple[arb, arb, arb]
+    rate: arb
+    bits: int
+    precision: int
+
+    @property
+    def scale(self) -> arb:
+        """H."""
+        return arb((1, self.e))
+
+    @property
+    def is_real(self) -> bool:
+        """Are the polynomials real?"""
+        return all(isinstance(part, arb_poly) for part in self.parts)
+
+
+class CoefficientField:
+    """The coefficients as functions in balls."""
+
+    def __init__(self, coefficients: Coefficients) -> None:
+        self.coefficients = coefficients
+        self.is_real = are_real(coefficients)
+
+    def values(self, x: Any, *, analytic: bool = False) -> list[Any]:
+        """b, c and f at a ball or a series; not finite where one of them isn't analytic, with `analytic`."""
+        evaluated = BallEvaluator(self.coefficients.at(x), analytic=analytic)
+        return [evaluated(part) for part in self.coefficients.parts]
+
+    def is_regular(self, x: acb) -> bool:
+        """Are the coefficients known to be analytic on the ball?"""
+        return all(value.is_finite() for value in self.values(x, analytic=True))
+
+    def sizes(self, centre: ExactPoint, radius: arb) -> list[arb] | None:
+        """Bounds of |b|, |c| and |f| in a disc; None where they aren't known to be analytic there."""
+        z = to_acb(centre)
+        box = acb(z.real + arb(0, radius), z.imag + arb(0, radius))
+        found = [abs(value).upper() for value in self.values(box, analytic=True)]
+        return found if all(size.is_finite() for size in found) else None
+
+    def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
+        """The series for solutions to about 2^-prec; None where the disc of twice this scale has a singularity, or lambda is
+        above `steepest`."""
+        with working_precision(_ROUGH):
+            h = arb((1, e))
+            near = self.sizes(centre, h)
+            if near is None or not _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
+                return None
+            growth = int(_LOG2_E * min(steepest, float(_rate(near[0] * h, near[1] * h * h))))
+            bits = prec + growth + _SPARE
+            bounds = []
+            for radius in _RADII:
+                sizes = self.sizes(centre, h * radius)
+                if sizes is None:
+                    break
+                bounds.append((radius, sizes))
+            if not bounds:
+                return None
+            terms, rests = min((_terms(radius, sizes, h, bits) for radius, sizes in bounds), key=lambda found: found[0])
+        precision = bits + growth + _SPARE
+        with working_precision(precision):
+            parts = self.series(centre, e, terms)
+        if parts is None:
+            return None
+        with working_precision(_ROUGH):
+            beta, gamma = (_size(part) + rest for part, rest in zip(parts[:2], rests[:2], strict=True))
+            rate = _rate(beta, gamma)
+        return Jets(centre, e, parts, rests, rate, bits, precision) if rate <= steepest else None
+
+    def series(self, centre: ExactPoint, e: int, terms: int) -> tuple[Any, Any, Any] | None:
+        """So many coefficients of B, C and F; None where they aren't finite."""
+        cap = ctx.cap
+        ctx.cap = terms
+        try:
+            found = self.values(acb_series([to_acb(centre), arb((1, e))]))
+            rows = [(value * arb((1, k * e))) for k, value in zip((1, 2, 2), found, strict=True)]
+            rows = [row.coeffs() if isinstance(row, acb_series) else [row] for row in rows]
+        except (ZeroDivisionError, ValueError):
+            return None
+        finally:
+            ctx.cap = cap
+        if not all(value.is_finite() for row in rows for value in row):
+            return None
+        if (self.is_real and centre.is_real()) or all(value.imag.is_zero() for row in rows for value in row):
+            b, c, f = (arb_poly([value.real for value in row]) for row in rows)
+        else:
+            b, c, f = map(acb_poly, rows)
+        return b, c, f
+
+
+def are_real(coefficients: Coefficients) -> bool:
+    """Is it known that they are real for real x where they are analytic?"""
+    real = {s: sympy.Dummy(real=True) for part in coefficients.parts for s in part.free_symbols}
+    for part in coefficients.parts:
+        here = part.xreplace(real)
+        if not here.is_real and sympy.cancel(here - sympy.conjugate(here)) != 0:
+            return False
+    return all(to_ball(value).imag.is_zero() for _, value in coefficients.values)
+
+
+def _rate(beta: arb, gamma: arb) -> arb:
+    """lambda."""
+    return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
+
+
+def _size(poly: Any) -> arb:
+    """The sum of the absolute values."""
+    return sum((abs(value) for value in poly.coeffs()), arb(0)).upper()
+
+
+def _terms(radius: int, sizes: Sequence[arb], h: arb, bits: int) -> tuple[int, tuple[arb, arb, arb]]:
+    """So many terms of the series are to be known that the rests are below 2^-bits, and bounds of these."""
+    scaled = [size * factor for size, factor in zip(sizes, (h, h * h, h * h), strict=True)]
+    largest = log2(max(max(scaled), arb(1)))
+    terms = max(4, int((largest + bits + 1) / log2(arb(radius))) + 2)
+    share = arb(radius) ** (1 - terms) / (radius - 1)
+    b, c, f = ((size * share).upper() for size in scaled)
+    return terms, (b, c, f)
+
+
+class Basis:
+    """The solutions with the states (1, 0), (0, 1) in u at the centre, and one of the equation with its right-hand side."""
+
+    def __init__(self, jets: Jets) -> None:
+        self.jets = jets
+        homogeneous = jets.parts[2].degree() < 0 and jets.rests[2].is_zero()
+        with working_precision(jets.precision):
+            self._columns = [_solved(jets, start, right=False) for start in ((1, 0), (0, 1))]
+            self._own = None if homogeneous else _solved(jets, (0, 0), right=True)
+
+    def local(self, state: State) -> Local:
+        """The solution with this state (y, dy/du) at the centre."""
+        total: Any = arb_poly([])
+        error = arb(0)
+        with working_precision(self.jets.precision):
+            for factor, column in zip(state, self._columns, strict=True):
+                if not factor.is_zero():
+                    total = total + column.poly * (factor.real if factor.imag.is_zero() else factor)
+                    error += abs(factor).upper() * column.error
+            if self._own is not None:
+                total = total + self._own.poly
+                error += self._own.error
+            return _local(self.jets, total, error.upper())
+
+    def matrix(self, x: ExactPoint) -> Matrix:
+        """From (y, dy/du) at the centre to (y, dy/dx) at x, without the right-hand side."""
+        first, second = self._columns
+        return fundamental(first.state(x), second.state(x))
+
+    def inverse(self, x: ExactPoint) -> Matrix:
+        """From (y, dy/dx) at x to (y, dy/du) at the centre, without the right-hand side: the Wronskian is exp(-int B)/H."""
+        m = self.matrix(x)
+        u = (x - self.jets.centre).scaled(power_of_two(-self.jets.e))
+        area, rest = self.jets.parts[0].integral(), self.jets.rests[0]
+        if u.is_real() and isinstance(area, arb_poly):
+            exponent = acb(area(arb(u.x)) + arb(0, rest))
+        else:
+            exponent = acb_poly(area)(to_acb(u)) + acb(arb(0, rest), arb(0, rest))
+        factor = exponent.exp() * self.jets.scale
+        return m[3] * factor, -m[1] * factor, -m[2] * factor, m[0] * factor
+
+    def particular(self, x: ExactPoint) -> State:
+        """(y, dy/dx) at x of the solution that is zero, and its derivative, at the centre."""
+        return (acb(0), acb(0)) if self._own is None else self._own.state(x)
+
+
+def _local(jets: Jets, poly: Any, error: arb) -> Local:
+    return Local.of(jets.centre, jets.e, poly, (error, error), reach=_REACH, precision=jets.precision)
+
+
+def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
+    """The solution with this start at the centre, with or without the right-hand side."""
+    B, C, F = jets.parts
+    kind = arb_poly if jets.is_real else acb_poly
+    number = arb if jets.is_real else acb
+    recurrence = _Recurrence(kind(B), kind(C), kind(F if right else []), kind, jets.bits)
+    values = recurrence.run((number(start[0]), number(start[1])))
+    with working_precision(_ROUGH):
+        rho = _defect(jets, values, right)
+        error = (rho * jets.rate.exp()).upper()
+    return _local(jets, kind(values), error)
+
+
+def _defect(jets: Jets, values: list[Any], right: bool) -> arb:
+    """A bound rho of the defect for |u| <= 1."""
+    n = len(values)
+    B, C, F = ([abs(value).upper() for value in part.coeffs()] for part in jets.parts)
+    y = [abs(value).upper() for value in values]
+    dy = [abs(value).upper() * (k + 1) for k, value in enumerate(values[1:])]
+    product = (arb_poly(B) * arb_poly(dy) + arb_poly(C) * arb_poly(y)).coeffs()
+    rho = sum(product[n - 2 :], arb(0))
+    rest_b, rest_c, rest_f = jets.rests
+    rho += rest_b * sum(dy, arb(0)) + rest_c * sum(y, arb(0))
+    if right:
+        rho += sum(F[n - 2 :], arb(0)) + rest_f
+    return rho.upper()
+
+
+class _Recurrence:
+    """The coefficients a_k, `values`, by halving: what the first half gives to the second is a product of polynomials.
+
+    With d_k = (k+1) a_(k+1), the coefficients of Y', s_k = sum_j (B_(k-j) d_j + C_(k-j) a_j) - F_k is -(k+1) d_(k+1).
+    """
+
+    def __init__(self, B: Any, C: Any, F: Any, kind: Any, bits: int) -> None:
+        self.kind = kind
+        self.B, self.C = B.coeffs(), C.coeffs()
+        self.sums = [-value for value in F.coeffs()]
+        self.least = max(len(self.B), len(self.C), len(self.sums))
+        self.small = arb((1, -bits))
+        self.most = _MOST_TERMS * bits + 400
+        self.values: list[Any] = []
+        self.slopes: list[Any] = []
+        self.ended = False
+
+    def run(self, start: tuple[Any, Any]) -> list[Any]:
+        """The terms from these two on, until some are small."""
+        self.values = [*start]
+        self.slopes = [start[1]]
+        known, size = 0, _FIRST
+        while not self.ended:
+            self._give(0, known, known + size)
+            self._continue(known, known + size)
+            known += size
+            size = known
+        return self.values
+
+    def _continue(self, low: int, high: int) -> None:
+        """The steps k = low, ..., high - 1, where what comes from j < low is in the sums."""
+        if self.ended:
+            return
+        if high - low > _LEAF:
+            middle = (low + high) // 2
+            self._continue(low, middle)
+            self._give(low, middle, high)
+            self._continue(middle, high)
+            return
+        for k in range(low, high):
+            total = self.sums[k] if k < len(self.sums) else self.kind([0])[0]
+            for j in range(low, k + 1):
+                if k - j < len(self.B):
+                    total += self.B[k - j] * self.slopes[j]
+                if k - j < len(self.C):
+                    total += self.C[k - j] * self.values[j]
+            self.slopes.append(-total / (k + 1))
+            self.values.append(self.slopes[-1] / (k + 2))
+        self._look()
+
+    def _give(self, low: int, middle: int, high: int) -> None:
+        """To the sums k = middle, ..., high - 1 what comes from j = low, ..., middle - 1."""
+        if self.ended or low == middle:
+            return
+        count = high - low
+        product = self.kind(self.B[:count]) * self.kind(self.slopes[low:middle])
+        product += self.kind(self.C[:count]) * self.kind(self.values[low:middle])
+        given = product.coeffs()[middle - low : count]
+        self.sums += [self.kind([0])[0]] * (middle + len(given) - len(self.sums))
+        for k, value in enumerate(given, start=middle):
+            self.sums[k] += value
+
+    def _look(self) -> None:
+        """Are the last terms so small that the others are, too?"""
+        check_time()
+        count = len(self.values)
+        if count > self.most:
+            raise LimitExceeded(f"a Taylor expansion needs more than {self.most} terms", limit="unknown_degree")
+        last = self.slopes[-_QUIET:]
+        self.ended = count > max(self.least, _QUIET + 2) and all(abs(value) < self.small for value in last)

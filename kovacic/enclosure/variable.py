@@ -1,0 +1,26 @@
+"""The name of the variable, where the user says it: `var`."""
+
+from __future__ import annotations
+
+from kovacic.answer import Answer
+from kovacic.errors import InputError, NotRational
+from kovacic.limits import Limits, limits_of
+
+
+def with_variable(equation: object, var: object, limits: Limits | None = None) -> object:
+    """The equation, read with this name of its variable; as it was given where none is named."""
+    if var is None:
+        return equation
+    if isinstance(equation, Answer):
+        if str(var) != equation.variable:
+            raise InputError(f"the variable of this answer is {equation.variable}, not {var}")
+        return equation
+    from kovacic.reading.read import read_input
+
+    limits = limits_of(limits)
+    try:
+        return read_input(equation, var=var, limits=limits, exponentials=True)
+    except NotRational:
+        from kovacic.enclosure.functions import as_written  # imports SymPy
+
+        return as_written(equation, var, limits)

@@ -1,0 +1,166 @@
+"""Straight ways that are kept: a solution along a ray, disc after disc, as far as somebody has asked.
+
+A value in a disc that was passed is that of a polynomial; farther ones continue the way from where it ends.  The second
+question continues farther than to its own point, so that many questions in a row don't make a disc each.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from flint import acb, acb_poly, arb, arb_poly
+
+from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
+from kovacic.errors import InputError, LimitExceeded
+
+_MOST_DISCS = 4000
+"""Discs that a way keeps: some kilobytes each at 15 digits."""
+
+
+@dataclass(frozen=True)
+class Local:
+    """A solution in a disc, x = centre + 2^e u: `poly` in u, off by at most `error`, and its derivative by `slope_error`.
+
+    |u| is at most `reach` there; values need so many bits of `precision`.
+    """
+
+    centre: ExactPoint
+    e: int
+    poly: Any
+    slope: Any
+    error: arb
+    slope_error: arb
+    reach: Any
+    precision: int
+
+    @classmethod
+    def of(cls, centre: ExactPoint, e: int, poly: Any, errors: tuple[arb, arb], *, reach: Any, precision: int) -> Local:
+        """With the derivative of the polynomial."""
+        return cls(centre, e, poly, poly.derivative(), *errors, reach, precision)
+
+    def state(self, x: ExactPoint) -> State:
+        """(y, dy/dx); raises ArithmeticError outside of the disc."""
+        u = (x - self.centre).scaled(power_of_two(-self.e))
+        if u.norm_squared() > self.reach * self.reach:
+            raise ArithmeticError("the target lies outside of its disc")
+        with working_precision(self.precision):
+            return self._state(u)
+
+    def _state(self, u: ExactPoint) -> State:
+        h = arb((1, self.e))
+        if isinstance(self.poly, arb_poly) and u.is_real():
+            at = arb(u.x)
+            return acb(self.poly(at) + arb(0, self.error)), acb((self.slope(at) + arb(0, self.slope_error)) / h)
+        z = to_acb(u)
+        y, dy = acb_poly(self.poly)(z), acb_poly(self.slope)(z)
+        return y + _square(self.error), (dy + _square(self.slope_error)) / h
+
+
+def _square(radius: arb) -> acb:
+    return acb(arb(0, radius), arb(0, radius))
+
+
+class Step(Protocol):
+    """A disc of a way."""
+
+    @property
+    def leave(self) -> ExactPoint:
+        """Where the next one begins."""
+
+    @property
+    def matrix(self) -> Matrix:
+        """From the state where the disc is entered to that where it is left, without a right-hand side."""
+
+    @property
+    def added(self) -> State:
+        """What a right-hand side adds to that."""
+
+    def local(self, state: State) -> Local:
+        """The solution in the disc, from its state where the disc is entered."""
+
+
+def position(here: ExactPoint, x: ExactPoint) -> Any:
+    """How far x is from here, for points of one ray."""
+    step = x - here
+    return max(abs(step.x), abs(step.y))
+
+
+def ray(here: ExactPoint, x: ExactPoint) -> ExactPoint:
+    """The direction, the same for all points of one ray."""
+    return (x - here).scaled(1 / position(here, x))
+
+
+@dataclass
+class Way:
+    """From `here` along one ray: `walk(a, b)` makes the discs from a to b, junctions on the ray.
+
+    The state at `here` is `product` times the start, plus `particular`.
+    """
+
+    here: ExactPoint
+    walk: Callable[[ExactPoint, ExactPoint], Iterator[Step]]
+    start: State
+    product: MatrixProduct
+    particular: State = (acb(0), acb(0))
+    end: ExactPoint = field(init=False)
+    begin: Any = 0
+    _stops: list[Any] = field(default_factory=list)
+    _locals: list[Local] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.end = self.here
+
+    def has(self, x: ExactPoint) -> bool:
+        """Is it not known that x lies before the part that is kept?"""
+        return bool(position(self.here, x) >= self.begin)
+
+    def contains(self, x: ExactPoint) -> bool:
+        """Is the point on the part that is kept?"""
+        return self.has(x) and bool(position(self.here, x) <= position(self.here, self.end))
+
+    def state(self, x: ExactPoint) -> State:
+        """(y, y') at a point of the ray."""
+        place = position(self.here, x)
+        if place > position(self.here, self.end):
+            self._extend(x)
+        return self._locals[bisect_left(self._stops, place)].state(x)
+
+    def _extend(self, x: ExactPoint) -> None:
+        """To x; but for the first time on to twice the distance, for no more discs than there are, if nothing is in the way."""
+        if self._stops:
+            far = self.here + (x - self.here).scaled(2)
+            with suppress(InputError, LimitExceeded):
+                self._go(far, x, len(self._stops))
+        if position(self.here, x) > position(self.here, self.end):
+            self._go(x, x, 0)
+
+    def _go(self, far: ExactPoint, x: ExactPoint, spare: int) -> None:
+        """Towards `far`, at least to x, and then so many discs more."""
+        wanted = position(self.here, x)
+        for step in self.walk(self.end, far):
+            y, dy = self.particular
+            state = self.product.apply(self.start)
+            self._locals.append(step.local((state[0] + y, state[1] + dy)))
+            self._stops.append(position(self.here, step.leave))
+            y, dy = apply(step.matrix, self.particular)
+            self.product = self.product.after(step.matrix)
+            self.particular = y + step.added[0], dy + step.added[1]
+            self.end = step.leave
+            arrived = self._stops[-1] >= wanted
+            if len(self._stops) > _MOST_DISCS and not arrived:
+                self._forget()
+            spare -= arrived
+            if arrived and step.leave != x and (spare < 0 or len(self._stops) >= _MOST_DISCS):
+                return
+
+    def _forget(self) -> None:
+        """The first half of the discs."""
+        half = _MOST_DISCS // 2
+        self.begin = self._stops[half - 1]
+        del self._stops[:half]
+        del self._locals[:half]
