@@ -30,7 +30,7 @@ from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.enclosure.closed_form import CaseOneForm
 from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
-from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb, working_precision
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
@@ -110,16 +110,16 @@ class Classical:
 
         Raises NotServed at other points, and where a solution is needed that may have a logarithm.
         """
-        return _settled(lambda: _frobenius(self, point, gauge, needed, ctx.prec).at(x), ctx.prec)
+        return _settled(lambda: _frobenius(self, point, gauge, needed).at(x), ctx.prec)
 
     def _leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
-        start = _start(self, a, False, ctx.prec)
+        start = _start(self, a, False)
         if not start.form.independent:
             raise NotServed
         zero = _ordinary_zero(start.form, a, b)
         if zero is None:
             return multiply(start.at(b), start.coordinates)
-        basis = _start(self, zero, True, ctx.prec)
+        basis = _start(self, zero, True)
         return multiply(basis.at(b), basis.coordinates if a == zero else inverse(basis.at(a)))
 
 
@@ -137,27 +137,25 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
     raise NotServed
 
 
-@lru_cache(maxsize=64)
-def _start(classical: Classical, a: ExactPoint, is_zero: bool, prec: int) -> Solutions:
-    """The solutions from a, perhaps an ordinary zero of f, on, at this precision, which is in force."""
-    form = _form(classical, classical.coordinate(a), prec)
+@kept_at_precision(maxsize=64)
+def _start(classical: Classical, a: ExactPoint, is_zero: bool) -> Solutions:
+    """The solutions from a, perhaps an ordinary zero of f, on."""
+    form = _form(classical, classical.coordinate(a))
     return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
 
 
-@lru_cache(maxsize=16)
-def _form(classical: Classical, coordinate: int, prec: int) -> StandardForm:
+@kept_at_precision(maxsize=16)
+def _form(classical: Classical, coordinate: int) -> StandardForm:
     return classical.pullback.equation.form(*classical.fraction, coordinate)
 
 
-@lru_cache(maxsize=64)
-def _frobenius(
-    classical: Classical, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], prec: int
-) -> Solutions:
+@kept_at_precision(maxsize=64)
+def _frobenius(classical: Classical, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool]) -> Solutions:
     if not point.is_rational or point.inverted:
         raise NotServed
-    with working_precision(_sharper(prec)):
+    with working_precision(_sharper(ctx.prec)):
         x0, (lower, upper) = point.near.x, point.exponents()
-        form = _form(classical, classical.coordinate(point.near), ctx.prec)
+        form = _form(classical, classical.coordinate(point.near))
     if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
         raise NotServed
     if needed[0] and point.difference is not None:
@@ -258,7 +256,7 @@ class Solutions:
         t, growth, rate, columns = to_acb(x - self.point), acb(1), acb(0), []
         if self.gauge is not None:
             check_segment(System.of(self.gauge), self.point, x)
-            theta = log_derivative(self.gauge, ctx.prec)
+            theta = log_derivative(self.gauge)
             growth, rate = theta.growth(to_acb(self.point), to_acb(x)), theta.value(to_acb(x))
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):

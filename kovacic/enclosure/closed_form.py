@@ -22,7 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property, cmp_to_key, lru_cache
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
@@ -31,7 +31,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
-from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import check_segment
 from kovacic.engine.decide import decide_reducible
@@ -69,7 +69,7 @@ class Exponential:
 
     def embedded(self, a: acb, b: acb) -> tuple[LogDerivative, acb_poly, acb]:
         """theta, P, and E at b over E at a."""
-        theta = log_derivative(self.theta, ctx.prec, self.embedding)
+        theta = log_derivative(self.theta, self.embedding)
         return theta, embed(self.P, self.constant()), theta.growth(a, b)
 
     def states(self, a: acb, b: acb) -> list[State]:
@@ -189,15 +189,15 @@ class CaseOneForm:
         exact_A, exact_B = self.reduction
         assert self.rational_square is not None
         A, first, second = embed(exact_A, None), self.first.states(a, b), []
-        area = _integrand(self, ctx.prec).exponent(a, b) * value(self.rational_square, None, a)
+        area = _integrand(self).exponent(a, b) * value(self.rational_square, None, a)
         for x, growth, I, (y, dy) in zip((a, b), (acb(1), E), (acb(0), area), first, strict=True):  # noqa: E741
             slope = A.derivative()(x) - theta.value(x) * A(x) + value(exact_B, None, x) * P(x)
             second.append((A(x) / growth + y * I, slope / growth + dy * I))
         return first, second
 
 
-@lru_cache(maxsize=32)
-def _integrand(closed: CaseOneForm, _prec: int) -> LogDerivative:
+@kept_at_precision(maxsize=32)
+def _integrand(closed: CaseOneForm) -> LogDerivative:
     """The rational function B/E^2 of equation (1), at the precision in force."""
     assert closed.rational_square is not None
     return LogDerivative.make(closed.reduction[1] / closed.rational_square, None)

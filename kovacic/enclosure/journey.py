@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
 
-from flint import acb, ctx
+from flint import acb
 
 from kovacic.enclosure.classical import Classical, Closed, classical_of
 from kovacic.enclosure.constants import Number
@@ -135,7 +135,7 @@ class Traveller:
         """At the start of a journey."""
         gauge = None if problem.embedded is None else problem.embedded.log_derivative()
         if problem.gauge is not None:
-            gauge = log_derivative(problem.gauge, ctx.prec)
+            gauge = log_derivative(problem.gauge)
         found = cls(problem, closed, gauge, prec, x0, MatrixProduct(), acb(1), forcing_of(problem))
         if isinstance(x0, ExactPoint):
             found._begin(x0)

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx
@@ -24,6 +23,7 @@ from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
+from kovacic.enclosure.points import kept_at_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_duration, check_time
 
@@ -32,11 +32,11 @@ _NODES = 3e-11  # seconds that the nodes of a quadrature take, over bits^2.7 (me
 
 def conjugates(field: Field) -> list[acb | None]:
     """The embeddings of K(c) over K = Q as values of c at the working precision in force; [None] for Q itself."""
-    return _conjugates(field, ctx.prec) if isinstance(field, AlgebraicField) else [None]
+    return _conjugates(field) if isinstance(field, AlgebraicField) else [None]
 
 
-@lru_cache(maxsize=32)
-def _conjugates(field: AlgebraicField, _prec: int) -> list[acb | None]:
+@kept_at_precision(maxsize=32)
+def _conjugates(field: AlgebraicField) -> list[acb | None]:
     return [root for root, _ in _roots(field.modulus)]
 
 
@@ -134,13 +134,12 @@ class LogDerivative:
         return self.exponent(a, b).exp()
 
 
-@lru_cache(maxsize=32)
-def log_derivative(theta: RatFunc, prec: int, embedding: int = 0) -> LogDerivative:
-    """Partial fractions at this precision, which is in force, kept: the certificate and the gauge of one problem in many calls.
+@kept_at_precision(maxsize=32)
+def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
+    """Partial fractions at the precision in force, kept: the certificate and the gauge of one problem in many calls.
 
     Constants are embedded by the conjugate number `embedding`, rational ones by any.
     """
-    assert prec == ctx.prec
     values = conjugates(theta.field)
     return LogDerivative.make(theta, values[embedding % len(values)])
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, wraps
 from threading import RLock
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from flint import acb, arb, ctx, fmpq
 
@@ -18,6 +18,8 @@ from kovacic.algebra.rationals import to_fmpq, to_fraction
 from kovacic.exact import exact
 
 _LOCK = RLock()
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 @contextmanager
@@ -29,6 +31,25 @@ def working_precision(bits: int) -> Iterator[None]:
     """
     with _LOCK, ctx.workprec(bits):
         yield
+
+
+def kept_at_precision(maxsize: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """A cache for a function of exact arguments that computes at the precision in force, which is part of the key."""
+
+    def decorated(compute: Callable[P, R]) -> Callable[P, R]:
+        @lru_cache(maxsize=maxsize)
+        def kept(_bits: int, *arguments: Any) -> R:
+            return compute(*arguments)  # type: ignore[call-arg]
+
+        @wraps(compute)
+        def called(*arguments: P.args, **keywords: P.kwargs) -> R:
+            assert not keywords
+            return kept(ctx.prec, *arguments)
+
+        called.cache_clear = kept.cache_clear  # type: ignore[attr-defined]  # as of every cache
+        return called
+
+    return decorated
 
 
 @dataclass(frozen=True, init=False, repr=False, slots=True)
