@@ -26,13 +26,24 @@ def names(requirements: list[str]) -> set[str]:
     return {IMPORTED_AS.get(name, name) for name in found}
 
 
-def test_the_version_is_the_same_everywhere() -> None:
-    assert f"version: {kovacic.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    assert f'{{% set version = "{kovacic.__version__}" %}}' in (ROOT / ".ci/conda/meta.yaml").read_text(
-        encoding="utf-8"
-    )
+def test_the_version_stands_in_one_place() -> None:
+    """In `kovacic/__init__.py`, and as the heading of its changes; the recipe, the metadata and the pages take it from there."""
     headings = re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert headings[0] == kovacic.__version__
+    for name in ("pyproject.toml", "CITATION.cff", ".ci/conda/recipe.yaml", "README.md", "docs/conf.py"):
+        assert kovacic.__version__ not in (ROOT / name).read_text(encoding="utf-8"), name
+
+
+def test_the_page_on_an_index_has_no_links_into_the_repository() -> None:
+    """With the substitution of pyproject.toml, which the build does."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["metadata"][
+        "hooks"
+    ]
+    (rule,) = settings["fancy-pypi-readme"]["substitutions"]
+    page = re.sub(rule["pattern"], rule["replacement"], (ROOT / "README.md").read_text(encoding="utf-8"))
+    assert all(target.startswith("http") for target in re.findall(r"\]\(([^)]+)\)", page))
+    assert "![" not in page
+    assert "the map of the source" in page
 
 
 def test_what_is_imported_is_declared() -> None:
@@ -63,7 +74,7 @@ def test_the_typed_snippet_runs(text: str, said: str) -> None:
 
 
 def test_the_conda_recipe_has_the_same_requirements() -> None:
-    recipe = (ROOT / ".ci" / "conda" / "meta.yaml").read_text(encoding="utf-8")
+    recipe = (ROOT / ".ci" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
     run = re.search(r"^  run:\n((?:    - .*\n)+)", recipe, re.MULTILINE)
     assert run is not None
     assert {line.replace(" ", "") for line in re.findall(r"- (.*)", run[1])} == {
