@@ -14,6 +14,7 @@ from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.verify import Verification, verify
+from kovacic.verify.normal_form import is_normal_form
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,6 +71,9 @@ def find_answer(
         decision = Decision(None, (), undecided=f"while the answer was verified: {limit}")
         assumed = False
         verification = Verification(())
+    equation = parsed.equation
+    if equation is not None and not is_normal_form(parsed.S, equation.gauge, equation.a, equation.b, equation.c):
+        raise VerificationFailed(f"S = {parsed.S} isn't the normal form of {equation}; please report it")
     verified = bool(verification)
     if not verified and (verification.checks or decision.status is not Status.UNDECIDED):
         said = f"the answer for S = {parsed.S} failed its own check; please report it"

@@ -31,9 +31,11 @@ from kovacic.galois import Ground
 from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
+from kovacic.verify.division import backwards, inverse, quotient
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import is_a_field, is_irreducible
 from kovacic.verify.identity import form_numerators
+from kovacic.verify.normal_form import is_normal_form
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.torsion import order_holds
 from kovacic.verify.zeros import largest_natural_sum, zero_counts
@@ -866,3 +868,39 @@ def test_factors_that_arent_irreducible_are_refused(S: str, monkeypatch: pytest.
     monkeypatch.setattr(AlgebraicField, "_factor_squarefree", lambda self, polynomial: [polynomial.monic()])
     with pytest.raises(kovacic.KovacicError):
         kovacic.solve(S, var="x").group.name.strip()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
+        "x*y'' + y/(x - 1) = 0",
+        "y'' + sqrt(2)/x*y' - y = 0",
+        "t*y'' + y'/(x + t) + y = 0",
+    ],
+)
+def test_the_normal_form_of_another_equation_is_refused(text: str) -> None:
+    solution = kovacic.solve(text, var="x")
+    given, S, rho = solution.equation, solution.S, solution.gauge
+    assert is_normal_form(S, rho, given.a, given.b, given.c)
+    one = S * 0 + 1
+    assert not is_normal_form(S + one, rho, given.a, given.b, given.c)
+    assert not is_normal_form(S, rho + one, given.a, given.b, given.c)
+    assert not is_normal_form(S, rho, given.a + one, given.b, given.c)
+    assert not is_normal_form(S, rho, given.a, given.b + one, given.c)
+    assert not is_normal_form(S, rho, given.a, given.b, given.c + one)
+
+
+def test_division_is_multiplied_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    a, p = QQ.poly([3]), QQ.poly([1, 1, 1])
+    x = QQ.poly([0, 1])
+    assert quotient(a, QQ.poly([2])) * 2 == a
+    assert (inverse(x, p) * x - 1) % p == 0
+    assert backwards(QQ.poly([1, 0, 2]), 3) == QQ.poly([0, 0, 0, 2, 0, 1])
+    wrong = type(a)
+    monkeypatch.setattr(wrong, "__truediv__", lambda self, other: self)
+    monkeypatch.setattr(wrong, "inverse_modulo", lambda self, modulus: self)
+    with pytest.raises(VerificationFailed):
+        quotient(a, QQ.poly([2]))
+    with pytest.raises(VerificationFailed):
+        inverse(x, p)

@@ -16,6 +16,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvariant, Structure
 from kovacic.verify.dihedral import has_holomorphic_rest, is_least_power
+from kovacic.verify.division import inverse
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
@@ -89,7 +90,7 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
         rest, order = num.remove(point.factor)
         if order:
             modulus = point.factor**order
-            if residue(den * rest.inverse_modulo(modulus) % modulus, point.factor, order):
+            if residue(den * inverse(rest, modulus) % modulus, point.factor, order):
                 return False
     return True
 

@@ -18,6 +18,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import SemiInvariant
 from kovacic.limits import check_time
+from kovacic.verify.division import quotient
 from kovacic.verify.factors import factors_of
 
 
@@ -72,7 +73,7 @@ def _rational_residue(theta: RatFunc, p: Poly) -> Fraction | None:
     slope = theta.den.derivative() % p
     if not slope:
         return None
-    residue = num[slope.degree] / slope.lc
+    residue = quotient(num[slope.degree], slope.lc)
     return p.field.rational_value(residue) if num == residue * slope else None
 
 

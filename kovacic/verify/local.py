@@ -16,6 +16,7 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget, check_time
+from kovacic.verify.division import backwards, quotient
 from kovacic.verify.factors import factors_of, product
 from kovacic.verify.primes import homomorphisms, roots_modulo, translated
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
@@ -63,7 +64,7 @@ class Point:
         if self.order > 2:
             return None
         N, M = self.at_double_pole
-        b = N[M.degree] / M.lc
+        b = quotient(N[M.degree], M.lc)
         if b * M != N:
             return None
         return _rational_square_root(b.field.rational_value(4 * b + 1))
@@ -127,8 +128,8 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     together = _at_regular_points(S, [(p, order) for p, order in factors if order <= 2])
     found = [Point(p, order, S.num, S.den, budget, together.get(p)) for p, order in factors]
     order = max(S.num.degree - S.den.degree + 4, 0) if S.num else 0
-    num = S.num.reversed(max(S.den.degree - S.num.degree - 4, 0))
-    den = S.den.reversed(order)
+    num = backwards(S.num, max(S.den.degree - S.num.degree - 4, 0))
+    den = backwards(S.den, order)
     z = S.field.poly([0, 1])
     return [*found, Point(z, order, num, den, budget, at_infinity=True)]
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from kovacic.algebra.poly import Poly
+from kovacic.verify.division import inverse
 
 
 def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
@@ -21,7 +22,7 @@ def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     modulus = p**nu
     radicand = (N % modulus) * (q % modulus) % modulus
     leading = radicand % p
-    unit = radicand * _constant(leading.inverse_modulo(p), p, nu) % modulus
+    unit = radicand * _constant(inverse(leading, p), p, nu) % modulus
     R = unit * _inverse_square_root(unit, p, nu) % modulus
     r = residue(R * _inverse(q, p, nu) % modulus, p, nu)
     return 4 * leading * r * r % p
@@ -45,10 +46,10 @@ def _inverse_square_root(unit: Poly, p: Poly, nu: int) -> Poly:
 
 def _inverse(q: Poly, p: Poly, nu: int) -> Poly:
     """1/q modulo p^nu."""
-    inverse = q.inverse_modulo(p)
+    found = inverse(q, p)
     for modulus in _steps(p, nu):
-        inverse = inverse * (2 - q * inverse % modulus) % modulus
-    return inverse
+        found = found * (2 - q * found % modulus) % modulus
+    return found
 
 
 def _constant(value: Poly, p: Poly, nu: int) -> Poly:
@@ -62,10 +63,10 @@ def _root(p: Poly, nu: int) -> Poly:
     """theta, the root of p in K[x]/p^nu that is x modulo p: theta - p(theta)/p'(theta), the inverse improved along with it."""
     slope = p.derivative()
     theta = p.field.poly([0, 1])
-    inverse = slope.inverse_modulo(p)
+    over_slope = inverse(slope, p)
     for modulus in _steps(p, nu):
-        inverse = inverse * (2 - _at(slope, theta, modulus) * inverse) % modulus
-        theta = (theta - _at(p, theta, modulus) * inverse) % modulus
+        over_slope = over_slope * (2 - _at(slope, theta, modulus) * over_slope) % modulus
+        theta = (theta - _at(p, theta, modulus) * over_slope) % modulus
     return theta
 
 
@@ -86,14 +87,14 @@ def residue(H: Poly, p: Poly, nu: int) -> Poly:
         digits = H(p.field.poly([-p[0], 1])) if p[0] else H
         return digits[nu - 1]
     slope = p.derivative()
-    inverse = slope.inverse_modulo(p)
+    over_slope = inverse(slope, p)
     *higher, last = _digits(H, p, nu)
     carried = H * 0
     for e, digit in zip(range(nu, 1, -1), higher, strict=True):
         total = digit + carried
-        B = total * inverse % p
+        B = total * over_slope % p
         carried = (total - B * slope) // p + B.derivative() / (e - 1)
-    return (last + carried) * inverse % p
+    return (last + carried) * over_slope % p
 
 
 def _digits(H: Poly, p: Poly, count: int) -> list[Poly]:

@@ -22,6 +22,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.errors import VerificationFailed
+from kovacic.verify.division import inverse
 from kovacic.verify.local import Point
 from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
@@ -127,7 +128,7 @@ def _difference_squared(point: Point) -> Poly:
     p = point.factor
     if point.order == 2:
         N, M = point.at_double_pole
-        return (1 + 4 * N * M.inverse_modulo(p)) % p
+        return (1 + 4 * N * inverse(M, p)) % p
     return exponent_difference_squared(*point.near, p, point.order // 2)
 
 
