@@ -267,4 +267,33 @@ MORE = [
         {"s": "2"},
         "M. M. Nieto & L. M. Simmons, Phys. Rev. D 20 (1979) 1332",
     ),
+    Solvable(
+        "rational extension of the oscillator",
+        "x^2 + 8*(2*x^2 - 1)/(2*x^2 + 1)^2",
+        LINE,
+        {},
+        "2*n + 3",
+        {},
+        "J. F. Carinena, A. M. Perelomov, M. F. Ranada & M. Santander, J. Phys. A 41 (2008) 085301",
+        None,
+        (1, 2, 3),
+    ),
+    Solvable(
+        "exceptional Laguerre polynomials X_1",
+        "x^2 + l*(l+1)/x^2 + 4/(x^2 + l + 1/2) - 8*(l + 1/2)/(x^2 + l + 1/2)^2",
+        HALF,
+        {"l": ">=1"},
+        "4*n + 2*l + 3",
+        {"l": "4/3"},
+        "C. Quesne, J. Phys. A 41 (2008) 392001",
+    ),
+]
+#: Of some potentials only some levels are known: V, domain, degree, the polynomial of the energies as printed, source.
+QUASI = [
+    ("x^6 - 7*x^2", LINE, 2, "E^2 - 8", "A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467"),
+    ("x^6 - 11*x^2", LINE, 4, "E^3 - 64*E", "A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467"),
+    ("x^6 + 2*x^4 - 6*x^2", LINE, 2, "E^2 - 6*E - 3", "A. G. Ushveridze, Quasi-exactly Solvable Models (1994)"),
+    ("(cosh(2*x) - 3)^2", LINE, 2, "(E - 6)*(E^2 - 16*E + 44)", "M. Razavy, Amer. J. Phys. 48 (1980) 285"),
+    ("(2*cosh(2*x) - 2)^2", LINE, 1, "(E - 3)*(E - 11)", "M. Razavy, Amer. J. Phys. 48 (1980) 285"),
+    ("x^6 + 6/x^2 - 13*x^2", HALF, 2, "E^2 - 56", "A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467"),
 ]

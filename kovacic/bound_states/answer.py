@@ -61,14 +61,15 @@ class Algebraic:
     """Levels of a potential that is solvable for finitely many of them: those with a polynomial of degree d in their solutions.
 
     They exist where `constraint` vanishes (a function of the parameters; 0 where it does anyway), and their energies are the
-    zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy; None where it isn't explicit.
-    `states` are the energies without parameters and the zeros of their functions inside the domain.
+    zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy, square integrable where the
+    `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.
     """
 
     degree: int
     constraint: Any
     polynomial: Any
     wave: Any
+    conditions: tuple[Any, ...] = ()
     states: tuple[State, ...] = ()
 
 
@@ -152,8 +153,10 @@ class Spectrum:
                         break
                     continue
                 energy = sympy.simplify(levels.energy.subs(here))
-                wave = levels.wave.subs(here)
+                wave = levels.wave.subs(here).doit()
                 found.setdefault(energy, State(n, energy, wave, int(levels.zeros.subs(here))))
+        for one in self.algebraic:
+            found.update((state.energy, state) for state in one.states)
         return tuple(sorted(found.values(), key=lambda state: state.energy))
 
     def text(self) -> str:
@@ -179,7 +182,7 @@ class Spectrum:
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_relation(relation)}: "
             lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
-        if not self.levels and self.complete:
+        if self.complete and not self.levels:
             lines.append("no eigenvalues")
         lines.append(f"({'proven to be all eigenvalues; ' if self.complete else ''}{self.reason})")
         return lines
@@ -236,7 +239,8 @@ class Spectrum:
                     "degree": one.degree,
                     "constraint": _text(one.constraint),
                     "polynomial": _text(one.polynomial),
-                    "wave": None if one.wave is None else _text(one.wave),
+                    "wave": _text(one.wave),
+                    "conditions": [*map(_relation, one.conditions)],
                     "states": [{"energy": _text(s.energy), "zeros": s.zeros} for s in one.states],
                 }
                 for one in self.algebraic
@@ -268,11 +272,14 @@ def _lines(levels: Levels, energy: str) -> list[str]:
 
 
 def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
-    where = "" if algebraic.constraint == 0 else f" where {_text(algebraic.constraint)} = 0"
-    lines = [f"  d = {algebraic.degree}{where}: {_text(algebraic.polynomial)} = 0"]
-    if algebraic.wave is not None:
-        lines.append(f"      y = {_text(algebraic.wave)}")
-    lines += [f"      {energy} = {_text(s.energy)}: {s.zeros} zeros" for s in algebraic.states]
+    demands = [] if algebraic.constraint == 0 else [f"{_text(algebraic.constraint)} = 0"]
+    demands += map(_relation, algebraic.conditions)
+    where = f" where {', '.join(demands)}" if demands else ""
+    lines = [
+        f"  d = {algebraic.degree}{where}: {_text(algebraic.polynomial)} = 0",
+        f"      y = {_text(algebraic.wave)}",
+    ]
+    lines += [f"      {energy} = {_text(s.energy)}: {s.zeros} zero{'s' * (s.zeros != 1)}" for s in algebraic.states]
     return lines
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
 
-from kovacic.bound_states.answer import Levels, Spectrum
+from kovacic.bound_states.answer import Algebraic, Levels, Spectrum, State
+from kovacic.bound_states.darboux import Step, steps
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
     Ends,
@@ -18,18 +19,21 @@ from kovacic.bound_states.families import (
     laguerre_families,
     no_families,
 )
-from kovacic.bound_states.frame import Frame, Original, Uncovered, frames
+from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
+from kovacic.bound_states.quasi import Found, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import ENERGY, Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.exact import exact_text, whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
 from kovacic.reading.symbolic import read_expression
+from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
 _CLASSES: tuple[tuple[Callable[[Frame, Ends, Any], Iterator[Family]], str], ...] = (
@@ -65,6 +69,12 @@ class Question:
     @property
     def parameters(self) -> tuple[str, ...]:
         return tuple(name for name in self.signs.symbols if name != self.energy)
+
+    def with_potential(self, V: Any) -> Question:
+        """The same for another potential, in real symbols."""
+        plain = self.plain(V)
+        text = f"({as_text(plain)}) - {self.energy}"
+        return replace(self, V=plain, parsed=read_input(text, var=self.variable, exponentials=True))
 
     def plain(self, expression: Any) -> Any:
         """In plain symbols of the same names, as users write them; n for the number of a level."""
@@ -204,10 +214,105 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
     silent = next((end for end in ends if end.oscillates and end.circle is False), None)
     if silent is not None:
         return _spectrum(question, ends, complete=True, reason=f"no solution is square integrable at {silent.at}")
-    families, name = _families(question, budget)
+    try:
+        families, name = _families(question, budget)
+    except Uncovered as uncovered:
+        transformed = _transformed(question, ends, excluded, max_degree, budget)
+        return transformed or _one_by_one(question, ends, excluded, max_degree, str(uncovered), budget)
     levels = _merged([_levels(question, family) for family in families])
     reason = f"{name}: {_PROOF}"
     return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
+
+
+def _transformed(
+    question: Question, ends: list[End], excluded: list[Any], max_degree: int, budget: Budget
+) -> Spectrum | None:
+    """By Darboux' transformation from a potential without apparent singularities; None where there is none."""
+    if question.parsed.equation is not None or excluded:
+        return None
+    real = question.signs.real(question.V).xreplace({sympy.Symbol(question.variable): question.x})
+    for step in steps(real, question.x, question.domain, question.signs):
+        V = sympy.cancel(sympy.together(real - 2 * sympy.diff(step.W, question.x)))
+        try:
+            simpler = _answered(question.with_potential(V), max_degree, budget)
+        except (Uncovered, InputError):
+            continue
+        if not simpler.complete or simpler.excluded or _is_removed(step, simpler, question):
+            continue
+        plain = question.plain
+        x = sympy.Symbol(question.variable)
+        W = plain(sympy.factor(step.W))
+        energy = plain(step.energy)
+        levels = [
+            replace(
+                one,
+                wave=W * one.wave + sympy.Derivative(one.wave, x),
+                zeros=one.zeros + int(step.is_level),
+                norm=None if one.norm is None else (one.energy - energy) * one.norm,
+            )
+            for one in simpler.levels
+        ]
+        algebraic: list[Algebraic] = []
+        if step.is_level:
+            wave = plain(step.wave)
+            states = () if question.parameters else (State(0, energy, wave, 0),)
+            E = sympy.Symbol(question.energy)
+            algebraic = [Algebraic(0, sympy.Integer(0), E - energy, wave, (), states)]
+        shown = caret(str(plain(sympy.factor(V))))
+        reason = f"Darboux' transformation of V = {shown}; {simpler.reason}"
+        return _spectrum(question, ends, levels=tuple(levels), algebraic=tuple(algebraic), complete=True, reason=reason)
+    return None
+
+
+def _is_removed(step: Step, simpler: Spectrum, question: Question) -> bool:
+    """May E0 be a level of the simpler potential, which then is none of the other one?"""
+    energy = question.plain(step.energy)
+    for levels in simpler.levels:
+        difference = question.signs.real(levels.energy - energy).xreplace({levels.number: question.signs.n})
+        if question.signs.sign(difference) is None:
+            return True
+    return False
+
+
+def _one_by_one(
+    question: Question, ends: list[End], excluded: list[Any], max_degree: int, why: str, budget: Budget
+) -> Spectrum:
+    """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
+    parsed, found = question.parsed, list[Algebraic]()
+    demands = Ends(question.signs, question.friedrichs)
+    try:
+        for d in range(max_degree + 1):
+            solutions = found_of_degree(
+                parsed.S, parsed.equation, parsed.variable, d, ends, demands, question.energy, budget
+            )
+            found += [
+                one for one in (_algebraic(question, one) for one in solutions) if sympy.false not in one.conditions
+            ]
+    except Uncovered as uncovered:
+        why = f"{why}; {uncovered}"
+    if not found:
+        return _spectrum(
+            question, ends, excluded=tuple(excluded), reason=f"undecided: {why}; degrees up to {max_degree}"
+        )
+    reason = f"the levels with a polynomial of degree d <= {max_degree}; whether others are Liouvillian isn't known"
+    if not question.parameters:
+        reason = f"the levels with a polynomial of degree d <= {max_degree}; a level with k zeros is number k (Sturm)"
+    return _spectrum(question, ends, excluded=tuple(excluded), algebraic=tuple(found), reason=reason)
+
+
+def _algebraic(question: Question, found: Found) -> Algebraic:
+    """With the energies, and which levels they are, where there are no parameters."""
+    E, t = sympy.Symbol(question.energy), sympy.Symbol(question.parsed.variable)
+    states: list[State] = []
+    original = Original.of(question.parsed.equation, question.x, question.signs)
+    if not question.parameters and not original.turning_points(question.domain, question.signs):
+        low, high = range_of(original, question.domain, question.signs)
+        for energy, ball in levels_of(found.polynomial, E):
+            number = zeros_inside(found.P, t, E, ball, low, high)
+            if number is not None:
+                states.append(State(number, energy, found.wave.subs(E, energy), number))
+    conditions = tuple(map(question.plain, tidied(found.conditions, question.signs)))
+    return Algebraic(found.degree, found.constraint, found.polynomial, found.wave, conditions, tuple(states))
 
 
 def _ends(question: Question) -> list[End]:
@@ -216,9 +321,8 @@ def _ends(question: Question) -> list[End]:
     t = sympy.Symbol(parsed.variable)
     S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
     V = potential_in_t(S, parsed.equation, original, question.E, t, signs)
-    first, last = question.domain
-    check_inside(V, original, (first, last), t, signs)
-    return [end_of(V, original, *pair, t, signs) for pair in ((first, last), (last, first))]
+    check_inside(V, original, question.domain, t, signs)
+    return [end_of(V, original, question.domain, t, signs, is_right=is_right) for is_right in (False, True)]
 
 
 def _families(question: Question, budget: Budget) -> tuple[list[Family], str]:

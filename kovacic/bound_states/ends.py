@@ -7,7 +7,7 @@ integrable if int |V|^(-1/2) dx is finite, which is mu < j + 2.  Everywhere else
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
@@ -26,7 +26,8 @@ class End:
     """One end: where both solutions are square integrable (`circle`, a relation, True or False), and what is said about it.
 
     `oscillates` says that V falls without bound there, so that no boundary condition is distinguished.  `threshold` is where
-    the continuous spectrum begins at an infinite end; None where it doesn't.
+    the continuous spectrum begins at an infinite end; None where it doesn't.  The end is t = `point`, with
+    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.
     """
 
     at: Any
@@ -34,6 +35,11 @@ class End:
     sentence: str
     oscillates: bool = False
     threshold: Any = None
+    domain: tuple[Any, Any] = (-sympy.oo, sympy.oo)
+    is_right: bool = True
+    point: Any = sympy.oo
+    mu: int = 4
+    direction: int = 1
 
 
 def potential_in_t(S: Any, equation: Equation | None, original: Original, E: Any, t: Any, signs: Signs) -> Any:
@@ -86,8 +92,14 @@ def _angles(kind: str, point: Any, ends: list[Any]) -> list[Any]:
     return [angle + 2 * sympy.pi * (lowest + k) for angle in dict.fromkeys((first, others)) for k in range(number)]
 
 
-def end_of(V: Any, original: Original, at: Any, other: Any, t: Any, signs: Signs) -> End:
-    """The end `at` of the domain; the potential is a function of t."""
+def end_of(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs, *, is_right: bool) -> End:
+    """An end of the domain; the potential is a function of t."""
+    other, at = domain if is_right else domain[::-1]
+    point, mu, direction, end = _end_of(V, original, at, other, t, signs)
+    return replace(end, domain=domain, is_right=is_right, point=point, mu=mu, direction=direction)
+
+
+def _end_of(V: Any, original: Original, at: Any, other: Any, t: Any, signs: Signs) -> tuple[Any, int, int, End]:
     point = original.at(at, signs)
     u = sympy.Dummy("u")
     value = 1 / u if point == sympy.oo else point + u
@@ -96,11 +108,14 @@ def end_of(V: Any, original: Original, at: Any, other: Any, t: Any, signs: Signs
     local = sympy.cancel(V.xreplace({t: value}))
     order, strength = _leading(local, u)
     direction = _side(original, at, other, point, signs)
+    inside = strength * direction ** abs(order)
     if at.is_infinite:
-        return _infinite(at, original.x, mu, -order, strength * direction ** abs(order), signs)
-    if -order > 2 - mu:
-        return _irregular(at, original, strength * direction ** abs(order), signs)
-    return _finite(at, original, mu, -order, strength, slope, u, signs)
+        end = _infinite(at, original.x, mu, -order, inside, signs)
+    elif -order > 2 - mu:
+        end = _irregular(at, original, inside, signs)
+    else:
+        end = _finite(at, original, mu, -order, strength, slope, u, signs)
+    return point, mu, direction, end
 
 
 def _order(function: Any, u: Any) -> int:

@@ -61,21 +61,21 @@ class Ends:
     signs: Signs
     friedrichs: bool
 
-    def conditions(self, frame: Frame, spot: Spot, delta: Any) -> list[Any]:
+    def conditions(self, domain: tuple[Any, Any], spot: Spot, delta: Any) -> list[Any]:
         """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the Friedrichs one."""
         found = []
         for role in spot.roles:
             if role == "fold":
                 continue
-            end = frame.domain[role == "right"]
+            end = domain[role == "right"]
             if end.is_infinite:
                 if spot.mu < 2:
-                    raise Uncovered(f"an infinite end at a finite point of z = {frame.z_of_x}")
+                    raise Uncovered(f"the end {end} is a finite point of the coordinate")
                 least = 2 * (spot.mu / 2 - 1)
                 found.append(_above(delta, 0 if spot.mu == 2 else least, strict=True))
             else:
                 if spot.mu >= 2:
-                    raise Uncovered(f"the end {end} of the domain is at infinity in z = {frame.z_of_x}")
+                    raise Uncovered(f"the end {end} is at infinity in the coordinate")
                 least = 0 if self.friedrichs else 2 / spot.p
                 found.append(_above(delta, least, strict=False))
         return found
@@ -100,8 +100,8 @@ def _are_real(roots: list[Root]) -> list[Any]:
 
 def jacobi_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
     """Equation (1)."""
-    if len(frame.spots) != 3:
-        raise Uncovered("the equation has less than three singular points")
+    if len(frame.spots) != 3 or any(spot.square is None for spot in frame.spots):
+        raise Uncovered("the equation hasn't three singular points, all of them regular")
     _check_fold(frame)
     roots = [Root.of(spot.square, E) for spot in frame.spots]
     for deltas in _choices(frame.spots, roots):
@@ -110,7 +110,7 @@ def jacobi_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
             values = [delta.xreplace(found.values) for delta in deltas]
             conditions = _are_real(roots)
             for spot, delta in zip(frame.spots, values, strict=True):
-                conditions += ends.conditions(frame, spot, delta)
+                conditions += ends.conditions(frame.domain, spot, delta)
             if possible(conditions, ends.signs):
                 yield _jacobi(frame, roots, values, found, conditions, ends.signs)
 
@@ -197,7 +197,7 @@ def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
         equation = -r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
         for found in solved(equation, roots, E):
             rate, difference = kappa.xreplace(found.values), delta.xreplace(found.values)
-            conditions = [*_are_real(roots), *_decay(frame, rate), *ends.conditions(frame, origin, difference)]
+            conditions = [*_are_real(roots), *_decay(frame, rate), *ends.conditions(frame.domain, origin, difference)]
             if possible(conditions, ends.signs):
                 from kovacic.bound_states.waves import laguerre_wave
 

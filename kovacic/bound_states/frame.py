@@ -235,11 +235,22 @@ def _frame(
             spots.append(Spot(point, sympy.Integer(1), mu, roles))
     S = signs.real(sympy.sympify(problem.S.num.to_sympy(Z) / problem.S.den.to_sympy(Z)))
     return Frame(
-        original, base, m, S, Z, constant, tuple(spots), domain, fold, problem, variable, _range(original, half, signs)
+        original,
+        base,
+        m,
+        S,
+        Z,
+        constant,
+        tuple(spots),
+        domain,
+        fold,
+        problem,
+        variable,
+        range_of(original, half, signs),
     )
 
 
-def _range(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
+def range_of(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
     """The least and the largest value of t, where it is monotonic and they are known."""
     if original.kind == "x":
         first, last = half

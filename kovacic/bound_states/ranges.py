@@ -27,7 +27,22 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
         for c, (square, _) in zip(left, squared, strict=True)
     ]
     implied = {_solved(sympy.Ge(square, 0), signs) for square in roots.values()} if are_positive else set()
-    return tuple(dict.fromkeys(c for c in found if c != sympy.true and c not in implied))
+    return _compared([*dict.fromkeys(c for c in found if c != sympy.true and c not in implied)], signs)
+
+
+def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
+    """Without those that others imply; (False,) where two of them exclude each other."""
+    implied: list[Any] = []
+    for first, second in combinations(conditions, 2):
+        if sympy.false in (first, second) or first.lhs != second.lhs:
+            continue
+        gap = first.rhs - second.rhs
+        is_lower, is_lower_too = (isinstance(c, sympy.StrictGreaterThan | sympy.GreaterThan) for c in (first, second))
+        if is_lower and is_lower_too:
+            implied += [second] if signs.is_positive(gap) else [first] if signs.is_positive(-gap) else []
+        elif (is_lower and signs.is_positive(gap)) or (is_lower_too and signs.is_positive(-gap)):
+            return (sympy.false,)
+    return tuple(c for c in conditions if c not in implied)
 
 
 def _squared(condition: Any, roots: Mapping[Any, Any]) -> tuple[Any, bool]:

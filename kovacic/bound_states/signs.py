@@ -29,6 +29,15 @@ class Signs:
         plain = (s for s in expression.free_symbols if not isinstance(s, sympy.Dummy))
         return expression.xreplace({s: self.symbols[s.name] for s in plain if s.name in self.symbols})
 
+    def bounds_of(self, name: str, expression: Any) -> list[Any]:
+        """What is known about the parameter, said about an expression that is its value."""
+        bounds = dict(self._bounds).get(self.symbols[name], [])
+        found = []
+        for bound in bounds:
+            difference = bound.sign * (expression - sympy.Rational(bound.end.numerator, bound.end.denominator))
+            found.append(sympy.Gt(difference, 0) if bound.strict else sympy.Ge(difference, 0))
+        return found
+
     def holds(self, relation: Any) -> bool | None:
         """Is the relation true for all values, false for all values, or neither of these as far as is known?
 

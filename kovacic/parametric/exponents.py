@@ -84,7 +84,7 @@ class Exponents:
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
     """The choices that give P this degree; None where there are too many, or their roots need too large an extension."""
-    chosen = _choices(problem)
+    chosen = choices(problem)
     if chosen is None:
         return None
     return [exponents for exponents in chosen if exponents.field.rational_value(exponents.degree) == d]
@@ -144,7 +144,7 @@ class _Places:
     parts: list[list[LocalPart]]
 
 
-def _choices(problem: Problem) -> list[Exponents] | None:
+def choices(problem: Problem) -> list[Exponents] | None:
     """All choices of exponents."""
     places = _places(problem)
     if places is None:

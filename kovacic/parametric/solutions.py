@@ -152,7 +152,7 @@ def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, i
     None where the exponents need too large an extension, or other roots than square roots.
     """
     parts = local_parts(problem)
-    if not parts or not _has_radicals(parts[0][0].exponent.field):
+    if not parts or not has_radicals(parts[0][0].exponent.field):
         return None
     x = sympy.Symbol(variable)
 
@@ -177,7 +177,7 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
 
     None where P doesn't follow from its degree, where it exists for no values, and where a root isn't a radical.
     """
-    if not _has_radicals(exponents.field):
+    if not has_radicals(exponents.field):
         return None
     found = exponents.polynomial(d)
     if found is None:
@@ -245,7 +245,7 @@ def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:
     return base**exponent * sympy.exp(integral.subs(x, 1 / base))
 
 
-def _has_radicals(field: Field) -> bool:
+def has_radicals(field: Field) -> bool:
     """Are all extensions square roots, or the parameter that is algebraic on a hypersurface?"""
     while isinstance(field, AlgebraicField):
         if field.name == "point":
