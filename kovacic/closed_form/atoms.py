@@ -181,6 +181,10 @@ class Atoms:
         a = self.root
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
 
+    def is_real_beyond_zero(self, base: Poly) -> bool:
+        """Is it x^2 - a, a > 0, whose roots aren't real around 0?"""
+        return base.degree == 2 and not base[1] and bool(self.constant(base[0]).is_negative)
+
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
         over = sympy.Poly(polynomial, self.root)
@@ -231,8 +235,7 @@ def _powers(found: list[Factor], atoms: Atoms, around_zero: bool) -> tuple[Expr,
         bases = []
         for base in group:
             shown = atoms.primitive(base)[1]
-            negative_at_zero = base.degree == 2 and not base[1] and atoms.constant(base[0]).is_negative
-            if around_zero and negative_at_zero and not index.is_Integer:
+            if around_zero and atoms.is_real_beyond_zero(base) and not index.is_Integer:
                 shown, scale = -shown, scale * Integer(-1) ** index
             bases.append(shown)
         powers.append(Mul(*bases) ** index)

@@ -11,9 +11,10 @@ from dataclasses import replace
 from fractions import Fraction
 
 import sympy
-from sympy import Add, Integer, Mul, atan, cos, exp, log, sin, sqrt
+from sympy import Add, Integer, Mul, asin, atan, cos, exp, log, sin, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
+from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, rational
 from kovacic.closed_form.curve import CurveIntegral, Unit, unit
 from kovacic.closed_form.structure import OnCurve
@@ -22,10 +23,21 @@ from kovacic.closed_form.structure import OnCurve
 _Terms = tuple[list[tuple[Expr, Expr]], list[Expr], tuple[str, ...]]
 
 
-def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
-    """int r dx/sqrt(g), and notes."""
+def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """(c, F, notes): int r dx/sqrt(g) = c F, where F is real around 0 for g = x^2 - a, a > 0.
+
+    There sqrt(g) = i sqrt(-g), as for the powers of g in `kovacic.closed_form.atoms.factors`.
+    """
+    scale: Expr = Integer(1)
+    if atoms.is_real_beyond_zero(integral.g):
+        integral, scale = _turned(integral), -sympy.I
     logarithms, others, notes = _terms(integral, atoms, alone=False)
-    return Add(*others, *(c * log(base) for c, base in logarithms)), notes
+    return scale, Add(*others, *(c * log(base) for c, base in logarithms)), notes
+
+
+def _turned(integral: CurveIntegral) -> CurveIntegral:
+    """int r dx/sqrt(-g)."""
+    return replace(integral, g=-integral.g, exact=-integral.exact)
 
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
@@ -76,9 +88,8 @@ def _oriented(form: OnCurve) -> OnCurve:
     values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
     if any(value is None or value > 0 for value in values):
         return form
-    turned = replace(integral, g=-integral.g, exact=-integral.exact)
     zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
-    return OnCurve(form.common, -form.kappa_squared, turned, zeros)
+    return OnCurve(form.common, -form.kappa_squared, _turned(integral), zeros)
 
 
 def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
@@ -94,7 +105,9 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
             return [], others, (f"integral left because {integral.reason}",)
         _append_unit(integral.unit, root, atoms, logarithms, others)
         return logarithms, others, ()
-    if integral.rest:
+    if integral.rest and g.lc == -1:
+        others.append(atoms.constant(integral.rest) * _inverse_sine(g, atoms))
+    elif integral.rest:
         # x - (x1 + x2)/2 + sqrt(g); alone, for real roots that aren't symmetric to 0, its square root, which has another sign
         # of sqrt(g) in some regions.
         c, base = atoms.constant(integral.rest), atoms.poly(g.derivative() * Fraction(1, 2)) + root
@@ -108,6 +121,12 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
         else:
             others.append(_root_sum(integral, residue, root, atoms))
     return logarithms, others, ()
+
+
+def _inverse_sine(g: Poly, atoms: Atoms) -> Expr:
+    """int dx/sqrt(g) for g = k^2 - (x - h)^2."""
+    k = atoms.sqrt(g[0] + g[1] * g[1] * Fraction(1, 4))
+    return asin(atoms.poly(g.derivative() * Fraction(-1, 2)) / k)
 
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:

@@ -41,8 +41,10 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
         if primitive.reason is not None and (named := elliptic(primitive, atoms)) is not None:
             note = f"elliptic integrals because {primitive.reason}"
             return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
-        value, notes = curve_integral(primitive, atoms)
-        return first, Add(*(first * term for term in Add.make_args(value))), notes
+        _, value, notes = curve_integral(primitive, atoms)
+        shown = value.as_content_primitive()[1]
+        shown = -shown if shown.could_extract_minus_sign() else shown
+        return first, Add(*(first * term for term in Add.make_args(shown))), notes
     return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
 
 
@@ -52,8 +54,8 @@ def integral(h: Product, atoms: Atoms) -> Expr | None:
     if isinstance(primitive, OpenPrimitive):
         return None
     if isinstance(primitive, CurveIntegral):
-        value, notes = curve_integral(primitive, atoms)
-        return None if notes else value
+        scale, value, notes = curve_integral(primitive, atoms)
+        return None if notes else scale * value
     return Add(*(c * e for c, e in _terms(one, primitive, (Integer(1), []), atoms)))
 
 

@@ -29,6 +29,8 @@ _UNARY = {
     sympy.Ei: "ei",
     sympy.Si: "si",
     sympy.Ci: "ci",
+    sympy.fresnels: "fresnel_s",
+    sympy.fresnelc: "fresnel_c",
     sympy.airyai: "airy_ai",
     sympy.airybi: "airy_bi",
     sympy.airyaiprime: "airy_ai_prime",
@@ -156,6 +158,13 @@ def _bessel(name: str, parameters: Sequence[Number], z: Number) -> list[Number]:
     return [C, slope, (sign + (nu / z) ** 2) * C - slope / z]
 
 
+def _polylog(parameters: Sequence[Number], z: Number) -> list[Number]:
+    """Li_s' = Li_(s-1)/z [DLMF 25.12.10]."""
+    (s,) = parameters
+    value, first, second = (z.polylog(s - k) for k in range(3))
+    return [value, first / z, (second - first) / z**2]
+
+
 def _hermite(parameters: Sequence[Number], z: Number) -> list[Number]:
     (n,) = parameters
     return [2**k * prod((n - i for i in range(k)), start=acb(1)) * z.hermite_h(n - k) for k in range(3)]
@@ -168,13 +177,14 @@ _DERIVATIVES: dict[Any, Callable[[Sequence[Number], Number], list[Number]]] = {
     sympy.besseli: partial(_bessel, "bessel_i"),
     sympy.besselk: partial(_bessel, "bessel_k"),
     sympy.hermite: _hermite,
+    sympy.polylog: _polylog,
 }
 
 
 #: Functions that SymPy writes by others.
 _REWRITTEN: dict[Any, Any] = {
     **dict.fromkeys((sympy.sinh, sympy.cosh, sympy.tanh), sympy.exp),
-    **dict.fromkeys((sympy.acos, sympy.atanh), sympy.log),
+    **dict.fromkeys((sympy.asin, sympy.acos, sympy.asinh, sympy.acosh, sympy.atanh), sympy.log),
     sympy.sec: sympy.cos,
     sympy.csc: sympy.sin,
     sympy.cot: sympy.tan,

@@ -1,7 +1,8 @@
 """int g dx for the integrands that variation of parameters meets, at once, without SymPy's integration.
 
 - Products of powers and exponentials of rational functions (Ei, erf, gamma functions): `kovacic.closed_form.primitive`.
-- Logarithms and inverse tangents times these, by parts; waves times rational functions (sine and cosine integrals).
+- Logarithms, inverse and error functions, exponential integrals times these, by parts, and l^m l'.
+- Waves times rational functions: sine and cosine integrals, Fresnel functions, Ei and erf of complex arguments.
 - Tangents, cotangents, secants, ... times functions whose residues aren't constant: the rest, and an `Integral` that stays.
 - Polynomials times exponentials and waves in x or exp(k x): Y' for Y'' = g, by undetermined coefficients.
 - All of these in log(x), a root of x, or an argument u of a function beside u'.
@@ -16,24 +17,22 @@ from math import lcm
 from typing import Any
 
 import sympy
-from sympy import atan, cos, cosh, cot, coth, csc, csch, exp, log, sec, sech, sin, sinh, tan, tanh
+from sympy import atan, cos, exp, log, sin, tan
 from sympy.simplify.fu import TR8, TR2i
 
-from kovacic.algebra.partial_fractions import decompose
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, factors
-from kovacic.closed_form.integrals import integral, logarithms
-from kovacic.closed_form.product import product
-from kovacic.equation import EULER, PI
-from kovacic.errors import InputError
+from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared
+from kovacic.general_solution.special_integrals import dilogarithm, fresnel, in_complex_exponentials, incomplete_gamma
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.limits import check_time
-from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
-#: The numbers that are parameters in coefficients.
-NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
+#: Functions whose derivatives are simpler.
+_BY_PARTS = (
+    *(log, atan, sympy.asin, sympy.acos, sympy.atanh, sympy.asinh, sympy.acosh),
+    *(sympy.erf, sympy.erfi, sympy.Ei, sympy.Si, sympy.Ci, sympy.fresnels, sympy.fresnelc),
+)
+_SIMPLE = {exp, sin, cos}
 
 
 def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
@@ -43,30 +42,16 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     >>> antiderivative(tan(x) ** 2 + log(x), x)
     x*log(x) - 2*x + tan(x)
     """
-    integrand, parts = prepared(integrand), []
-    functions = {f.func for f in integrand.atoms(sympy.Function, sympy.Integral)}
-    if not functions <= {exp, log, sin, cos, atan}:
+    integrand = prepared(integrand)
+    functions = _functions(integrand)
+    if not functions <= _SIMPLE | set(_BY_PARTS):
         return None
-    if functions <= {exp} and (whole := _of_product(integrand, x)) is not None:
+    if functions <= {exp} and (whole := integral_of_product(integrand, x)) is not None:
         return whole
-    rules = (
-        _by_coefficients,
-        _in_logarithms,
-        _in_roots,
-        _in_an_argument,
-        _in_exponentials,
-        _in_waves,
-        _of_product,
-        _beside_waves,
-        _beside_tangents,
-    )
-    groups: dict[Expr, list[Expr]] = {}  # terms with the same logarithms
-    for term in sympy.Add.make_args(integrand):
-        inverse = [factor for factor in sympy.Mul.make_args(term) if factor.as_base_exp()[0].func in (log, atan)]
-        groups.setdefault(sympy.Mul(*inverse), []).append(term)
-    for inverse, terms in groups.items():
+    parts = []
+    for inverse, terms in _by_inverse_functions(integrand, x).items():
         check_time()
-        found = [next((part for rule in rules if (part := rule(term, x)) is not None), None) for term in terms]
+        found = [_of_term(term, x) for term in terms]
         if None in found:
             found = [_by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)]
         if None in found:
@@ -75,13 +60,38 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     return sympy.Add(*parts)
 
 
-def prepared(integrand: Expr) -> Expr:
-    """Expanded, in sines, cosines and exponentials."""
-    integrand = integrand.rewrite((sinh, cosh, tanh, coth, sech, csch), exp)
-    if integrand.has(tan, cot, sec, csc):
-        integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
-        integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
-    return sympy.expand(integrand, power_exp=False)
+def _functions(expression: Expr) -> set[Any]:
+    return {f.func for f in expression.atoms(sympy.Function, sympy.Integral)}
+
+
+def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
+    """The terms, those with the same powers of functions that are to be differentiated together."""
+    groups: dict[Expr, list[Expr]] = {}
+    for term in sympy.Add.make_args(integrand):
+        powers = [p for p in sympy.Mul.make_args(term) if p.as_base_exp()[0].func in _BY_PARTS and p.has(x)]
+        groups.setdefault(sympy.Mul(*powers), []).append(term)
+    return groups
+
+
+def _of_term(term: Expr, x: Expr) -> Expr | None:
+    """By the first rule that knows it."""
+    rules = (
+        _by_coefficients,
+        _in_logarithms,
+        _in_roots,
+        _in_an_argument,
+        _in_exponentials,
+        _in_waves,
+        _with_real_arguments,
+        integral_of_product,
+        fresnel,
+        _beside_waves,
+        _beside_tangents,
+        _powers_beside_waves,
+        in_complex_exponentials,
+        incomplete_gamma,
+    )
+    return next((found for rule in rules if (found := rule(term, x)) is not None), None)
 
 
 def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
@@ -105,7 +115,7 @@ def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
 
 def _in_roots(term: Expr, x: Expr) -> Expr | None:
     """In the root of x that stands within functions."""
-    arguments = [f.args[0] for f in term.atoms(sympy.Function)]
+    arguments = [term] if term.has(sin, cos) else [f.args[0] for f in term.atoms(sympy.Function)]
     q = lcm(*(int(p.exp.q) for u in arguments for p in u.atoms(sympy.Pow) if p.base == x and p.exp.is_Rational))
     t = sympy.Dummy(positive=True)
     found = None if q == 1 else _known(term.subs(x, t**q) * q * t ** (q - 1), t)
@@ -132,14 +142,15 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     """In u = exp(k x), for which x is written."""
     term = sympy.expand(term)
     rates = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
-    if not rates or not all(rate.is_Rational for rate in rates.values()):
+    first = next(iter(rates.values()), sympy.Integer(0))
+    if first == 0 or not all((rate / first).is_Rational for rate in rates.values()):
         return None
-    k, u = sympy.gcd_list([*rates.values()]), sympy.Dummy()
+    k, u = first * sympy.gcd_list([rate / first for rate in rates.values()]), sympy.Dummy()
     inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
     if inner.has(x):
         return None
     inner = sympy.expand(inner.xreplace({u: x}))
-    found = _rational(inner, x)
+    found = integral_of_fraction(inner, x)
     found = _by_coefficients(inner, x) if found is None else found
     return None if found is None else found.subs(x, exp(k * x))
 
@@ -169,7 +180,7 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
         changes.append((2 * R / square, {s: 2 * x / square, c: (1 - x**2) / square}, tan(theta / 2)))
     done = []
     for inner, values, back in changes:
-        found = _rational(sympy.cancel(inner.subs(values) / slope), x)
+        found = integral_of_fraction(sympy.cancel(inner.subs(values) / slope), x)
         if found is not None:
             angle, u = back.args[0], sympy.Dummy()
             known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
@@ -178,28 +189,53 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
     return min(done, key=size, default=None)
 
 
-def _of_product(term: Expr, x: Expr) -> Expr | None:
-    rate = None if term.has(sin, cos, log) else ratfunc(_rate(term, x), x)
-    if rate is None:
-        return None
-    atoms, h = Atoms(x), product(rate)
-    scale, shown = factors(h, atoms)
-    ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
-    values = (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5))
-    constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
-    return None if found is None or constant is None else sympy.expand(constant * found)
+def _with_real_arguments(term: Expr, x: Expr) -> Expr | None:
+    """exp(i w x) as cos(w x) + i sin(w x), beside waves."""
+    imaginary = {e: sympy.expand(e.args[0] / sympy.I) for e in term.atoms(exp) if e.args[0].has(sympy.I)}
+    waves = {e: cos(angle) + sympy.I * sin(angle) for e, angle in imaginary.items() if not angle.has(sympy.I)}
+    return _in_waves(term.xreplace(waves), x) if waves else None
 
 
-def _by_parts(power: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int g l^m dx = G l^m - int m G l^(m - 1) l' dx for l = log(u) or atan(u), where G is simpler than these."""
-    inverse, m = power.as_base_exp()
-    if inverse.func not in (log, atan) or not m.is_Integer or m < 1:
+def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
+    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these."""
+    powers = [power.as_base_exp() for power in sympy.Mul.make_args(inverse)]
+    if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
         return None
+    if len(powers) == 1 and (found := _of_one_function(*powers[0], g, x)) is not None:
+        return found
     G = antiderivative(g, x)
-    if G is None or not {f.func for f in G.atoms(sympy.Function)} <= {exp, sin, cos}:
+    if G is None or not _functions(G) <= _SIMPLE:
         return None
-    rest = antiderivative(sympy.cancel(m * inverse.diff(x)) * G * inverse ** (m - 1), x)
-    return None if rest is None else sympy.expand(G * power) - rest
+    slopes = [m * sympy.cancel(function.diff(x)) * inverse / function for function, m in powers]
+    rest = antiderivative(sympy.Add(*(slope * G for slope in slopes)), x)
+    return None if rest is None else sympy.expand(G * inverse) - rest
+
+
+def _of_one_function(function: Expr, m: Expr, g: Expr, x: Expr) -> Expr | None:
+    """int l^m l' dx, and dilogarithms."""
+    ratio = sympy.cancel(g / function.diff(x))
+    if not ratio.has(x):
+        return ratio * function ** (m + 1) / (m + 1)
+    if function.func is not log or m != 1 or not g.is_rational_function(x):
+        return None
+    u = function.args[0]
+    parts = sympy.Add.make_args(sympy.apart(g, x))
+    found = [dilogarithm(u, part, x) for part in parts]
+    if all(part is None for part in found):
+        return None
+    rest = [_by_parts(function, part, x) if done is None else done for part, done in zip(parts, found, strict=True)]
+    return None if None in rest else sympy.Add(*rest)
+
+
+def _powers_beside_waves(term: Expr, x: Expr) -> Expr | None:
+    """int P g dx = P G - int P' G dx for a polynomial P and a rational function g of waves, as in x/cos(x)^2."""
+    factors = sympy.Mul.make_args(term)
+    P = sympy.Mul(*(factor for factor in factors if factor.is_polynomial(x)))
+    G = _in_waves(term / P, x) if P.has(x) else None
+    if G is None or not _functions(G) <= {sin, cos, tan}:
+        return None
+    rest = antiderivative(P.diff(x) * G, x)
+    return None if rest is None else P * G - rest
 
 
 def _beside_waves(term: Expr, x: Expr) -> Expr | None:
@@ -215,7 +251,7 @@ def _beside_waves(term: Expr, x: Expr) -> Expr | None:
             return None
         for fraction in sympy.Add.make_args(sympy.apart(R, x)):
             done = undetermined(sympy.Integer(0), sympy.Integer(0), fraction * wave, x)
-            parts.append(_of_product(fraction, x) if not waves else done and sympy.expand(done.diff(x)))
+            parts.append(integral_of_product(fraction, x) if not waves else done and sympy.expand(done.diff(x)))
             if parts[-1] is None:
                 parts[-1] = _at_a_pole(fraction, wave, slope, x)
             if parts[-1] is None:
@@ -253,42 +289,3 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
         return None
     found = antiderivative(q, x)
     return None if found is None else found + sympy.Integral(rest / c, x)
-
-
-def _rate(g: Expr, x: Expr) -> Expr:
-    """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    parts = []
-    for term in sympy.Add.make_args(g):
-        powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(term)]
-        exponent = sympy.Add(*(e for base, e in powers if base is sympy.E))
-        parts.append(([(base, e) for base, e in powers if base is not sympy.E], exponent))
-    (first, E), *rest = parts
-    found, others = E.diff(x), sympy.Integer(1)
-    for base, e in first:
-        if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
-            found += e * _rate(base, x)
-        else:
-            found += e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base)
-    for powers, exponent in rest:
-        quotient = sympy.Mul(*(base**e for base, e in powers), *(base**-e for base, e in first))
-        others += quotient * exp(sympy.cancel(exponent - E))
-    return found + others.diff(x) / others
-
-
-def _rational(g: Expr, x: Expr) -> Expr | None:
-    """By partial fractions; None where g isn't a rational function of x."""
-    r = ratfunc(g, x)
-    if r is None:
-        return None
-    atoms, parts = Atoms(x), decompose(r)
-    return (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
-
-
-def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:
-    """A rational function, over a field with pi as a parameter; None for anything else."""
-    if not expression.is_rational_function(x):
-        return None
-    try:
-        return read_input(expression.xreplace({sympy.pi: sympy.Symbol(PI)}), var=x.name).S
-    except InputError:
-        return None

@@ -13,7 +13,7 @@ from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.antiderivatives import NUMBERS
+from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import are_independent
 from kovacic.general_solution.variation import Basis

@@ -30,8 +30,9 @@ from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, prepared, ratfunc
+from kovacic.general_solution.antiderivatives import in_powers
 from kovacic.general_solution.constants import tidy
+from kovacic.general_solution.integrands import NUMBERS, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at

@@ -24,7 +24,8 @@ from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
+from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.integrands import NUMBERS, prepared
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import finite_value, size
 from kovacic.reading.change_of_variable import function_of_x, in_x
@@ -78,7 +79,7 @@ class Basis:
         if self.equation.change is not None:
             return self._changed or self._by_definition
         if not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
-            kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
+            kernel = display(product(self.equation.gauge * 2), Atoms(self.x), around_zero=True).xreplace(NUMBERS)
             for c in self._quotients(kernel):
                 known = c.is_finite is not False and not c.has(sympy.nan, sympy.zoo)
                 if c != 0 and known and {f.func for f in c.atoms(sympy.Function)} <= {sympy.gamma}:
@@ -114,7 +115,9 @@ class Basis:
     @property
     def _by_definition(self) -> Expr:
         """The Wronskian wherever the solutions are defined, on any branch."""
-        return self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
+        W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
+        roots = any(p.exp.is_Rational and not p.exp.is_Integer for p in W.atoms(sympy.Pow))
+        return sympy.cancel(sympy.together(W)) if roots and not W.has(*_UNKNOWN, sympy.Function) else W
 
     def _is_wronskian(self, W: Expr) -> bool:
         """Is the constant the same wherever roots have other branches?"""

@@ -22,7 +22,7 @@ from sympy.simplify.fu import TR8
 
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
-from kovacic.general_solution.antiderivatives import prepared
+from kovacic.general_solution.integrands import prepared
 from kovacic.reading.parser import shown
 
 Expr = Any  # SymPy publishes no types

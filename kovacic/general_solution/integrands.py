@@ -1,0 +1,84 @@
+"""Integrands as the engine reads them, products of powers and exponentials and rational functions, and their integrals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+from sympy import cos, cosh, cot, coth, csc, csch, exp, log, sec, sech, sin, sinh, tan, tanh
+
+from kovacic.algebra.partial_fractions import decompose
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Atoms, factors
+from kovacic.closed_form.integrals import integral, logarithms
+from kovacic.closed_form.product import product
+from kovacic.equation import EULER, PI
+from kovacic.errors import InputError
+from kovacic.reading.read import read_input
+
+Expr = Any  # SymPy publishes no types
+#: The numbers that are parameters in coefficients.
+NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
+
+
+def prepared(integrand: Expr) -> Expr:
+    """Expanded, in sines, cosines and exponentials."""
+    integrand = integrand.rewrite((sinh, cosh, tanh, coth, sech, csch), exp)
+    if integrand.has(tan, cot, sec, csc):
+        integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
+        integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
+    return sympy.expand(integrand, power_exp=False)
+
+
+def integral_of_product(term: Expr, x: Expr) -> Expr | None:
+    """int g dx for a product g of powers and exponentials of rational functions; None for anything else, or unknown."""
+    if any(f.func is not exp for f in term.atoms(sympy.Function) if f.has(x)):
+        return None
+    rate = ratfunc(_rate(term, x), x)
+    if rate is None:
+        return None
+    atoms, h = Atoms(x), product(rate)
+    scale, shown = factors(h, atoms)
+    ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
+    values = (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5))
+    constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
+    return None if found is None or constant is None else sympy.expand(constant * found)
+
+
+def _rate(g: Expr, x: Expr) -> Expr:
+    """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
+    parts = []
+    for term in sympy.Add.make_args(g):
+        powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(term)]
+        exponent = sympy.Add(*(e for base, e in powers if base is sympy.E))
+        parts.append(([(base, e) for base, e in powers if base is not sympy.E], exponent))
+    (first, E), *rest = parts
+    found, others = E.diff(x), sympy.Integer(1)
+    for base, e in first:
+        if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
+            found += e * _rate(base, x)
+        else:
+            found += e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base)
+    for powers, exponent in rest:
+        quotient = sympy.Mul(*(base**e for base, e in powers), *(base**-e for base, e in first))
+        others += quotient * exp(sympy.cancel(exponent - E))
+    return found + others.diff(x) / others
+
+
+def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
+    """By partial fractions; None where g isn't a rational function of x."""
+    r = ratfunc(g, x)
+    if r is None:
+        return None
+    atoms, parts = Atoms(x), decompose(r)
+    return (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
+
+
+def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:
+    """A rational function, over a field with pi as a parameter; None for anything else."""
+    if not expression.is_rational_function(x):
+        return None
+    try:
+        return read_input(expression.xreplace({sympy.pi: sympy.Symbol(PI)}), var=x.name).S
+    except InputError:
+        return None

@@ -1,0 +1,121 @@
+"""Integrals that are special functions: incomplete gamma and Fresnel functions, dilogarithms, complex exponentials.
+
+References: DLMF 7.2(iii), 8.2, 25.12.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+from sympy import cos, exp, log, sin
+
+from kovacic.general_solution.integrands import integral_of_product
+
+Expr = Any  # SymPy publishes no types
+_Pair = tuple[Expr, Expr]
+
+
+def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
+    """int K x^s exp(c x^m) dx = -(K/m) x^(s+1) z^-e Gamma(e, z), z = -c x^m, e = (s + 1)/m; s and m may be symbols.
+
+    x^(s+1) z^-e is a constant wherever both powers are continuous.
+
+    >>> x, s = sympy.symbols("x s")
+    >>> print(incomplete_gamma(x**s * exp(-x), x))
+    -uppergamma(s + 1, x)
+    """
+    K, rest = term.as_independent(x, as_Add=False)
+    s = exponent = sympy.Integer(0)
+    for factor in sympy.Mul.make_args(rest):
+        base, power = factor.as_base_exp()
+        if base is sympy.E:
+            exponent += power
+        elif base == x and not power.has(x):
+            s += power
+        else:
+            return None
+    constant, single = sympy.expand(exponent).as_independent(x, as_Add=True)
+    c, power = single.as_independent(x, as_Add=False)
+    base, m = power.as_base_exp()
+    if base != x or m.has(x) or m == 0:
+        return None
+    z, e = -c * x**m, (s + 1) / m
+    return -K / m * exp(constant) * x ** (s + 1) * z**-e * sympy.uppergamma(e, z)
+
+
+def fresnel(term: Expr, x: Expr) -> Expr | None:
+    """int P(x) sin(q(x)) dx, or of the cosine, for a polynomial P and a quadratic q = a t^2 + d, t = x + b/(2a).
+
+    >>> x = sympy.Symbol("x")
+    >>> print(fresnel(x**2 * cos(x**2), x))
+    x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
+    """
+    waves = term.atoms(sin, cos)
+    if len(waves) != 1:
+        return None
+    (wave,) = waves
+    P, (q,) = term / wave, wave.args
+    if P.has(wave) or not P.is_polynomial(x) or not q.is_polynomial(x) or sympy.degree(q, x) != 2:
+        return None
+    a, b, c = sympy.Poly(q, x).all_coeffs()
+    t = sympy.Dummy()
+    coefficients = sympy.Poly(P.subs(x, t - b / (2 * a)), t).all_coeffs()[::-1]
+    pairs = _fresnel_pairs(a, c - b**2 / (4 * a), t, len(coefficients))
+    which = 0 if wave.func is sin else 1
+    total = sympy.Add(*(k * pair[which] for k, pair in zip(coefficients, pairs, strict=True)))
+    return sympy.expand(total).subs(t, x + b / (2 * a))
+
+
+def _fresnel_pairs(a: Expr, d: Expr, t: Expr, count: int) -> list[_Pair]:
+    """int t^n sin(a t^2 + d) dt and int t^n cos(a t^2 + d) dt for n below `count`, by parts down to n = 0 or 1."""
+    angle = a * t**2 + d
+    unit, z = sympy.sqrt(sympy.pi / (2 * a)), t * sympy.sqrt(2 * a / sympy.pi)
+    S, C = unit * sympy.fresnels(z), unit * sympy.fresnelc(z)
+    pairs: list[_Pair] = [(cos(d) * S + sin(d) * C, cos(d) * C - sin(d) * S)]
+    for n in range(1, count):
+        sine, cosine = -(t ** (n - 1)) * cos(angle) / (2 * a), t ** (n - 1) * sin(angle) / (2 * a)
+        if n > 1:
+            before = pairs[n - 2]
+            sine += (n - 1) * before[1] / (2 * a)
+            cosine -= (n - 1) * before[0] / (2 * a)
+        pairs.append((sine, cosine))
+    return pairs
+
+
+def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:
+    """int k log(u)/(x - p) dx for u = a x + b and s = u(p) != 0: k (log(u) log(1 - u/s) + Li_2(u/s)).
+
+    For s > 0 it is k (log(s) log(x - p) - Li_2(1 - u/s)), which is real where log(u) is.
+
+    >>> x = sympy.Symbol("x")
+    >>> print(dilogarithm(x, 1 / (x + 1), x))
+    log(x)*log(x + 1) + polylog(2, -x)
+    """
+    k, rest = g.as_independent(x, as_Add=False)
+    base, exponent = rest.as_base_exp()
+    linear = all(e.is_polynomial(x) and sympy.degree(e, x) == 1 for e in (u, base))
+    if exponent != -1 or not linear:
+        return None
+    slope = base.diff(x)
+    s = u.subs(x, x - base / slope).expand()
+    if s == 0 or s.has(x):
+        return None
+    w = sympy.expand(u / s)
+    if s.is_positive:
+        return k / slope * (log(s) * log(base) - sympy.polylog(2, 1 - w))
+    return k / slope * (log(u) * log(1 - w) + sympy.polylog(2, w))
+
+
+def in_complex_exponentials(term: Expr, x: Expr) -> Expr | None:
+    """Waves as sums of exponentials: Ei, error functions and incomplete gamma functions of complex arguments."""
+    if not term.has(sin, cos):
+        return None
+    parts = sympy.Add.make_args(sympy.expand(term.rewrite((sin, cos), exp), power_exp=False))
+    found = [_of_exponential(part, x) for part in parts]
+    return None if None in found else sympy.Add(*found)
+
+
+def _of_exponential(part: Expr, x: Expr) -> Expr | None:
+    known = integral_of_product(part, x)
+    return incomplete_gamma(part, x) if known is None else known
