@@ -11,7 +11,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import sympy
-from sympy import Add, Integer, Mul, asin, atan, cos, exp, log, sin, sqrt
+from sympy import Add, Integer, Mul, asin, asinh, atan, cos, exp, log, sin, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
@@ -31,7 +31,7 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
     scale: Expr = Integer(1)
     if atoms.is_real_beyond_zero(integral.g):
         integral, scale = _turned(integral), -sympy.I
-    logarithms, others, notes = _terms(integral, atoms, alone=False)
+    logarithms, others, notes = _terms(integral, atoms, alone=False, exponents=False)
     return scale, Add(*others, *(c * log(base) for c, base in logarithms)), notes
 
 
@@ -45,7 +45,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     form = _oriented(form)
     zeros, oscillates = form.zeros, atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
-    logarithms, others, notes = _terms(form.integral, atoms, alone=zeros is None)
+    logarithms, others, notes = _terms(form.integral, atoms, alone=zeros is None, exponents=True)
     common = display(form.common, atoms)
     A, B = Integer(1), Integer(0)
     if zeros is not None:  # up to a common factor, without denominators
@@ -92,7 +92,8 @@ def _oriented(form: OnCurve) -> OnCurve:
     return OnCurve(form.common, -form.kappa_squared, _turned(integral), zeros)
 
 
-def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
+def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:
+    """With `exponents` the terms will be exponents, and int dx/sqrt(g) is a logarithm, which becomes a power."""
     g = integral.g
     root = sqrt(atoms.poly(g))
     logarithms: list[tuple[Expr, Expr]] = []
@@ -105,8 +106,9 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
             return [], others, (f"integral left because {integral.reason}",)
         _append_unit(integral.unit, root, atoms, logarithms, others)
         return logarithms, others, ()
-    if integral.rest and g.lc == -1:
-        others.append(atoms.constant(integral.rest) * _inverse_sine(g, atoms))
+    inverse = None if exponents or not integral.rest else _inverse_sine(g, atoms)
+    if inverse is not None:
+        others.append(atoms.constant(integral.rest) * inverse)
     elif integral.rest:
         # x - (x1 + x2)/2 + sqrt(g); alone, for real roots that aren't symmetric to 0, its square root, which has another sign
         # of sqrt(g) in some regions.
@@ -123,10 +125,13 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
     return logarithms, others, ()
 
 
-def _inverse_sine(g: Poly, atoms: Atoms) -> Expr:
-    """int dx/sqrt(g) for g = k^2 - (x - h)^2."""
-    k = atoms.sqrt(g[0] + g[1] * g[1] * Fraction(1, 4))
-    return asin(atoms.poly(g.derivative() * Fraction(-1, 2)) / k)
+def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
+    """int dx/sqrt(g) for g = k^2 - (x - h)^2 or g = (x - h)^2 + k^2 with a number k > 0; None for others."""
+    h, d = g[1] * g.lc * Fraction(-1, 2), g[0] - g[1] * g[1] * g.lc * Fraction(1, 4)
+    if not atoms.constant(d).is_positive:
+        return None
+    z = (atoms.x - atoms.constant(h)) / atoms.sqrt(d)
+    return asin(z) if g.lc == -1 else asinh(z)
 
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:

@@ -201,8 +201,10 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     powers = [power.as_base_exp() for power in sympy.Mul.make_args(inverse)]
     if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
         return None
-    if len(powers) == 1 and (found := _of_one_function(*powers[0], g, x)) is not None:
-        return found
+    if len(powers) == 1:
+        function, m = powers[0]
+        if (found := _of_one_function(function, m, g, x)) is not None:
+            return found
     G = antiderivative(g, x)
     if G is None or not _functions(G) <= _SIMPLE:
         return None

@@ -19,7 +19,7 @@ _Pair = tuple[Expr, Expr]
 def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     """int K x^s exp(c x^m) dx = -(K/m) x^(s+1) z^-e Gamma(e, z), z = -c x^m, e = (s + 1)/m; s and m may be symbols.
 
-    x^(s+1) z^-e is a constant wherever both powers are continuous.
+    x^(s+1) z^-e is a constant wherever both powers are continuous.  Without an exponential it is K x^(s+1)/(s+1).
 
     >>> x, s = sympy.symbols("x s")
     >>> print(incomplete_gamma(x**s * exp(-x), x))
@@ -35,6 +35,8 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
             s += power
         else:
             return None
+    if exponent == 0:
+        return None if s == -1 else K * x ** (s + 1) / (s + 1)
     constant, single = sympy.expand(exponent).as_independent(x, as_Add=True)
     c, power = single.as_independent(x, as_Add=False)
     base, m = power.as_base_exp()
