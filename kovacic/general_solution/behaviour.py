@@ -50,7 +50,7 @@ def behaviour(expression: Expr, x: Expr, place: Approach) -> Expansion:
     Raises `UnknownBehaviour`.
 
     >>> x = sympy.Symbol("x")
-    >>> found = behaviour((1 - sympy.cos(x)) / x**2 + log(x), x, Place(_ZERO))
+    >>> found = behaviour((1 - sympy.cos(x)) / x**2 + log(x), x, Approach(_ZERO))
     >>> found.terms[CONSTANT], found.terms[Monomial(k=1)]
     (1/2, 1)
     """

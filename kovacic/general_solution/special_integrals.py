@@ -43,7 +43,7 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     if base != x or m.has(x) or m == 0:
         return None
     z, e = -c * x**m, (s + 1) / m
-    return -K / m * exp(constant) * x ** (s + 1) * z**-e * sympy.uppergamma(e, z)
+    return -K / m * exp(constant) * sympy.powsimp(x ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
 
 
 def fresnel(term: Expr, x: Expr) -> Expr | None:
