@@ -27,14 +27,17 @@ from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import restriction
+from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.restriction import Hypersurface, hypersurface
-from kovacic.parametric.search import Findings, search
+from kovacic.parametric.search import Findings, all_half_integers, search
 from kovacic.parametric.solutions import solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 
+#: Said of a theory that holds for an equation without apparent singularities.
+_TRANSFORMED = ", after Darboux' transformation"
 _UNKNOWN = RegionVerdict(None, known=False)
 
 
@@ -84,6 +87,9 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
     if theorem is None:
         if settings.only_theorems:
             return Partition(expected, "for generic values only", "no theorem covers all values")
+        simpler = transformation(problem)
+        if simpler is not None:
+            return _by_transformation(problem, simpler, settings)
         return _by_candidates(problem, expected, settings)
     regions, always = _degenerate(problem.S, theorem.exceptions, settings), RegionVerdict(None)
     for region in theorem.regions:
@@ -96,6 +102,20 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
     if expected.known and expected.case != always.case:
         raise AssertionError(f"{theorem.name}: case {always.case} contradicts the generic answer, case {expected.case}")
     return Partition(always, together(regions), theorem.name, tuple(regions))
+
+
+def _by_transformation(problem: Problem, found: Transformation, settings: Settings) -> Partition:
+    """The regions of the simpler equation, behind those of the values at which the transformation isn't possible."""
+    regions = _degenerate(problem.S, found.exceptions, settings)
+    regions += _pieces(problem.S, found.special, settings)
+    inner = partition(found.simpler, settings)
+    for region in inner.regions:
+        if region.defined:
+            origin = None if region.origin is None else Back(region.origin, found.W, settings.variable)
+            regions.append(replace(region, origin=origin))
+    complete = together(regions) if inner.complete is True else inner.complete
+    theory = f"{inner.theory.removesuffix(_TRANSFORMED)}{_TRANSFORMED}"
+    return Partition(inner.generic, complete, theory, tuple(regions))
 
 
 def together(regions: Sequence[ParameterRegion]) -> bool | str:
@@ -124,8 +144,13 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
                     regions += found
     except LimitExceeded as limit:
         complete = _as_far_as(limit)
+    half_integers = all_half_integers(problem)
     for statement in findings.natural:
         structure = statement.structure
+        if structure is not Structure.REDUCIBLE and half_integers != NEVER and expected.structure is None:
+            regions.append(ParameterRegion(half_integers, RegionVerdict(Structure.IMPRIMITIVE)))
+            findings.theory += "; half-integers: Treibich & Verdier"
+            half_integers = NEVER
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
             verdict, origin = (

@@ -26,12 +26,16 @@ from kovacic.engine.places import Kind, Problem
 from kovacic.parametric import riemann
 from kovacic.parametric.exponents import form_conditions, with_degree
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
+from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, both
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
+#: Singular points of Heun's equation.
+_HEUN = 4
 #: A rational form of this degree has a linear factor with a rational omega; one of degree 4 is that of case 2, maybe.
 _SHOWS_CASE_1 = 2
 
@@ -154,20 +158,32 @@ def _signed_sums(squares: list[Poly], field: Field) -> Poly:
     return total
 
 
-def _reducible(problem: Problem, findings: Findings) -> None:
-    if any(place.kind is Kind.RAMIFIED for place in problem.places):
-        return
-    if _is_excluded_by_symmetry(problem):
-        return
-    differences = _differences(problem)
+def degree_equation(problem: Problem) -> Poly | None:
+    """The polynomial over Q(t) whose roots are the degrees that P can have in a solution exp(int theta) P.
+
+    None where a solution has no rational omega, or the exponents at conjugate points differ.
+    """
+    differences = None if _is_ramified(problem) else _differences(problem)
     if differences is None:
+        return None
+    weights = sum(p.weight * p.degree for p in problem.places if p.kind is not Kind.ORDINARY)
+    return _signed_sums(differences, problem.field)(problem.field.poly([weights - 2, 2]))
+
+
+def _is_ramified(problem: Problem) -> bool:
+    return any(place.kind is Kind.RAMIFIED for place in problem.places)
+
+
+def _reducible(problem: Problem, findings: Findings) -> None:
+    if _is_ramified(problem) or _is_excluded_by_symmetry(problem):
+        return
+    equation = degree_equation(problem)
+    if equation is None:
         findings.unproven.append("case 1 where the exponents at conjugate points differ")
         return
     field = problem.field
-    weights = sum(p.weight * p.degree for p in problem.places if p.kind is not Kind.ORDINARY)
-    sums = _signed_sums(differences, field)
     factors: list[FunctionPoly] = []
-    for factor, _ in field.factor(sums(field.poly([weights - 2, 2]))):
+    for factor, _ in field.factor(equation):
         if not _may_be_natural(factor):
             continue
         root = field.rational_value(-factor[0]) if factor.degree == 1 else None
@@ -176,6 +192,29 @@ def _reducible(problem: Problem, findings: Findings) -> None:
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
+
+
+def all_half_integers(problem: Problem) -> Statement:
+    """That there are four singular points, regular ones, and each exponent difference is half an odd integer.
+
+    Then there is an invariant of degree 4 for every accessory parameter: the equation is that of the potential
+    sum l_i (l_i + 1) p(z - w_i) in x = p(z), l_i the integers nearest to the differences, of which two solutions have an
+    elliptic product [Darboux, C. R. Acad. Sci. 94 (1882) 1645; Treibich & Verdier 1990].
+    """
+    if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
+        return NEVER
+    found: list[Statement] = []
+    for place in problem.places:
+        if place.kind is Kind.ORDINARY:
+            continue
+        if place.delta_squared is None or place.delta_squared.degree > 0:
+            return NEVER
+        equation = over_parameters(problem.field.poly([-4 * place.delta_squared, 0, 1]))
+        statement = integer_roots(equation, [1], 2)
+        if statement == NEVER:
+            return NEVER
+        found += [] if statement == ALWAYS or statement in found else [statement]
+    return both(*found) if len(found) != 1 else found[0]
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:

@@ -47,8 +47,8 @@ class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
 
     @classmethod
     def eval(cls, n: Any, a: Any, b: Any, z: Any) -> Any:
-        if not (n.is_Integer and n >= 0):
-            return None
+        if not (n.is_Integer and n >= -1):
+            return None  # -1 is that of the derivative of a constant
         terms = [
             _binomial(n + a, n - s) * _binomial(n + b, s) * ((z - 1) / 2) ** s * ((z + 1) / 2) ** (n - s)
             for s in range(int(n) + 1)
@@ -66,6 +66,22 @@ class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
         n, a, b, z = map(printer.doprint, self.args)
         power = "" if exp is None else f"^{{{exp}}}"
         return rf"P_{{{n}}}^{{\left({a}, {b}\right)}}\left({z}\right){power}"
+
+
+class laguerre(sympy.Function):  # type: ignore[misc]  # noqa: N801
+    """SymPy's `assoc_laguerre`, with a derivative that is right for n = 0, too, where SymPy's has no value."""
+
+    def fdiff(self, argindex: int = 3) -> Any:
+        """The derivative with respect to z by a polynomial of higher degree [DLMF 18.9.24]."""
+        n, a, z = self.args
+        if argindex != 3:
+            raise sympy.core.function.ArgumentIndexError(self, argindex)
+        return (n + 1) / z * laguerre(n + 1, a - 1, z) + (1 - a / z) * laguerre(n, a, z)
+
+
+def derivative(y: Any, x: Any) -> Any:
+    """That of a solution, with polynomials whose degrees are natural where that of the solution is."""
+    return y.replace(sympy.assoc_laguerre, laguerre).diff(x).replace(laguerre, sympy.assoc_laguerre)
 
 
 def _binomial(top: Any, k: Any) -> Any:
@@ -143,7 +159,8 @@ class Given:
 
 def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
     """The formula with symbols for the signs; None where there isn't one."""
-    return origin.general(signs) if isinstance(origin, Signed | Given) else None
+    together = getattr(origin, "general", None)
+    return None if together is None else together(signs)
 
 
 def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, int] | None:

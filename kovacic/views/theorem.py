@@ -34,7 +34,8 @@ from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
 _SOURCES = {
     "Kimura": ("Kim69",),
     "Martinet": ("MR89", "DLR92"),
-    "Darboux": ("Dar82", "TV90"),
+    "Darboux": ("Dar82",),
+    "Treibich": ("TV90",),
     "invariants": ("UW96", "HW97"),
     "natural degree": ("Kov86", "AMW11"),
     "rational omega": ("Kov86",),

@@ -1,0 +1,149 @@
+"""Darboux' transformation: an equation with an apparent singularity has the cases of one without it.
+
+Let y'' = (V - E) y with V and W free of E and W' + W^2 = V - E0.  For every E other than E0 the map y -> y' - W y takes the
+solutions to those of v'' = (V - 2 W' - E) v, and v -> v' + W v takes them back, times E0 - E.  W is rational, so one equation
+has Liouvillian solutions where the other one has, with the same case and group.  At a pole with the exponents -m and m + 1,
+the same for all E, and W = -m/(x - c) + ..., the difference V - V + 2 W' lowers m (m + 1) to m (m - 1).
+
+References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Grandati & R. Milson, J. Phys. A 47 (2014) 015203.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Field
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.engine.decide import decide
+from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.parametric.functions import ParameterPoint, degrees, irreducible_factors, over_parameters, powers_of, union
+from kovacic.parametric.restriction import undefined
+from kovacic.parametric.search import degree_equation
+from kovacic.parametric.solutions import Origin, PolynomialSolution, derivative, general
+
+#: Degrees of P up to which an E0 is looked for.
+_DEGREE = 4
+
+
+@dataclass(frozen=True)
+class Transformation:
+    """`special` vanishes where E = E0; S for all other values is as `simpler`, unless one of the `exceptions` vanishes."""
+
+    special: FunctionPoly
+    W: RatFunc
+    simpler: RatFunc
+    exceptions: tuple[FunctionPoly, ...]
+
+
+@dataclass(frozen=True)
+class Back:
+    """The solutions v of the simpler equation as y = v' + W v."""
+
+    origin: Origin
+    W: RatFunc
+    variable: str
+
+    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        return tuple(replace(solution, y=self.carried(solution.y)) for solution in self.origin(number))
+
+    def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
+        """All of them in one, with symbols for the signs; None where there is no such formula."""
+        found = general(self.origin, signs)
+        return None if found is None else replace(found, y=self.carried(found.y))
+
+    def carried(self, v: Any) -> Any:
+        """v' + W v."""
+        x = sympy.Symbol(self.variable)
+        above, below = (part.to_sympy(x) for part in (self.W.num, self.W.den))
+        return derivative(v, x) + sympy.factor(above / below) * v
+
+
+def transformation(problem: Problem) -> Transformation | None:
+    """One that lowers the apparent singularities; None where none is found."""
+    before = _apparent(problem)
+    energies = _energies(problem.S) if before else []
+    if not energies:
+        return None
+    for special, W in _rational_logarithmic_derivatives(problem, energies):
+        simpler = problem.S - 2 * W.derivative()
+        after = analyse(simpler, problem.budget)
+        if _apparent(after) < before:
+            exceptions = [undefined(problem), irreducible_factors(W.cleared()[1].lc), undefined(after)]
+            return Transformation(special, W, simpler, tuple(union(exceptions)))
+    return None
+
+
+def _apparent(problem: Problem) -> int:
+    """The sum of m (m + 1) over the poles with constant exponents -m, m + 1."""
+    total = 0
+    for place in problem.finite_places:
+        if place.kind is Kind.REGULAR and place.delta is not None and place.delta.denominator == 1 and place.delta % 2:
+            total += int(place.delta**2 - 1) // 4 * place.degree
+    return total
+
+
+def _energies(S: RatFunc) -> list[int]:
+    """The numbers of the parameters E with S = V - c E, c a number and V free of E."""
+    field = S.field
+    assert isinstance(field, FunctionField)
+    above, below = map(over_parameters, S.cleared())
+    found = []
+    for i, name in enumerate(field.names):
+        if degrees(above)[i] != 1 or degrees(below)[i]:
+            continue
+        values = [field.generator(other) + (1 if other == name else 0) for other in field.names]
+        change = RatFunc(above.value_at(values, field), below) - RatFunc(above, below)
+        if change.is_polynomial and change.num.degree == 0 and field.rational_value(change.num) is not None:
+            found.append(i)
+    return found
+
+
+def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
+    """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree."""
+    field = problem.field
+    assert isinstance(field, FunctionField)
+    equation = degree_equation(problem)
+    for d in range(_DEGREE + 1 if equation is not None else 0):
+        for special in irreducible_factors(equation(Fraction(d))):  # type: ignore[misc]
+            solved = (_solved_for(special, i) for i in energies)
+            surface = next((point for point in solved if point is not None), None)
+            if surface is None:
+                continue
+            riccati = decide(surface.restricted(problem.S), problem.budget).riccati
+            if riccati is None or riccati.degree > 1:
+                continue
+            W = -riccati.coefficients[0]
+            if W.field != surface.field:
+                continue
+            yield special, _over(W, field)
+
+
+def _solved_for(function: FunctionPoly, i: int) -> ParameterPoint | None:
+    """The values of the parameters where a function vanishes, if it is linear in parameter i with a constant coefficient."""
+    powers = powers_of(function, i)
+    if {*powers} != {0, 1} and {*powers} != {1}:
+        return None
+    if not powers[1].num.is_constant():
+        return None
+    names = function.field.names
+    field = FunctionField(tuple(name for name in names if name != names[i]))
+    below: Field = field if field.names else QQ
+    values = [field.generator(name) if name in field.names else below.poly([0]) for name in names]
+    constant = powers.get(0, 0 * powers[1]).value_at(values, below)
+    values[i] = -constant / powers[1].value_at(values, below)
+    return ParameterPoint(names, tuple(values), below)
+
+
+def _over(W: RatFunc, field: FunctionField) -> RatFunc:
+    """The same function with all parameters in its field."""
+    if not isinstance(W.num, FunctionPoly):
+        return RatFunc(field.poly(W.num.rational_coefficients()), field.poly(W.den.rational_coefficients()))
+    values = [field.generator(name) for name in W.num.field.names]
+    return RatFunc(*(over_parameters(part).value_at(values, field) for part in W.cleared()))
