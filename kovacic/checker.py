@@ -1347,6 +1347,8 @@ def verdict(line: str) -> str:
         data = json.loads(line, object_pairs_hook=once, parse_constant=no_number)
         if not isinstance(data, dict) or repr(data.get("schema")) != "1" or data.get("field") is not None:
             return "not checked: no answer in schema 1 for an S with rational coefficients"
+        if data.get("status") in ("error", "solved") and "case" not in data:
+            return "not checked: the line says why there is no answer, or is one of dsolve's"
         if data["proof"]["undecided"] is not None:
             return f"not checked: the answer is undecided: {data['proof']['undecided']!r}"
         with ctx.workprec(333):

@@ -126,6 +126,7 @@ def test_what_windows_lacks_is_used_where_it_is_there() -> None:
                     assert re.search(rf"hasattr\({home}, ", text), f"{path}: {home}.{node.attr}"
 
 
+@pytest.mark.long
 def test_commands_run_where_nothing_of_posix_is(tmp_path: Path) -> None:
     """No signals, limits or forks; a file with a space in its name, and lines that end as on Windows."""
     (tmp_path / "in put.txt").write_bytes(b"x^2 + 3\r\nx\r\n1/2x\r\n")
@@ -136,6 +137,8 @@ for module in {POSIX_MODULES!r}:
 for home, names in {POSIX_NAMES!r}.items():
     for name in names - {{"SIGKILL"}}:  # with which subprocess ends its children, here
         if hasattr(sys.modules[home], name): delattr(sys.modules[home], name)
+import multiprocessing
+multiprocessing.set_start_method("spawn")  # the only way there
 from kovacic.cli import main
 statuses = [main.run(command) for command in (
     ["solve", "--json", "x^2 + 3"],

@@ -16,6 +16,7 @@ import pytest
 import kovacic
 from kovacic.batch.records import Item, Job, ProcessLost, refused, stopped
 from kovacic.batch.worker import solve_item
+from kovacic.checker import verdict
 from kovacic.cli.main import run
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
@@ -76,6 +77,8 @@ def test_lines_of_bad_input(validator: jsonschema.Draft202012Validator, capsys: 
     assert (good["status"], large["status"]) == ("none", "undecided")
     for line in (bad, ambiguous, good, large):
         validator.validate(line)
+    said = [verdict(json.dumps(line)).partition(":")[0] for line in (bad, good, large)]
+    assert said == ["not checked", "checked", "not checked"]
 
 
 def test_lines_of_dsolve(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
