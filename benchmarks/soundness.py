@@ -1,0 +1,243 @@
+"""Is the exact value in the ball?  Generated natural calls of `evaluate`, against integrators that share nothing with it.
+
+Regenerate:  python benchmarks/soundness.py 5000 --seed 1     (an hour; nice 19)
+prints, and writes results/soundness.{json,md}.
+
+Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a tolerance
+of 1e-12, has to agree with both to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits decides);
+and the sharper midpoint has to lie in the wider ball: the ratio is its distance from the midpoint over the radius.  One call in
+twenty is compared with `odefun` in any case.
+"""
+
+from __future__ import annotations
+
+import random
+import time
+import warnings
+from collections import Counter
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import flint
+import frame
+import mpmath
+import numpy as np
+import sympy
+from scipy.integrate import solve_ivp
+
+import kovacic
+
+x = sympy.Symbol("x")
+_SIZE = 1e-7
+_EVERY = 20
+
+
+@dataclass(frozen=True)
+class Call:
+    """y'' + b y' + c y = f from x0 to `place`, y(x0) and y'(x0)."""
+
+    kind: str
+    b: str
+    c: str
+    f: str
+    x0: str
+    place: str
+    y0: str
+    dy0: str
+    params: dict[str, str]
+
+    @property
+    def equation(self) -> str:
+        return f"y'' + ({self.b})*y' + ({self.c})*y = {self.f}"
+
+    def start(self, *, wide: bool) -> dict[str, Any]:
+        y0: Any = self.y0
+        if wide:
+            value = Fraction(self.y0.strip("()"))
+            y0 = flint.arb(value.numerator, 1e-12) / value.denominator
+        given = {"x0": self.x0, "y0": y0, "dy0": self.dy0}
+        return given | ({"params": self.params} if self.params else {})
+
+
+def number(rng: random.Random, least: int = -9, most: int = 9) -> str:
+    value = Fraction(rng.randint(least, most), rng.randint(1, 5))
+    return f"({value})"
+
+
+def polynomial(rng: random.Random, degree: int) -> str:
+    return " + ".join(f"{number(rng)}*x^{k}" for k in range(rng.randint(0, degree) + 1))
+
+
+def denominator(rng: random.Random) -> str:
+    """Without a zero between 1/2 and 4."""
+    factors = [f"(x + {rng.randint(1, 6)})", f"(x^2 + {number(rng, 1, 9)})", "x", "x^2", f"(x - {rng.randint(5, 9)})"]
+    return "*".join(rng.sample(factors, rng.randint(1, 2)))
+
+
+def rational(rng: random.Random) -> tuple[str, str, str]:
+    b = rng.choice(["0", f"{number(rng)}/{denominator(rng)}", number(rng)])
+    return b, f"({polynomial(rng, 3)})/({denominator(rng)})", "0"
+
+
+def irregular(rng: random.Random) -> tuple[str, str, str]:
+    return "0", f"{number(rng)}*x^{rng.randint(1, 4)} + {number(rng)}/x^{rng.randint(3, 5)} + {number(rng)}", "0"
+
+
+def algebraic(rng: random.Random) -> tuple[str, str, str]:
+    root = rng.choice(["sqrt(2)", "sqrt(3)", "2^(1/3)", "sqrt(5)"])
+    return rng.choice(["0", root]), f"{root}*x + {polynomial(rng, 2)}/(x + {root})", "0"
+
+
+def forced(rng: random.Random) -> tuple[str, str, str]:
+    b, c, _ = rational(rng)
+    return b, c, rng.choice(["exp(-x)", "sin(2*x)", "1/(x + 3)", "log(x)", "x*exp(x/2)", "sqrt(x)", "cos(x)/(x + 1)"])
+
+
+def waves(rng: random.Random) -> tuple[str, str, str]:
+    first = ["0", "cot(x/3)", "sin(x)", "tanh(x)", "1/(2 + cos(x))", "tan(x/9)", "exp(-x)"]
+    zeroth = ["2 + sin(2*x)", "cos(x) + sin(2*x)", "exp(x/2) + 1", "1/cos(x/9)^2", "sinh(x/2)", "2*q*cos(2*x)", "csc(x/3)^2"]
+    c = " + ".join(f"{number(rng)}*({part})" for part in rng.sample(zeroth, rng.randint(1, 2)))
+    return rng.choice(first), c.replace("q", number(rng, 1, 3)), rng.choice(["0", "0", "cos(x)", "exp(x)"])
+
+
+def functions(rng: random.Random) -> tuple[str, str, str]:
+    parts = ["log(x)", "sqrt(x)", "exp(-x^2)", "x^(1/3)", "atan(x)", "erf(x)", "x*sin(x)", "log(x + 2)/x", "exp(sin(x))"]
+    first = ["0", "log(x)", "x*exp(-x)", "1/sqrt(x)", "atan(x)"]
+    c = " + ".join(f"{number(rng)}*({part})" for part in rng.sample(parts, rng.randint(1, 3)))
+    return rng.choice(first), c, rng.choice(["0", "0", "log(x)", "exp(-x^2)", "sin(x^2)"])
+
+
+KINDS = {"rational": rational, "irregular": irregular, "algebraic constants": algebraic, "right-hand sides": forced}
+KINDS |= {"sines and exponentials": waves, "any functions": functions}
+
+
+def call(rng: random.Random) -> Call:
+    kind = rng.choice(list(KINDS))
+    b, c, f = KINDS[kind](rng)
+    params = {}
+    if rng.random() < 0.15:
+        c, params = f"{c} + a*x", {"a": rng.choice(["sqrt(2)", "1/3", "pi"])}
+    x0, place = (f"{rng.randint(5, 38)}/10" for _ in range(2))
+    if rng.random() < 0.25:
+        place = f"{place} + {rng.choice(['-', ''])}{rng.randint(1, 9)}/10*I"
+    return Call(kind, b, c, f, x0, place, number(rng), number(rng), params)
+
+
+def exact(value: str) -> complex:
+    return complex(sympy.sympify(value))
+
+
+def coefficients(asked: Call, module: str) -> list[Any]:
+    values = {sympy.Symbol(name): sympy.sympify(value) for name, value in asked.params.items()}
+    texts = (part.replace("^", "**") for part in (asked.b, asked.c, asked.f))
+    return [sympy.lambdify(x, sympy.sympify(text).subs(values), module) for text in texts]
+
+
+def by_dop853(asked: Call) -> tuple[complex, complex, float] | None:
+    """y and y' at the end, and the largest |y| on the way; None where the integrator gives up."""
+    b, c, f = coefficients(asked, "scipy")
+    begin, step = exact(asked.x0), exact(asked.place) - exact(asked.x0)
+
+    def slope(t: float, s: Any) -> Any:
+        z = begin + step * t
+        return [step * s[1], step * (f(z) - b(z) * s[1] - c(z) * s[0])]
+
+    start = np.array([exact(asked.y0), exact(asked.dy0)], dtype=complex)
+    found = solve_ivp(slope, (0, 1), start, method="DOP853", rtol=1e-12, atol=1e-13)
+    if not found.success:
+        return None
+    return found.y[0, -1], found.y[1, -1], float(np.abs(found.y).max())
+
+
+def by_mpmath(asked: Call) -> tuple[Any, Any]:
+    b, c, f = coefficients(asked, "mpmath")
+    with mpmath.workdps(30):
+        begin, end = (mpmath.mpmathify(sympy.N(sympy.sympify(v), 40)) for v in (asked.x0, asked.place))
+        step = end - begin
+        start = [mpmath.mpmathify(sympy.N(sympy.sympify(v), 40)) for v in (asked.y0, asked.dy0)]
+
+        def slope(t: Any, s: Any) -> Any:
+            z = begin + step * t
+            return [step * s[1], step * (f(z) - b(z) * s[1] - c(z) * s[0])]
+
+        return tuple(mpmath.odefun(slope, 0, start)(1))
+
+
+def distance(ball: Any, other: Any) -> float:
+    """From the midpoint of a ball, over its radius."""
+    with mpmath.workdps(80):
+        error = abs(ball.to_mpmath() - other.to_mpmath())
+        return 0.0 if error == 0 else float(error / mpmath.mpf(ball.radius or 1e-300))
+
+
+def check(seed: int) -> dict[str, Any]:
+    rng = random.Random(seed)
+    asked, digits, wide = call(rng), rng.choice([5, 8, 15, 30]), rng.random() < 0.1
+    row: dict[str, Any] = {"seed": seed, "kind": asked.kind, "call": f"{asked.equation}, {asked.x0} to {asked.place}"}
+    try:
+        balls = kovacic.evaluate(
+            asked.equation, asked.place, derivative=True, digits=digits, **asked.start(wide=wide)
+        )
+        sharp = kovacic.evaluate(
+            asked.equation, asked.place, derivative=True, digits=digits + 25, **asked.start(wide=False)
+        )
+    except kovacic.KovacicError as reason:
+        return {**row, "refused": f"{type(reason).__name__}: {reason}"}
+    ratios = [distance(ball, other) for ball, other in zip(balls, sharp, strict=True)]
+    row["ratio"] = max(ratios)
+    own = by_dop853(asked)
+    far = own is None or any(
+        abs(complex(ball) - value) > _SIZE * own[2] + ball.radius for ball, value in zip(balls, own[:2], strict=True)
+    )
+    if far or seed % _EVERY == 0:
+        precise = by_mpmath(asked)
+        size = max(abs(value) for value in precise) + (own[2] if own else 0)
+        with mpmath.workdps(60):
+            row["odefun"] = max(float(abs(s.to_mpmath() - v) / size) for s, v in zip(sharp, precise, strict=True))
+        far = row["odefun"] > 1e-15
+    row["wrong"] = bool(far or row["ratio"] > 1)
+    return row
+
+
+def main() -> None:
+    arguments = frame.parser(__doc__)
+    arguments.add_argument("count", type=int)
+    arguments.add_argument("--seed", type=int, default=1)
+    given = arguments.parse_args()
+    warnings.simplefilter("ignore")
+    rows, begin = [], time.process_time()
+    for seed in range(given.seed * 1_000_000, given.seed * 1_000_000 + given.count):
+        rows.append(check(seed))
+        if rows[-1].get("wrong"):
+            print("WRONG", rows[-1], flush=True)
+        if len(rows) % 100 == 0:
+            print(len(rows), f"{time.process_time() - begin:.0f} s", flush=True)
+            report(rows, given.seed)
+
+
+def report(rows: list[dict[str, Any]], seed: int) -> None:
+    done = [row for row in rows if "refused" not in row]
+    kinds = Counter(row["kind"] for row in done)
+    lines = [
+        "# Is the exact value in the ball?",
+        "",
+        frame.line(scipy=__import__("scipy").__version__, mpmath=mpmath.__version__),
+        f"Regenerate: `python benchmarks/soundness.py {len(rows)} --seed {seed}`.",
+        "",
+        f"{len(done)} calls, {2 * len(done)} balls; {len(rows) - len(done)} calls were refused. Wrong: "
+        f"{sum(row['wrong'] for row in done)}.",
+        f"Worst distance of the sharper value from the midpoint, over the radius: {max(row['ratio'] for row in done):.3g}.",
+        f"Compared with `odefun` by 30 digits: {sum('odefun' in row for row in done)}, worst difference over the size "
+        f"{max((row['odefun'] for row in done if 'odefun' in row), default=0.0):.2g}.",
+        "",
+        *frame.table(["kind", "calls"], [[kind, str(count)] for kind, count in sorted(kinds.items())]),
+    ]
+    refused = Counter(row["refused"].split(",")[0][:90] for row in rows if "refused" in row)
+    data = {"seed": seed, "calls": len(done), "refused": dict(refused.most_common(40))}
+    data["wrong"] = [row for row in done if row["wrong"]]
+    frame.save("soundness", data, "\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()
