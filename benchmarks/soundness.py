@@ -3,10 +3,10 @@
 Regenerate:  python benchmarks/soundness.py 5000 --seed 1     (an hour; nice 19)
 prints, and writes results/soundness.{json,md}.
 
-Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a tolerance
-of 1e-12, has to agree with both to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits decides);
-and the sharper midpoint has to lie in the wider ball: the ratio is its distance from the midpoint over the radius.  One call in
-twenty is compared with `odefun` in any case.
+Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a
+tolerance of 1e-12, has to agree to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits
+decides); and the sharper midpoint has to lie in the wider ball: the ratio is its distance from the midpoint over the radius.
+One call in twenty is compared with `odefun` in any case.
 """
 
 from __future__ import annotations
@@ -96,13 +96,31 @@ def forced(rng: random.Random) -> tuple[str, str, str]:
 
 def waves(rng: random.Random) -> tuple[str, str, str]:
     first = ["0", "cot(x/3)", "sin(x)", "tanh(x)", "1/(2 + cos(x))", "tan(x/9)", "exp(-x)"]
-    zeroth = ["2 + sin(2*x)", "cos(x) + sin(2*x)", "exp(x/2) + 1", "1/cos(x/9)^2", "sinh(x/2)", "2*q*cos(2*x)", "csc(x/3)^2"]
+    zeroth = [
+        "2 + sin(2*x)",
+        "cos(x) + sin(2*x)",
+        "exp(x/2) + 1",
+        "1/cos(x/9)^2",
+        "sinh(x/2)",
+        "2*q*cos(2*x)",
+        "csc(x/3)^2",
+    ]
     c = " + ".join(f"{number(rng)}*({part})" for part in rng.sample(zeroth, rng.randint(1, 2)))
     return rng.choice(first), c.replace("q", number(rng, 1, 3)), rng.choice(["0", "0", "cos(x)", "exp(x)"])
 
 
 def functions(rng: random.Random) -> tuple[str, str, str]:
-    parts = ["log(x)", "sqrt(x)", "exp(-x^2)", "x^(1/3)", "atan(x)", "erf(x)", "x*sin(x)", "log(x + 2)/x", "exp(sin(x))"]
+    parts = [
+        "log(x)",
+        "sqrt(x)",
+        "exp(-x^2)",
+        "x^(1/3)",
+        "atan(x)",
+        "erf(x)",
+        "x*sin(x)",
+        "log(x + 2)/x",
+        "exp(sin(x))",
+    ]
     first = ["0", "log(x)", "x*exp(-x)", "1/sqrt(x)", "atan(x)"]
     c = " + ".join(f"{number(rng)}*({part})" for part in rng.sample(parts, rng.randint(1, 3)))
     return rng.choice(first), c, rng.choice(["0", "0", "log(x)", "exp(-x^2)", "sin(x^2)"])
@@ -176,9 +194,7 @@ def check(seed: int) -> dict[str, Any]:
     asked, digits, wide = call(rng), rng.choice([5, 8, 15, 30]), rng.random() < 0.1
     row: dict[str, Any] = {"seed": seed, "kind": asked.kind, "call": f"{asked.equation}, {asked.x0} to {asked.place}"}
     try:
-        balls = kovacic.evaluate(
-            asked.equation, asked.place, derivative=True, digits=digits, **asked.start(wide=wide)
-        )
+        balls = kovacic.evaluate(asked.equation, asked.place, derivative=True, digits=digits, **asked.start(wide=wide))
         sharp = kovacic.evaluate(
             asked.equation, asked.place, derivative=True, digits=digits + 25, **asked.start(wide=False)
         )

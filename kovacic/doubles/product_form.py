@@ -183,6 +183,11 @@ class ProductForm:
     def __repr__(self) -> str:
         return f"<ProductForm on {self.region}, {'real' if self.is_real else 'complex'}>"
 
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The ends of the interval, doubles; of a rectangle those of its real parts."""
+        return self.region.interval
+
     def __call__(self, x: Any) -> Any:
         """y(x).
 

@@ -84,12 +84,23 @@ class Region:
         return points
 
     def _contains(self, points: Any) -> bool:
-        """By the extremes, which are NaN where a point is."""
-        inside = self.low.real <= points.real.min() and points.real.max() <= self.high.real
+        """By the extremes, but for NaN, which has the value NaN."""
+        inside = _between(self.low.real, points.real, self.high.real)
         if not self.is_real:
-            inside = inside and self.low.imag <= points.imag.min() and points.imag.max() <= self.high.imag
+            inside = inside and _between(self.low.imag, points.imag, self.high.imag)
         ends = zip((self.low, self.high), self.singular, strict=True)
         return bool(inside and not any(singular and np.any(points == end) for end, singular in ends))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The ends, of a real interval."""
+        return self.low.real, self.high.real
+
+
+def _between(low: float, values: Any, high: float) -> bool:
+    """Do all of these that are numbers lie there?"""
+    least, largest = np.fmin.reduce(values, axis=None), np.fmax.reduce(values, axis=None)
+    return not (least < low or largest > high)
 
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
@@ -107,7 +118,7 @@ def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -
 
 
 def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
-    """The region in doubles, inside the exact one, and some points near its middle.
+    """The region in doubles, the nearest ones to its ends, and some points near its middle.
 
     Raises InputError if it is empty, or contains a singular point of the problem other than its two ends.
     """
@@ -123,9 +134,13 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     if problem is not None:
         with working_precision(_PREC):
             singular = _singular_ends(problem, low, high)
-    (left, right), (bottom, top) = _inside(low.re, high.re), _inside(low.im, high.im)
+    left, right = _doubles(low.re, high.re, singular)
+    bottom, top = _doubles(low.im, high.im, singular)
     if left > right or bottom > top:
         raise InputError("the interval contains no double")
+    if problem is not None and not any(singular):
+        with working_precision(_PREC):  # a double may lie beyond the end that it stands for
+            _singular_ends(problem, as_point(complex(left, bottom), "an end"), as_point(complex(right, top), "an end"))
     near = [low + (high - low).scaled(Fraction(k, 64)) for k in (32, 31, 34, 27, 39)]
     return Region(complex(left, bottom), complex(right, top), singular), near
 
@@ -143,10 +158,14 @@ def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -
     return at_low, at_high
 
 
-def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
-    """The least double that isn't below `low`, and the greatest that isn't above `high`."""
+def _doubles(low: Fraction, high: Fraction, singular: tuple[bool, bool]) -> tuple[float, float]:
+    """The nearest doubles, so that "0.3" and 0.3 are one end; inside of the interval where an end is a singular point."""
     try:
         a, b = float(low), float(high)
     except OverflowError:
         raise InputError("an end of the interval is beyond the range of doubles") from None
-    return a if Fraction(a) >= low else math.nextafter(a, math.inf), b if b <= high else math.nextafter(b, -math.inf)
+    if singular[0] and Fraction(a) < low:
+        a = math.nextafter(a, math.inf)
+    if singular[1] and Fraction(b) > high:
+        b = math.nextafter(b, -math.inf)
+    return a, b

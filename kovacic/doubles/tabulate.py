@@ -19,10 +19,12 @@ plain doubles the error is some 2^-52 of the largest value there.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from math import ldexp
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -64,8 +66,50 @@ class Variant(NamedTuple):
     bits: int
 
 
+_FIXED = 112
+"""Bits after the binary point, where a single number is the argument."""
+
 _CAREFUL, _PLAIN = Variant(48, 48, 34, 60, 96), Variant(48, 32, 22, 32, 60)
 Cell = tuple[fmpq, int]  # c, and e where H = 2^e
+
+
+class _Whole(NamedTuple):
+    """The coefficients of a polynomial from the highest one down: integers, over 2^shift; or plain doubles, without a shift."""
+
+    numbers: list[Any]
+    shift: int | None
+
+    @classmethod
+    def of(cls, table: Any, careful: bool) -> _Whole:
+        """From high and low halves by terms."""
+        if not careful:
+            return cls([float(value) for value in table[0, ::-1]], None)
+        halves_ = [(Fraction(float(high)) + Fraction(float(low))) for high, low in table.T[::-1]]
+        size = max(map(abs, halves_), default=Fraction(0))
+        shift = _FIXED - (size.numerator.bit_length() - size.denominator.bit_length())
+        unit = Fraction(2) ** shift
+        return cls([round(value * unit) for value in halves_], shift)
+
+    def at(self, u: int, power: int) -> float:
+        """The value at u, over 2^_FIXED, times 2^power."""
+        if self.shift is None:
+            place = ldexp(u, -_FIXED)
+            value = 0.0
+            for number in self.numbers:
+                value = value * place + number
+            return _scaled_float(value, power)
+        total = 0
+        for number in self.numbers:
+            total = (total * u >> _FIXED) + number
+        return _scaled_float(total, power - self.shift)
+
+
+def _scaled_float(value: float, power: int) -> float:
+    """value 2^power, infinite beyond the doubles."""
+    try:
+        return ldexp(value, power)
+    except OverflowError:
+        return math.copysign(math.inf, value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,18 +164,70 @@ class TabulatedFunction:
         Returns
         -------
         float, complex or array
-            Of the shape of x; inf or 0 where the value is beyond the doubles.
+            Of the shape of x; inf or 0 where the value is beyond the doubles, and NaN for NaN.
 
         Raises
         ------
         InputError
             For an argument outside of the interval, or one that isn't numerical.
         """
+        if isinstance(x, float) and self.region.low.real <= x <= self.region.high.real:
+            return self._single(float(x))
         points = self.region.points(x)
         return in_blocks(self._values, points, 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2)
 
     def __repr__(self) -> str:
         return f"<TabulatedFunction on {self.region}, {self.centres.size} pieces>"
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The ends of the interval, doubles."""
+        return self.region.interval
+
+    @cached_property
+    def derivative(self) -> TabulatedFunction:
+        """y', a table on the same pieces; its error isn't measured, some ten times that of y over the length of a piece."""
+        terms = self.coefficients.shape[2]
+        factors = np.arange(1.0, terms)
+        product = Pair(*self.coefficients[:, :, 1:].swapaxes(0, 1)) * Pair(factors[:, None])
+        table = np.array([product.hi, product.lo]).swapaxes(0, 1)
+        power = self.powers - self.exponents
+        kept = np.where(np.abs(power) > _ROOM, power, 0)
+        table = np.ldexp(table, power - kept)
+        table.flags.writeable = False
+        return replace(self, coefficients=table, powers=kept, measured=None)
+
+    def _single(self, x: float) -> Any:
+        """The value at one number within the interval, without arrays."""
+        k = bisect_right(self._edges, x)
+        if k not in self._whole:
+            self._whole[k] = [_Whole.of(part[:, :, k], self.careful) for part in self.coefficients]
+        e = self._shifts[k]
+        high = x - self._centres[k]
+        low = (x - (high - (high - x))) - (self._centres[k] + (high - x))
+        u = int(ldexp(high, _FIXED - e)) + int(ldexp(low, _FIXED - e))
+        values = [part.at(u, self._powers[k]) for part in self._whole[k]]
+        return values[0] if len(values) == 1 else complex(*values)
+
+    @cached_property
+    def _edges(self) -> list[float]:
+        return [float(edge) for edge in self.edges]
+
+    @cached_property
+    def _centres(self) -> list[float]:
+        return [float(centre) for centre in self.centres]
+
+    @cached_property
+    def _shifts(self) -> list[int]:
+        return [int(e) for e in self.exponents]
+
+    @cached_property
+    def _powers(self) -> list[int]:
+        return [int(power) for power in self.powers]
+
+    @cached_property
+    def _whole(self) -> dict[int, list[_Whole]]:
+        return {}
 
     def _values(self, flat: Any) -> Any:
         parts, powers = self.parts(flat)

@@ -1,0 +1,83 @@
+"""Tables: their ends, numbers beside arrays, derivatives, NaN."""
+
+from __future__ import annotations
+
+import math
+import random
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kovacic
+
+SINE = {"x0": 0, "y0": 0, "dy0": 1}
+
+
+@pytest.mark.parametrize("ends", [("0.3", "1.1"), ("1/3", "10/3"), (0.3, 1.1), ("2/7", 5)])
+def test_an_end_is_its_nearest_double(ends: tuple[Any, Any]) -> None:
+    table = kovacic.tabulate("-1", *ends, **SINE)
+    low, high = (float(eval(end)) if isinstance(end, str) else float(end) for end in ends)
+    assert table.interval == (low, high)
+    assert table(low) == pytest.approx(math.sin(low), rel=1e-15)
+    assert table(np.array([low, high])) == pytest.approx(np.sin([low, high]), rel=1e-15)
+    with pytest.raises(kovacic.InputError, match="outside of the interval"):
+        table(math.nextafter(low, -math.inf))
+
+
+def test_a_singular_end_stays_outside() -> None:
+    """x^(1/3) (3 + ...) beside 1/3: no double below it has a value."""
+    f = kovacic.solve("-1/(4*(x - 1/3)^2)").lambdify(interval=("1/3", 2))
+    low = f.region.low.real
+    assert low > 1 / 3 or low == 1 / 3
+    assert math.isfinite(f(math.nextafter(low, 1)))
+
+
+@pytest.mark.parametrize("careful", [True, False])
+@pytest.mark.parametrize(
+    ("equation", "interval"),
+    [("-1", (0, 100)), ("x", (-20, 300)), ("y'' + (2 + cos(x))*y = 0", (-3, 9)), ("I*x + 1", None)],
+)
+def test_a_number_has_the_value_that_it_has_in_an_array(equation: str, interval: Any, careful: bool) -> None:
+    if interval is None:  # a complex solution of a real equation
+        table = kovacic.tabulate("-x", 0, 9, x0=0, y0="1 + I", dy0="-I/3", careful=careful)
+        interval = (0, 9)
+    else:
+        table = kovacic.tabulate(equation, *interval, **SINE, careful=careful)
+    rng = random.Random(0)
+    points = [rng.uniform(*interval) for _ in range(200)]
+    together = table(np.array(points))
+    alone = [table(point) for point in points]
+    with np.errstate(all="ignore"):
+        size = np.spacing(np.abs(together))
+        same = (np.abs(alone - together) <= 4 * size) | (np.array(alone) == together)
+        assert (same | (size > 2.0**960)).all() if not careful else same.all()
+
+
+def test_derivatives_are_those_of_evaluate() -> None:
+    start = {"x0": 0, "y0": 1, "dy0": "-1/2"}
+    equation = "y'' + tan(x/9)*y' + x*y = cos(x)"
+    slope = kovacic.tabulate(equation, -3, 8, **start).derivative
+    points = [-2.9, -1.0, 0.0, 0.7, 3.3, 7.9]
+    balls = kovacic.evaluate(equation, points, derivative=True, **start)
+    assert slope(np.array(points)) == pytest.approx([float(dy) for _, dy in balls], rel=1e-14)
+    assert slope.derivative(0.7) == pytest.approx(
+        math.cos(0.7) - math.tan(0.7 / 9) * float(balls[3][1]) - 0.7 * float(balls[3][0]), rel=1e-12
+    )
+    growing = kovacic.tabulate("x", 0, 300, x0=0, y0=1, dy0=1).derivative
+    assert growing(60.0) == pytest.approx(
+        float(kovacic.evaluate("x", 60, x0=0, y0=1, dy0=1, derivative=True)[1]), rel=1e-14
+    )
+
+
+@pytest.mark.parametrize("make", ["table", "product"])
+def test_nan_stays_nan(make: str) -> None:
+    f: Any = kovacic.tabulate("-1", 0, 3, **SINE)
+    if make == "product":
+        f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 3))
+    assert math.isnan(f(math.nan))
+    found = f(np.array([[1.0, math.nan], [2.0, 3.0]]))
+    assert np.isnan(found).tolist() == [[False, True], [False, False]]
+    assert np.isnan(f(np.array([math.nan, math.nan]))).all()
+    with pytest.raises(kovacic.InputError):
+        f(np.array([math.nan, 4.0]))
