@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import pickle
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -331,3 +332,28 @@ def test_powers_with_a_letter_in_the_exponent_are_refused(text: str) -> None:
 def test_euler_s_number_is_a_value_of_a_parameter() -> None:
     (notice,) = [n for n in kovacic.solve("x^2 + e").notices if "Euler" in n]
     assert "one of its generic values" in notice
+
+
+@pytest.mark.parametrize(
+    ("text", "linear"),
+    [
+        ("y''/y = x^2 + 3", "y'' = (x^2 + 3)*y"),
+        ("y''/y' + x*y/y' = 2/x", "x*y'' - 2*y' + x^2*y = 0"),
+        ("(y'' + y)/(y' - x) = x", "y'' - x*y' + y = -x^2"),
+        ("1/y'' = x/(y + 1)", "x*y'' - y = 1"),
+    ],
+)
+def test_quotients_are_multiplied_out(text: str, linear: str) -> None:
+    x, y = sympy.Symbol("x"), sympy.Function("y")
+    values = {"y''": "Derivative(y(x), (x, 2))", "y'": "Derivative(y(x), x)"}
+    written = re.sub(r"y'*", lambda found: values.get(found[0], "y(x)"), text)
+    left, right = (sympy.sympify(side.replace("^", "**"), locals={"y": y}) for side in written.split("="))
+    for given in (text, sympy.Eq(left, right)):
+        answer, expected = kovacic.solve(given).equation, kovacic.solve(linear).equation
+        assert all(getattr(answer, k) / answer.a == getattr(expected, k) / expected.a for k in "bcf")
+
+
+@pytest.mark.parametrize("text", ["y''/y = y", "y''/y + y'/y^2 = 0", "y''/sin(y') = 1", "y'' + 1/y(x-1) = 0"])
+def test_what_stays_nonlinear_is_refused(text: str) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.solve(text)

@@ -21,10 +21,9 @@ from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import Limits
-from kovacic.reading.lexer import PRIMES
-from kovacic.reading.parser import Site
+from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
-from kovacic.reading.symbolic import SymbolicReader, function_of
+from kovacic.reading.symbolic import function_of
 
 Expr = Any  # SymPy publishes no types
 _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
@@ -60,7 +59,7 @@ class RiccatiEquation:
 def read_riccati(eq: Any, func: Any, var: str | None, limits: Limits) -> RiccatiEquation | None:
     """The equation, None where it isn't one of Riccati's.  Raises `InputError` for what can't be read."""
     if isinstance(eq, str):
-        eq = _expression_of(eq, var, limits)
+        eq = expression_of(source_of(eq, var, limits, equation=True), limits)
     if not isinstance(eq, sympy.Basic):
         return None
     whole = exact(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
@@ -85,38 +84,6 @@ def _in_powers(whole: Expr, function: Expr) -> RiccatiEquation | None:
     if terms or leading == 0 or r == 0:
         return None
     return RiccatiEquation(function, *(sympy.cancel(part / leading) for part in (p, q, r)))
-
-
-def _expression_of(text: str, var: str | None, limits: Limits) -> Expr:
-    source = source_of(text, var, limits, equation=True)
-    reader = _TextReader(source.variable, source.unknown, limits)
-    return reader.arithmetic.expression(source.walk(reader))
-
-
-class _TextReader(SymbolicReader):
-    """An equation as the SymPy expression that is zero; w is w(x)."""
-
-    def __init__(self, variable: str, unknown: str, limits: Limits) -> None:
-        super().__init__(None, "a Riccati equation", limits)
-        x = sympy.Symbol(variable)
-        self.unknown = unknown
-        self.function = sympy.Function(unknown)(x)
-
-    def name(self, name: str) -> Any:
-        return self.function if name == self.unknown else super().name(name)
-
-    def derivative(self, text: str) -> Any:
-        if text.rstrip(PRIMES) != self.unknown or len(text) != len(self.unknown) + 1:
-            return super().derivative(text)
-        return self.function.diff()
-
-    def equation(self, left: Any, right: Any) -> Any:
-        return self.arithmetic.sum([left, self.arithmetic.negate(right)])
-
-    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        if head.rstrip(PRIMES) != self.unknown or arguments != [self.function.args[0]]:
-            return super().call(head, arguments, site)
-        return self.function if head == self.unknown else self.derivative(head)
 
 
 # ------------------------------------------------------------------------------------------------------------ solving

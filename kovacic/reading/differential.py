@@ -165,8 +165,11 @@ class EquationReader(RationalReader):
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
         bare = head.rstrip(PRIMES)
         if bare == self.unknown:
-            if len(arguments) != 1 or not self._is_variable(arguments[0]):
+            if len(arguments) != 1:
                 raise NotLinear(f"{self.unknown} is a function of {self.variable} alone")
+            if not self._is_variable(arguments[0]):
+                beside = f"{site.text()} beside {self.unknown}({self.variable})"
+                raise NotLinear(f"{beside}: the argument is another one, as with delays")
             return _derivative_of_unknown(_order_of(head[len(bare) :]))
         if head in DERIVATIVES:
             return self._differentiated(arguments)

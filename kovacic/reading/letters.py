@@ -48,8 +48,8 @@ def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered 
 
     >>> x, a, b = sympy.symbols("x a b")
     >>> found = with_letters((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), 3, x)
-    >>> found.parts, found.meanings
-    ((sqrt_a + 1, sqrt_a**2*x, exp_2_b), {exp_2_b: exp(2*b), sqrt_a: sqrt(a)})
+    >>> found.parts, sorted(found.meanings.items(), key=str)
+    ((sqrt_a + 1, sqrt_a**2*x, exp_b**2), [(exp_b, exp(b)), (sqrt_a, sqrt(a))])
     """
     letters = _Letters(x, parts)
     found = tuple(parts)

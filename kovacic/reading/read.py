@@ -12,7 +12,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, PI, Equation, Parsed
-from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.exact import exact_real, exact_text, is_rational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.parser import shown
@@ -74,6 +74,11 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
     """
     try:
         return read_source(source, limits)
+    except NotLinear:
+        found = _multiplied_out(given, source, limits)
+        if found is None:
+            raise
+        return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
     except NotRational as error:
         if not source.unknown and error.excerpt == PI:
             with suppress(InputError):  # a constant of equations
@@ -95,6 +100,23 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
         if found is None:
             raise reason from None
         return found
+
+
+def _multiplied_out(given: Any, source: Source, limits: Limits) -> Any:
+    """An equation without the unknown function in denominators; None where that doesn't make it linear."""
+    from sympy import Equality, Function, Symbol
+
+    from kovacic.reading.quotients import expression_of, multiplied_out
+    from kovacic.reading.symbolic import functions_in
+
+    if isinstance(given, str):
+        try:
+            return multiplied_out(expression_of(source, limits), Function(source.unknown)(Symbol(source.variable)))
+        except InputError:
+            return None
+    expression = given.lhs - given.rhs if isinstance(given, Equality) else given
+    unknown = [f for f in functions_in(expression) if f.func.__name__ == source.unknown and f.args[0].is_Symbol]
+    return multiplied_out(expression, unknown[0]) if unknown else None
 
 
 def _with_note(parsed: Parsed) -> Parsed:

@@ -1,0 +1,74 @@
+"""Equations with the unknown function in denominators, y''/y = x: multiplied out.
+
+>>> from kovacic.reading.source import source_of
+>>> expression = expression_of(source_of("y''/y = x", None, equation=True), Limits())
+>>> multiplied_out(expression, sympy.Function("y")(sympy.Symbol("x")))
+-x*y(x) + Derivative(y(x), (x, 2))
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+from sympy.core.function import AppliedUndef
+
+from kovacic.limits import Limits
+from kovacic.reading.lexer import PRIMES
+from kovacic.reading.parser import Site
+from kovacic.reading.source import Source
+from kovacic.reading.symbolic import SymbolicReader
+
+Expr = Any  # SymPy publishes no types
+_HIGHEST = 2
+
+
+def multiplied_out(expression: Expr, function: Expr) -> Expr | None:
+    """What is zero where a quotient is, linear in y, y' and y''; None where there is no such.  y = 0 is left out."""
+    x = function.args[0]
+    values = {function.diff(x, k) if k else function: sympy.Dummy(f"y{k}") for k in range(_HIGHEST, -1, -1)}
+    plain = expression.xreplace(values)
+    if plain.has(sympy.Derivative) or any(f.func == function.func for f in plain.atoms(AppliedUndef)):
+        return None
+    numerator, denominator = sympy.fraction(sympy.together(plain))
+    unknown = [*values.values()]
+    if not denominator.has(*unknown) or not numerator.is_polynomial(*unknown):
+        return None
+    polynomial = sympy.Poly(numerator, *unknown)
+    if polynomial.total_degree() != 1:
+        return None
+    found = polynomial.as_expr().xreplace({dummy: value for value, dummy in values.items()})
+    return sympy.expand(found)
+
+
+def expression_of(source: Source, limits: Limits) -> Expr:
+    """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
+    reader = _TextReader(source.variable, source.unknown, limits)
+    return reader.arithmetic.expression(source.walk(reader))
+
+
+class _TextReader(SymbolicReader):
+    """What a text means; the unknown function y is y(x)."""
+
+    def __init__(self, variable: str, unknown: str, limits: Limits) -> None:
+        super().__init__(None, "the equation", limits)
+        self.unknown = unknown
+        self.x = sympy.Symbol(variable)
+        self.function = sympy.Function(unknown)(self.x)
+
+    def name(self, name: str) -> Any:
+        return self.function if name == self.unknown else super().name(name)
+
+    def derivative(self, text: str) -> Any:
+        order = len(text) - len(self.unknown)
+        if text.rstrip(PRIMES) != self.unknown or order > _HIGHEST:
+            return super().derivative(text)
+        return self.function.diff(self.x, order)
+
+    def equation(self, left: Any, right: Any) -> Any:
+        return self.arithmetic.sum([left, self.arithmetic.negate(right)])
+
+    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
+        if head.rstrip(PRIMES) != self.unknown or arguments != [self.x]:
+            return super().call(head, arguments, site)
+        return self.function if head == self.unknown else self.derivative(head)
