@@ -344,12 +344,12 @@ def test_euler_s_number_is_a_value_of_a_parameter() -> None:
     ],
 )
 def test_quotients_are_multiplied_out(text: str, linear: str) -> None:
-    x, y = sympy.Symbol("x"), sympy.Function("y")
+    y = sympy.Function("y")
     values = {"y''": "Derivative(y(x), (x, 2))", "y'": "Derivative(y(x), x)"}
     written = re.sub(r"y'*", lambda found: values.get(found[0], "y(x)"), text)
     left, right = (sympy.sympify(side.replace("^", "**"), locals={"y": y}) for side in written.split("="))
-    for given in (text, sympy.Eq(left, right)):
-        answer, expected = kovacic.solve(given).equation, kovacic.solve(linear).equation
+    for form in (text, sympy.Eq(left, right)):
+        answer, expected = kovacic.solve(form).equation, kovacic.solve(linear).equation
         assert all(getattr(answer, k) / answer.a == getattr(expected, k) / expected.a for k in "bcf")
 
 

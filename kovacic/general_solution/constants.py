@@ -181,12 +181,22 @@ def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Ca
 
 def condition_of(zero: Expr) -> str:
     """`zero = 0` in a short form: without factors that aren't zero."""
+    left = _vanishing(zero)
+    return f"{-left if left.could_extract_minus_sign() else left} = 0"
+
+
+def can_be(case: Case) -> bool:
+    """Are there factors that may be zero in all that is zero in a case?"""
+    return all(_vanishing(zero) != 1 for zero in case.zeros)
+
+
+def _vanishing(zero: Expr) -> Expr:
+    """The factors that may be zero, each once."""
     whole = sympy.numer(sympy.together(zero))
     waves = sympy.expand(TR8(sympy.expand(whole)))
     factored = min((sympy.factor(form) for form in (whole, waves)), key=size)
     factors = [factor for factor in sympy.Mul.make_args(factored) if not is_nowhere_zero(factor)]
-    left = sympy.Mul(*(factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors))
-    return f"{-left if left.could_extract_minus_sign() else left} = 0"
+    return sympy.Mul(*(factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors))
 
 
 def tidy(value: Any) -> Any:

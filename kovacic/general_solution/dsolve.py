@@ -24,7 +24,7 @@ from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
-from kovacic.general_solution.constants import Case, Outcome, condition_of
+from kovacic.general_solution.constants import Case, Outcome, can_be, condition_of
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
@@ -241,7 +241,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     particular = real_particular_at(question, basis, particular_solution(basis, start, budget), start)
     names = free_constants(question, basis, particular)
     generic, others = constants_of(question, basis, particular, names, limits)
-    exceptions = [_said(question, basis, particular, case) for case in others]
+    exceptions = [_said(question, basis, particular, case) for case in others if can_be(case)]
     if generic.outcome is Outcome.NONE:
         unless = f", unless {'; or '.join(exceptions)}" if exceptions else ""
         singular = " and ".join(str(point) for point, place in limits.items() if not place.is_infinite)

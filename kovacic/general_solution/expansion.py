@@ -34,7 +34,7 @@ class UnknownBehaviour(Exception):
 
 def sign_of(value: Expr) -> int:
     """The sign of the real part.  Raises `UnknownBehaviour` where the assumptions don't tell."""
-    value = sympy.expand(value)
+    value = sympy.expand(_one_form(value))
     if value.is_real is False or value.has(sympy.I):
         value = sympy.re(value)
     for is_so, sign in ((value.is_zero, 0), (value.is_positive, 1), (value.is_negative, -1)):
@@ -50,6 +50,11 @@ class Monomial:
     growth: tuple[tuple[Expr, Expr], ...] = ()
     e: Expr = _ZERO
     k: int = 0
+
+    def __post_init__(self) -> None:
+        """Exponents that are the same have one form."""
+        object.__setattr__(self, "e", _one_form(self.e))
+        object.__setattr__(self, "growth", tuple((_one_form(p), a) for p, a in self.growth))
 
     def __str__(self) -> str:
         """In t > 0."""
@@ -100,10 +105,17 @@ class Monomial:
             return False
 
 
+def _one_form(exponent: Expr) -> Expr:
+    """With one denominator, where symbols are in denominators."""
+    powers = exponent.atoms(sympy.Pow)
+    return sympy.cancel(exponent) if any(p.exp.is_negative and p.base.free_symbols for p in powers) else exponent
+
+
 def _added(first: Iterable[tuple[Expr, Expr]], second: Iterable[tuple[Expr, Expr]]) -> tuple[tuple[Expr, Expr], ...]:
     total: dict[Expr, Expr] = {}
     for p, a in (*first, *second):
-        total[p] = sympy.expand(total.get(p, _ZERO) + a)
+        power = _one_form(p)
+        total[power] = sympy.expand(total.get(power, _ZERO) + a)
     return tuple((p, total[p]) for p in sorted(total, reverse=True) if total[p] != 0)
 
 

@@ -20,7 +20,7 @@ from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import solution_in_x
+from kovacic.reading.change_of_variable import is_power, solution_in_x
 from kovacic.solution import Solution, solve
 from kovacic.special.mathieu import mathieu
 from kovacic.special.search import special_functions
@@ -47,6 +47,9 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         pair = _in_special_functions(question, solution, budget, special=special)
     else:
         pair = _liouvillian(question, solution, budget)
+    if is_power(question.equation):  # whose exponent has plain symbols
+        plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
+        pair = pair[0].xreplace(plain), pair[1].xreplace(plain)
     y1, y2 = (solution_in_x(question.equation, y).xreplace(NUMBERS) for y in pair)
     return Basis(y1, y2, question.x, question.equation), solution
 

@@ -23,7 +23,7 @@ from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.general_solution.zero import is_zero
-from kovacic.reading.change_of_variable import function_of_x, user_variable
+from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
@@ -72,7 +72,7 @@ def is_singular(question: Question, point: Expr) -> bool:
     """Is a finite point a pole of b/a, c/a or f/a, or one where the rest of the right-hand side has no value?"""
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
-    at = function_of_x(equation).subs(user_variable(equation), point)
+    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
     for part in (equation.b, equation.c, equation.f):
         den = (part / equation.a).den
         if den.degree > 0:
@@ -159,7 +159,7 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
         return
     first, last = sympy.Min(*points), sympy.Max(*points)
     for pole in [*_rational_poles(question), *_changed_poles(question, first, last)]:
-        if first < pole < last:
+        if pole.is_number and first < pole < last:
             raise _apart(pole, points)
 
 
@@ -187,6 +187,11 @@ def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr
     equation = question.equation
     if equation.change is None:
         return
+    if is_power(equation):
+        yield from _poles_of_a_power(question)
+        return
+    if not is_of_a_line(equation):
+        raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
     t = sympy.Symbol(equation.variable)
     value = function_of_x(equation)
     rates = _rates_in_x(question, value)
@@ -197,6 +202,18 @@ def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr
         for x0 in _preimages(value, root, question.x, first, last):
             if not _is_analytic(rates, question.x, x0):
                 yield x0
+
+
+def _poles_of_a_power(question: Question) -> Iterator[Expr]:
+    """Singular points for t = x^k: 0, and the positive ones."""
+    equation = question.equation
+    t = sympy.Symbol(equation.variable)
+    yield sympy.Integer(0)
+    for part in (equation.b, equation.c):
+        den = question.own(Atoms(t).poly((part / equation.a).den))
+        for root in sympy.roots(den, t):
+            if root != 0 and root.is_positive is not False:
+                yield root ** (1 / function_of_x(equation).exp)
 
 
 def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
@@ -238,9 +255,9 @@ def real_basis_at(question: Question, basis: Basis, solution: Solution, start: E
     Raises `InputError` where the points of the conditions lie on two sides of a singular point.
     """
     check_between(question, (basis.y1, basis.y2))
-    if question.equation.change is not None:
-        return basis
     x = question.x
+    if question.equation.change is not None:
+        return replace(basis, y1=starting_at(basis.y1, x, start), y2=starting_at(basis.y2, x, start))
     _check_one_side((basis.y1, basis.y2), question)
     y1, y2 = real_basis(solution, basis.y1, basis.y2, x, start)
     return replace(basis, y1=starting_at(y1, x, start), y2=starting_at(y2, x, start))

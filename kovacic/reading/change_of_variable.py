@@ -39,6 +39,19 @@ def user_variable(equation: Equation) -> Any:
     return sympy.Symbol(equation.variable if equation.change is None else equation.change.variable)
 
 
+def is_of_a_line(equation: Equation) -> bool:
+    """Is t a function of k x + c, not a power, nor a function of one?"""
+    t = function_of_x(equation)
+    x = user_variable(equation)
+    return t == x or (t.func in _SQUARES and not t.args[0].diff(x).has(x))
+
+
+def is_power(equation: Equation) -> bool:
+    """Is t = x^k?"""
+    t = function_of_x(equation)
+    return bool(t.is_Pow and t.func not in _SQUARES)
+
+
 def slope_squared(equation: Equation) -> Any:
     """(dt/dx)^2, a SymPy expression in t."""
     if equation.change is None:
@@ -53,6 +66,9 @@ def without_change(given: Any) -> Any:
 
     Raises `NotRational` for a right-hand side that isn't rational in t.
     """
+    if not is_of_a_line(given.equation):
+        t = function_of_x(given.equation)
+        raise NotRational(f"numbers where the variable is {t} aren't known", hint="dsolve has formulas")
     if given.equation.h is not None:
         said = f"a right-hand side that isn't rational in {given.equation.change.expression}, as the coefficients are"
         raise NotRational(said, hint="dsolve takes any right-hand side")
@@ -74,6 +90,8 @@ def in_x(equation: Equation, expression: Any) -> Any:
     if t.func in (sympy.cos, sympy.cosh):  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
         roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
         return result.xreplace({e: _by_halves(t, e) for e in roots})
+    if is_power(equation):
+        return _with_powers(expression.xreplace(integrals), own, t.exp, x)
     return _with_joined_powers(result, x) if t.func is sympy.exp else result
 
 
@@ -86,6 +104,23 @@ def solution_in_x(equation: Equation, y: Any) -> Any:
         return result
     number, rest = result.as_independent(*result.free_symbols, as_Add=False)
     return rest if number.is_number else result
+
+
+def _with_powers(expression: Any, own: Any, k: Any, x: Any) -> Any:
+    """With x^k for a variable, by exp(k s) with s = log(x)."""
+    s = sympy.Dummy("s")
+    joined = _with_joined_powers(expression.xreplace({own: sympy.exp(k * s)}), s)
+    rates = {e: sympy.cancel(sympy.expand(e.exp) / s) for e in joined.atoms(sympy.exp)}
+    powers = {e: x**rate for e, rate in rates.items() if not rate.has(s)}
+    found = joined.xreplace(powers).xreplace({s: sympy.log(x)})
+    shorter = {p: x ** sympy.expand(sympy.cancel(p.exp)) for p in found.atoms(sympy.Pow) if p.base == x}
+    # Either sign of a root of a square gives solutions, if it is the same everywhere.
+    roots = {p for p in found.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and not p.has(x)}
+    forced = {
+        p: sympy.powdenest(sympy.expand_power_base(sympy.factor(p.base) ** p.exp, force=True), force=True)
+        for p in roots
+    }
+    return found.xreplace(shorter).xreplace(forced)
 
 
 def _with_joined_powers(expression: Any, x: Any) -> Any:

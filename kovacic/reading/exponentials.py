@@ -53,9 +53,9 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
         return None
     T = sympy.Dummy("T")
     try:
-        k, offset, powers = _powers(set().union(*exponentials), x, T)
+        k, offset, powers = common_power(set().union(*exponentials), x, T)
     except NotRational:
-        k, offset, powers = _powers(set().union(*exponentials[:3]), x, T)
+        k, offset, powers = common_power(set().union(*exponentials[:3]), x, T)
     a, b, c = (part.xreplace(powers) for part in rewritten[:3])
     if any(part.has(x) for part in (a, b, c)):
         raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
@@ -97,7 +97,7 @@ def _in_exponentials(expression: Any, x: Any) -> Any:
     return expression.replace(is_such, lambda e: e.rewrite(sympy.exp, deep=False))
 
 
-def _powers(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict[Any, Any]]:
+def common_power(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict[Any, Any]]:
     """k and c, and each exponential as a power of T = exp(k (x + c)), times a number; c leaves as few exp(n) as can be."""
     rates: dict[Any, tuple[Any, Any]] = {}
     for e in sorted(exponentials, key=str):

@@ -86,6 +86,7 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
         if not exponentials:
             raise
         from kovacic.reading.exponentials import in_exponentials
+        from kovacic.reading.powers import in_powers
 
         if not isinstance(given, str) and (found := _divided(given, source, limits)) is not None:
             return found
@@ -96,7 +97,7 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
             if other.position is None:  # what isn't rational is the same
                 other.text, other.position, other.length = error.text, error.position, error.length
             reason, found = other, None
-        found = found or _in_letters(source, limits)
+        found = found or in_powers(source, limits) or _in_letters(source, limits)
         if found is None:
             raise reason from None
         return found
@@ -155,6 +156,7 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
     from kovacic.reading.exponentials import in_exponentials
     from kovacic.reading.letters import with_letters
     from kovacic.reading.parts import parts_of, source_of_parts
+    from kovacic.reading.powers import in_powers
 
     parts, notices = parts_of(source, limits)
     lettered = with_letters(parts, 3, Symbol(source.variable))
@@ -167,6 +169,7 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
     if found is None:
         with suppress(NotRational):
             found = in_exponentials(written, limits)
+    found = found or in_powers(written, limits)
     if found is None:
         return None
     said = [f"{letter} is {meaning}" for letter, meaning in lettered.meanings.items()]
