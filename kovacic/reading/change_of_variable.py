@@ -43,13 +43,13 @@ def is_of_a_line(equation: Equation) -> bool:
     """Is t a function of k x + c, not a power, nor a function of one?"""
     t = function_of_x(equation)
     x = user_variable(equation)
-    return t == x or (t.func in _SQUARES and not t.args[0].diff(x).has(x))
+    return t == x or (t.func in SQUARES and not t.args[0].diff(x).has(x))
 
 
 def is_power(equation: Equation) -> bool:
     """Is t = x^k?"""
     t = function_of_x(equation)
-    return bool(t.is_Pow and t.func not in _SQUARES)
+    return bool(t.is_Pow and t.func not in SQUARES)
 
 
 def slope_squared(equation: Equation) -> Any:
