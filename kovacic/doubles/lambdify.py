@@ -303,16 +303,27 @@ def measure(
     if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     with working_precision(_PREC):
-        pairs = list(zip(found, reference, strict=True))
-        quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < _size(v) < math.inf and not y.contains(0)]
-        if not quotients:
-            return Measured(math.inf, math.inf, 0)
-        by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
-        quotients.sort(key=lambda q: q.real if by_real else q.imag)
-        factor = acb(1) if start else quotients[len(quotients) // 2]
-        errors = [None if y.contains(0) else _units(v, (y * factor).mid()) for v, y in pairs]
-    typical, counted = ([e for e in some if e is not None] for some in (errors[: len(errors) - extra.size], errors))
+        errors = _errors(found, reference, normed=bool(start))
+    typical = [e for e in errors[: len(errors) - extra.size] if e is not None]
+    counted = [e for e in errors if e is not None]
     return Measured(float(np.median(typical or [math.inf])), max(counted, default=math.inf), len(counted))
+
+
+def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list[float | None]:
+    """In units in the last place, None where the solution may be 0; unless `normed`, up to the factor that fits the most."""
+    pairs = list(zip(found, reference, strict=True))
+    quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < _size(v) < math.inf and not y.contains(0)]
+    if not quotients:
+        return []
+    factor = acb(1) if normed else _median(quotients)
+    return [None if y.contains(0) else _units(v, (y * factor).mid()) for v, y in pairs]
+
+
+def _median(quotients: list[acb]) -> acb:
+    """By the real or the imaginary parts, whichever is the larger of the first one."""
+    by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
+    ordered = sorted(quotients, key=lambda q: q.real if by_real else q.imag)
+    return ordered[len(ordered) // 2]
 
 
 def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:

@@ -392,26 +392,37 @@ def _pieces(
     `refused` says of arrays of centres and scales, at once, where that is known beforehand.
     """
     low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
-    open_, waiting, done = [_root(region)], list[Cell](), list[tuple[Cell, Any]]()
-    while open_ or waiting:
-        if len(open_) + len(waiting) + len(done) > _MAX_PIECES:
+    untried = [_root(region)]
+    promising: list[Cell] = []
+    done: list[tuple[Cell, Any]] = []
+    while untried or promising:
+        if len(untried) + len(promising) + len(done) > _MAX_PIECES:
             raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
         check_time()
-        if open_:
-            no = refused(np.array([float(c) for c, _ in open_]), np.array([math.ldexp(1.0, e) for _, e in open_]))
-            no = [out or not low <= c <= high for out, (c, _) in zip(no, open_, strict=True)]  # values are inside only
-            waiting += [cell for cell, out in zip(open_, no, strict=True) if not out]
+        if untried:
+            no = refused(np.array([float(c) for c, _ in untried]), np.array([math.ldexp(1.0, e) for _, e in untried]))
+            no = [
+                out or not low <= c <= high for out, (c, _) in zip(no, untried, strict=True)
+            ]  # values are inside only
+            promising += [cell for cell, out in zip(untried, no, strict=True) if not out]
+            too_large = [cell for cell, out in zip(untried, no, strict=True) if out]
         else:
-            open_, waiting, found = waiting, [], expand(waiting)
-            no = [item is None for item in found]
-            done += [(cell, item) for cell, item in zip(open_, found, strict=True) if item is not None]
-        halved = [(c, power_of_two(e - 1), e - 1) for (c, e), out in zip(open_, no, strict=True) if out]
-        if any(e < _SMALLEST for _, _, e in halved):
-            raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
-        both = ((c + sign * half, half, e) for c, half, e in halved for sign in (-1, 1))
-        open_ = [(c, e) for c, half, e in both if c + half > low and c - half < high]
+            found = expand(promising)
+            done += [(cell, item) for cell, item in zip(promising, found, strict=True) if item is not None]
+            too_large = [cell for cell, item in zip(promising, found, strict=True) if item is None]
+            promising = []
+        untried = [half for cell in too_large for half in _halves(cell, low, high)]
     done.sort(key=lambda item: item[0])
     return [cell for cell, _ in done], [item for _, item in done]
+
+
+def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
+    """Those that meet the interval.  Raises `LimitExceeded` where they are too small."""
+    c, e = cell[0], cell[1] - 1
+    if e < _SMALLEST:
+        raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
+    half = power_of_two(e)
+    return [(m, e) for m in (c - half, c + half) if m + half > low and m - half < high]
 
 
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:

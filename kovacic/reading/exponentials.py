@@ -15,7 +15,10 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
 from math import gcd
 from typing import Any
 
@@ -25,6 +28,7 @@ from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotRational
@@ -130,48 +134,89 @@ def common_power(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict
 Monic = tuple[RatFunc, RatFunc, RatFunc]
 
 
+@dataclass(frozen=True)
+class _ThetaForm:
+    """theta^2 Y + P theta Y + Q Y = F with theta = T d/dT."""
+
+    P: RatFunc
+    Q: RatFunc
+    F: RatFunc
+
+    @property
+    def step(self) -> int:
+        """The largest g for which everything depends on T^g."""
+        polys = [poly for part in (self.P, self.Q, self.F) for poly in (part.num, part.den)]
+        return gcd(*(i for poly in polys for i, c in enumerate(poly) if c)) or 1
+
+    def in_power(self, g: int) -> _ThetaForm:
+        """The equation in T^g."""
+        P, Q, F = (_deflated(part, g) for part in (self.P, self.Q, self.F))
+        return _ThetaForm(P / g, Q / g**2, F / g**2)
+
+    @property
+    def monic(self) -> Monic:
+        """With derivatives by T."""
+        T = RatFunc(self.P.field.poly([0, 1]))
+        return (self.P + 1) / T, self.Q / T**2, self.F / T**2
+
+
 def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
     """Y'' + p Y' + q Y = f in the variable that has real coefficients if one has, and then the fewest singular points."""
     kappa = sympy.expand(-sympy.I * k)
     trigonometric = not kappa.has(sympy.I)
     rate = kappa if trigonometric else k
-    field, i = equation.a.field, None
-    if trigonometric:
-        i = field.sqrt(field.poly([-1]))
-        if i is None and not isinstance(field, AlgebraicField):
-            field = AlgebraicField(field, field.poly([1, 0, 1]), "I")
-            i = field.generator
+    field, i = _with_i(equation.a.field) if trigonometric else (equation.a.field, None)
     T = RatFunc(field.poly([0, 1]))
     p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
-    # With theta = T d/dT: theta^2 Y + P theta Y + Q Y = F.
-    theta = p * T - 1, q * T * T, f * T * T
-    g = gcd(*(i for part in theta for poly in (part.num, part.den) for i, c in enumerate(poly) if c)) or 1
-    found: list[tuple[Monic, Any]] = []
+    form = _ThetaForm(p * T - 1, q * T * T, f * T * T)
+    g = form.step
+    exponential = form.in_power(g).monic
+    found = [(exponential, sympy.exp(sympy.expand(g * k * x)))]
     for h in (g, g // 2) if g % 2 == 0 else (g,):
-        P, Q, F = (_deflated(part, h) / scale for part, scale in zip(theta, (h, h * h, h * h), strict=True))
-        if h == g:
-            found.append((((P + 1) / T, Q / T**2, F / T**2), sympy.exp(sympy.expand(g * k * x))))
-        for sign, name in ((1, "cos"), (-1, "sin")):
-            quotient = _quotient(P, Q, F, sign)
-            if quotient is not None and trigonometric and sign == -1:  # (T - 1/T)/2 = i sin
-                quotient = None if i is None else _substituted(quotient, T * i)
-            if quotient is None:
-                continue
-            function = getattr(sympy, name if trigonometric else f"{name}h")
-            found.append((quotient, function(sympy.expand(h * rate * x))))
+        angle = sympy.expand(h * rate * x)
+        waves = _in_trigonometric(form.in_power(h), i) if trigonometric else _in_hyperbolic(form.in_power(h))
+        found += [(monic, function(angle)) for monic, function in waves]
     if i is not None:
-        found.append((_substituted(found[0][0], (1 + T * i) / (1 - T * i)), sympy.tan(sympy.expand(g * rate * x / 2))))
+        tangent = _substituted(exponential, (1 + T * i) / (1 - T * i))
+        found.append((tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
     below = [(_over_base(*monic), expression) for monic, expression in found]
-
-    def cost(pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
-        """Three singular points are those of Gauss' equation, which is real in cos(x) and sin(x)."""
-        monic, expression = pair
-        places = _singular_points(*monic)
-        is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] == sympy.expand(rate * x)
-        return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
-
-    best, variable = min(below, key=cost)
+    best, variable = min(below, key=partial(_preference, sympy.expand(rate * x)))
     return best, as_text(variable)
+
+
+def _with_i(field: Field) -> tuple[Field, Poly | None]:
+    """The field with the imaginary unit, and that; None for it in an algebraic field without one, which isn't extended."""
+    i = field.sqrt(field.poly([-1]))
+    if i is not None or isinstance(field, AlgebraicField):
+        return field, i
+    extended = AlgebraicField(field, field.poly([1, 0, 1]), "I")
+    return extended, extended.generator
+
+
+def _in_trigonometric(form: _ThetaForm, i: Poly | None) -> Iterator[tuple[Monic, Any]]:
+    """In the cosine and in the sine, (T - 1/T)/2 = i sin, where the equation is one in these."""
+    cosine = _quotient(form, 1)
+    if cosine is not None:
+        yield cosine, sympy.cos
+    sine = _quotient(form, -1)
+    if sine is not None and i is not None:
+        yield _substituted(sine, RatFunc(form.P.field.poly([0, 1])) * i), sympy.sin
+
+
+def _in_hyperbolic(form: _ThetaForm) -> Iterator[tuple[Monic, Any]]:
+    """In the hyperbolic cosine and sine, where the equation is one in these."""
+    for sign, function in ((1, sympy.cosh), (-1, sympy.sinh)):
+        quotient = _quotient(form, sign)
+        if quotient is not None:
+            yield quotient, function
+
+
+def _preference(angle: Any, pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
+    """Rational coefficients, few singular points; three of these are Gauss' equation, which is real in cos(x) and sin(x)."""
+    monic, expression = pair
+    places = _singular_points(*monic)
+    is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] == angle
+    return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
 
 
 def _substituted(equation: Monic, M: RatFunc) -> Monic:
@@ -181,10 +226,10 @@ def _substituted(equation: Monic, M: RatFunc) -> Monic:
     return p * slope - slope.derivative() / slope, q * slope**2, f * slope**2
 
 
-def _quotient(P: RatFunc, Q: RatFunc, F: RatFunc, sign: int) -> Monic | None:
+def _quotient(form: _ThetaForm, sign: int) -> Monic | None:
     """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
-    T = RatFunc(P.field.poly([0, 1]))
-    parts = [_invariant(part, sign) for part in (P * (T * T - sign) / (2 * T), Q, F)]
+    T = RatFunc(form.P.field.poly([0, 1]))
+    parts = [_invariant(part, sign) for part in (form.P * (T * T - sign) / (2 * T), form.Q, form.F)]
     if None in parts:
         return None
     first, second, third = (part for part in parts if part is not None)
