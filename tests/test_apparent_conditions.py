@@ -88,3 +88,27 @@ def test_lame_with_integer_n_is_solvable_for_every_B(curve: str) -> None:
             expected = kovacic.decide(S.subs({n: number, B: accessory}), var="x").case
             assert answer.case_at({"n": number, "B": accessory}) == expected
             assert expected in (1, 2)
+
+
+@pytest.mark.parametrize("name", ["w^2", "-w^2", "w^3", "4*w^2*v^2"])
+def test_a_parameter_in_powers_is_as_good_as_its_power(name: str) -> None:
+    """Regge & Wheeler's equation is decided completely in W = w^2, and so it is in w."""
+    S = f"({name} + (x-1)*(l*(l+1)*x-3)/x^4)*x^2/(x-1)^2 - (4*x-3)/(4*x^2*(x-1)^2)"
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    assert answer.check(30)
+    assert not any(str(region.statement).startswith(("w^2 = 0", "w^3 = 0")) for region in answer.regions)
+    if name == "-w^2":
+        assert str(answer.regions[0].statement) == "w = 0, and l in Z"
+        assert answer.case_at({"w": "I/2", "l": "(-1 + sqrt(13))/2"}) == 1  # l^2 + l = 3
+        assert answer.case_at({"w": "I/2", "l": 1}) is None
+        for l in (2, 3):  # noqa: E741
+            special = sympy.I * (l - 1) * l * (l + 1) * (l + 2) / 6
+            assert answer.case_at({"w": special, "l": l}) == 1
+            region = answer.region_at({"w": special, "l": l})
+            assert region is not None
+            (solution, *_) = region.solution()
+            y = solution.y.subs({"w": special, "l": l})
+            right = sympy.sympify(S.replace("^", "**")).subs({"w": special, "l": l})
+            value = (y.diff(x, 2) - right * y).subs(x, sympy.Rational(17, 7)).evalf(30)
+            assert abs(value) < sympy.Float("1e-18") * abs(y.subs(x, sympy.Rational(17, 7)).evalf(30))

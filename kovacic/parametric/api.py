@@ -22,6 +22,7 @@ from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Partition, Settings, partition, together
+from kovacic.parametric.powers import in_powers
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import Given
@@ -62,8 +63,11 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
     budget = Budget(bounded)
+    settings = Settings(budget, parsed.variable, only_theorems=max_degree is None)
     with budget.watched():
-        found = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
+        found = partition(lifted, settings)
+        if found.complete is not True:
+            found = _in_powers(lifted, settings) or found
     field = lifted.field.ground
     assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, field, constant, parsed.variable, budget)
@@ -83,6 +87,17 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         constant,
         parsed.equation,
     )
+
+
+def _in_powers(S: RatFunc, settings: Settings) -> Partition | None:
+    """The partition by powers of the parameters, where it is complete."""
+    powers = in_powers(S)
+    if powers is None:
+        return None
+    found = partition(powers.S, settings)
+    if found.complete is not True:
+        return None
+    return replace(found, regions=tuple(powers.back(region) for region in found.regions))
 
 
 def _distinct(

@@ -1,0 +1,109 @@
+"""A parameter t that occurs in S in powers of t^k only: conditions for T = t^k, and what they say of t.
+
+On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated; on 4 W + 1 = 0 one is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import gcd
+from typing import Any
+
+import sympy
+
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.integers import Congruence, integer_roots
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import ParameterRegion
+from kovacic.parametric.solutions import Origin, PolynomialSolution
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
+from kovacic.writing.formula import caret
+
+
+@dataclass(frozen=True)
+class InPowers:
+    """S with T for t^k, T by the name of t, and the k of each parameter."""
+
+    S: RatFunc
+    powers: tuple[int, ...]
+
+    def back(self, region: ParameterRegion) -> ParameterRegion:
+        """What a region of T says of t."""
+        field = self.S.field
+        assert isinstance(field, FunctionField)
+        names = dict(zip(field.names, self.powers, strict=True))
+        origin = None if region.origin is None else _Powers(region.origin, tuple(names.items()))
+        statement = _in_factors(region.statement.rewritten(_raised(names)))
+        return replace(region, statement=statement, origin=origin)
+
+
+@dataclass(frozen=True)
+class _Powers:
+    """Solutions with t^k for T."""
+
+    origin: Origin
+    powers: tuple[tuple[str, int], ...]
+
+    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        return tuple(self._of(solution) for solution in self.origin(number))
+
+    def _of(self, solution: PolynomialSolution) -> PolynomialSolution:
+        values = {sympy.Symbol(name): sympy.Symbol(name) ** k for name, k in self.powers}
+
+        def raised(expression: Any) -> Any:
+            return expression.xreplace(values)
+
+        conditions = tuple(map(raised, solution.conditions))
+        where = ", ".join(f"{caret(str(sympy.factor(condition)))} = 0" for condition in conditions)
+        is_said = bool(solution.where) and not conditions
+        return PolynomialSolution(
+            raised(solution.y), raised(solution.degree), conditions, solution.where if is_said else where
+        )
+
+
+def in_powers(S: RatFunc) -> InPowers | None:
+    """None where each parameter occurs in powers without a common divisor."""
+    field = S.field
+    assert isinstance(field, FunctionField)
+    parts = [over_parameters(part) for part in S.cleared()]
+    powers = [gcd(*(k for part in parts for k in powers_of(part, i))) or 1 for i in range(len(field.names))]
+    if max(powers) == 1:
+        return None
+    context = field.context
+    lowered = []
+    for part in parts:
+        terms = {
+            (e[0], *(n // k for n, k in zip(e[1:], powers, strict=True))): c for e, c in part.num.to_dict().items()
+        }
+        lowered.append(FunctionPoly(field, context.from_dict(terms), context.constant(1)))
+    return InPowers(RatFunc(*lowered), tuple(powers))
+
+
+def _in_factors(statement: Statement) -> Statement:
+    """The same statement, said of irreducible polynomials: T and T - t are, t^2 and t^2 - s^2 aren't."""
+    if isinstance(statement, Both):
+        return both(*map(_in_factors, statement.parts))
+    if isinstance(statement, Either):
+        return either(*map(_in_factors, statement.parts))
+    if isinstance(statement, Vanishes):
+        return either(*map(Vanishes, irreducible_factors(statement.function)))
+    if isinstance(statement, Congruence) and statement.form is None:
+        return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
+    if isinstance(statement, Natural):
+        factors = (over_parameters(f) for equation in statement.factors for f, _ in equation.field.factor(equation))
+        return replace(statement, factors=tuple(dict.fromkeys(factors)))
+    return statement
+
+
+def _raised(powers: dict[str, int]) -> Callable[[FunctionPoly], FunctionPoly]:
+    """The same function, with t^k for T; of some of the parameters."""
+
+    def change(function: FunctionPoly) -> FunctionPoly:
+        field = function.field
+        values = [field.generator(name) ** powers.get(name, 1) for name in field.names]
+        return over_parameters(function.value_at(values, field))
+
+    return change
