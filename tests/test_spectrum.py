@@ -170,6 +170,24 @@ def test_what_is_not_covered_is_undecided(V: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("V", "domain"),
+    [
+        ("-6*sech(x)^2", (1, "oo")),
+        ("x^2", (1, "oo")),
+        ("-1/x", (1, "oo")),
+        ("exp(-2*x) - 9*exp(-x)", HALF),
+        ("0", (0, 1)),
+    ],
+)
+def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, object]) -> None:
+    """The condition there is transcendental in E."""
+    found = kovacic.spectrum(V, domain=domain, boundary="friedrichs")
+    assert not found.complete
+    assert not found.levels
+    assert not found.algebraic
+
+
+@pytest.mark.parametrize(
     ("V", "options"),
     [
         ("1/x^2 + x^2", {}),

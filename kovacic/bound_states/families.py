@@ -102,7 +102,7 @@ def jacobi_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
     """Equation (1)."""
     if len(frame.spots) != 3 or any(spot.square is None for spot in frame.spots):
         raise Uncovered("the equation hasn't three singular points, all of them regular")
-    _check_fold(frame)
+    _check_ends(frame)
     roots = [Root.of(spot.square, E) for spot in frame.spots]
     for deltas in _choices(frame.spots, roots):
         equation = sympy.expand(-1 - sympy.Add(*deltas) - 2 * ends.signs.n)
@@ -156,8 +156,12 @@ def possible(conditions: list[Any], signs: Signs) -> bool:
     return all(signs.is_nonnegative(sympy.expand(a + b)) is not False for a, b in combinations(gaps, 2))
 
 
-def _check_fold(frame: Frame) -> None:
-    """At the middle of the domain V is regular: the solutions are even and odd."""
+def _check_ends(frame: Frame) -> None:
+    """Both ends are singular points in z, or one and the middle of the domain, where V is regular: even and odd solutions."""
+    roles = {role for spot in frame.spots for role in spot.roles}
+    needed = {"left", "right"} if frame.fold is None else {"fold", "right"}
+    if roles != needed:
+        raise Uncovered("an end of the domain is an ordinary point of the equation")
     for spot in frame.spots:
         if "fold" in spot.roles and sympy.simplify(spot.square * spot.p**2 - 1) != 0:
             raise Uncovered(f"V isn't regular at {frame.x} = {frame.fold}, inside the domain")
@@ -188,7 +192,7 @@ def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
         raise Uncovered("the equation isn't Whittaker's")
     parts = sympy.Poly(square, z)
     q, r, b = (parts.coeff_monomial(z**k) for k in (2, 1, 0))
-    _check_fold(frame)
+    _check_ends(frame)
     origin = next((spot for spot in frame.spots if spot.point == 0), Spot(sympy.Integer(0), 1 + 4 * b, 0))
     roots = [Root.of(sympy.factor(q), E), Root.of(sympy.factor(1 + 4 * b), E)]
     for kappa, delta in product(
