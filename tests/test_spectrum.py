@@ -9,7 +9,7 @@ import pytest
 import sympy
 from potentials import MORE, QUASI, TABLE, Solvable
 from scipy.integrate import quad
-from shooting import is_level
+from shooting import is_level, zeros
 
 import kovacic
 from kovacic.bound_states.answer import Spectrum
@@ -102,6 +102,36 @@ def test_levels_by_degree(V: str, domain: tuple[object, object], degree: int, pr
         residual = sympy.diff(state.wave, x, 2) - (potential - state.energy) * state.wave
         assert abs(sympy.N(residual.subs(x, sympy.Rational(7, 10)), 30)) < 1e-15
     assert len(one.states) == sympy.degree(one.polynomial, sympy.Symbol("E"))
+
+
+@pytest.mark.parametrize(
+    ("V", "domain", "number"),
+    [
+        ("9/4*sech(x)*tanh(x)", ("-oo", "oo"), 1),  # the exponents at +-I are complex and irrational
+        ("-17/2*sech(x)^2", HALF, 1),  # x = 0 is an ordinary point, and the middle of a symmetric potential
+        ("-17/2*sech(x)^2", ("-oo", "oo"), 3),
+        ("-9/4*sech(x)^2 + tanh(x)/2", ("-oo", "oo"), 1),
+    ],
+)
+def test_as_many_levels_as_a_solution_has_zeros(V: str, domain: tuple[object, object], number: int) -> None:
+    """Just below the continuous spectrum."""
+    found = kovacic.spectrum(V, domain=domain, boundary="friedrichs")
+    assert found.complete
+    assert len(found.states()) == number
+    numeric = sympy.lambdify(x, read_expression(V), "numpy")
+    low = -inf if domain[0] == "-oo" else 0.0
+    top = min(float(numeric(end)) for end in (-300.0, 300.0)) - 0.02
+    assert zeros(lambda z: float(numeric(z)), low, inf, top, 0.1) == number
+
+
+def test_values_that_are_refused() -> None:
+    with pytest.raises(kovacic.InputError, match="isn't a real number"):
+        kovacic.spectrum("a*x^2").states({"a": "I"})
+    coulomb = kovacic.spectrum("l*(l+1)/x^2 - 1/x", domain=HALF, assume={"l": ">=1"})
+    with pytest.raises(kovacic.InputError, match="contradicts"):
+        coulomb.states({"l": 0})
+    with pytest.raises(kovacic.InputError, match="values are needed"):
+        coulomb.states()
 
 
 def test_levels_by_degree_with_parameters() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import sympy
@@ -11,6 +12,7 @@ import sympy
 from kovacic.errors import InputError
 from kovacic.exact import exact_text, whole
 from kovacic.numerals import as_latex, as_text
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
 from kovacic.reading.symbolic import read_expression
 from kovacic.shown import json_line, latex, visible
 from kovacic.writing.formula import caret
@@ -103,7 +105,7 @@ class Spectrum:
     domain: tuple[Any, Any]
     energy: str
     parameters: tuple[str, ...] = ()
-    assumptions: str = ""
+    assumptions: Assumptions = NOTHING_ASSUMED
     boundary: str | None = None
     ends: tuple[str, ...] = ()
     excluded: tuple[Any, ...] = ()
@@ -140,15 +142,20 @@ class Spectrum:
             missing = ", ".join(name for name in self.parameters if name not in given) or "none"
             unknown = ", ".join(name for name in given if name not in self.parameters) or "none"
             raise InputError("values are needed for the parameters", hint=f"missing: {missing}; unknown: {unknown}")
+        for name, value in given.items():
+            if value.is_real is False:
+                raise InputError(f"{name} = {_text(value)} isn't a real number")
+            if not _is_admitted(self.assumptions.of(name), value):
+                raise InputError(f"{name} = {_text(value)} contradicts the assumption: {self.assumptions}")
         at = {sympy.Symbol(name): value for name, value in given.items()}
         for relation in self.excluded:
-            if relation.subs(at) == sympy.true:
+            if _is_true(relation, at):
                 raise InputError("both solutions are square integrable at an end", hint='boundary="friedrichs"')
         found: dict[Any, State] = {}
         for levels in self.levels:
             for n in range(count):
                 here = {**at, levels.number: sympy.Integer(n)}
-                if not all(c.subs(here) == sympy.true for c in levels.conditions):
+                if not all(_is_true(c, here) for c in levels.conditions):
                     if levels.above:
                         break
                     continue
@@ -219,7 +226,7 @@ class Spectrum:
             "domain": [*map(_text, self.domain)],
             "energy": self.energy,
             "parameters": [*self.parameters],
-            "assumptions": self.assumptions,
+            "assumptions": self.assumptions.to_dict(),
             "boundary": self.boundary,
             "ends": [*self.ends],
             "excluded": [*map(_relation, self.excluded)],
@@ -252,6 +259,27 @@ class Spectrum:
     def to_json(self) -> str:
         """One line of JSON."""
         return json_line(self.to_dict())
+
+
+def _is_admitted(known: Known, value: Any) -> bool:
+    """Does a real number have the properties that are assumed?"""
+    for bound in known.bounds:
+        distance = bound.sign * (value - sympy.Rational(bound.end.numerator, bound.end.denominator))
+        if not (distance.is_positive or (distance.is_zero and not bound.strict)):
+            return False
+    if known.coset is not None:
+        return bool(value.is_Rational) and known.coset.contains(Fraction(int(value.p), int(value.q)))
+    return not (known.nonzero and value.is_zero)
+
+
+def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
+    """A relation at values; raises `InputError` where that can't be decided, as for values that aren't real."""
+    found = relation.subs(values)
+    if found not in (sympy.true, sympy.false):
+        found = sympy.simplify(found)
+    if found not in (sympy.true, sympy.false):
+        raise InputError(f"whether {_relation(found)} isn't known at these values", hint="give numbers")
+    return bool(found)
 
 
 def _lines(levels: Levels, energy: str) -> list[str]:

@@ -409,7 +409,7 @@ def _spectrum(question: Question, ends: Sequence[End], **found: Any) -> Spectrum
         tuple(map(plain, question.domain)),
         question.energy,
         question.parameters,
-        str(question.known),
+        question.known,
         FRIEDRICHS if question.friedrichs else None,
         tuple(end.sentence for end in ends),
         excluded,

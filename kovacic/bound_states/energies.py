@@ -47,7 +47,7 @@ class Root:
 def exact_root(square: Any) -> Any:
     """A root without radicals of what isn't a number, over Q(i) where i occurs; None where there is none."""
     if square.is_number:
-        return sympy.sqrt(square)
+        return _root_of_number(sympy.expand(square))
     options = {"extension": sympy.I} if square.has(sympy.I) else {}
     num, den = sympy.fraction(sympy.together(square))
     product = sympy.Integer(1)
@@ -62,6 +62,15 @@ def exact_root(square: Any) -> Any:
                 return None
             product *= factor ** (sign * multiplicity // 2)
     return sympy.expand(product) if product.has(sympy.I) else product
+
+
+def _root_of_number(square: Any) -> Any:
+    """p + i q with p > 0, for what isn't real: its conjugate is p - i q, and SymPy sees that p is real."""
+    re, im = square.as_real_imag()
+    if im == 0:
+        return sympy.sqrt(square)
+    p = sympy.sqrtdenest(sympy.sqrt((sympy.sqrt(re**2 + im**2) + re) / 2))
+    return p + sympy.I * sympy.radsimp(im / (2 * p))
 
 
 def conjugate(value: Any) -> Any:
