@@ -24,7 +24,7 @@ from kovacic.enclosure.problem import Coefficients, change_of
 from kovacic.equation import Equation
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
-from kovacic.reading.change_of_variable import SQUARES, function_of_x, user_variable
+from kovacic.reading.change_of_variable import SQUARES, function_of_x, is_of_a_line, user_variable
 from kovacic.reading.parts import parts_of
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
@@ -82,6 +82,8 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     """Equation (1)."""
     t = function_of_x(equation)
     x = user_variable(equation)
+    if not is_of_a_line(equation):
+        return _of_any_change(equation, t, x)
     rate = t.args[0].diff(x)
     field = equation.a.field
     sigma = RatFunc(_sigma(t, field))
@@ -96,6 +98,14 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     if equation.h is not None:  # over the coefficient of y'', in x
         right += equation.h
     return Coefficients(x, slope * _in(t, b), rate**2 * _in(t, c), right)
+
+
+def _of_any_change(equation: Equation, t: Any, x: Any) -> Coefficients:
+    """t' b/a - t''/t', t'^2 c/a and t'^2 f/a, as they are."""
+    atoms = Atoms(sympy.Dummy("t"))
+    b, c, f = (atoms.ratio(part / equation.a).xreplace({atoms.x: t}) for part in (equation.b, equation.c, equation.f))
+    slope = t.diff(x)
+    return Coefficients(x, slope * b - slope.diff(x) / slope, slope**2 * c, slope**2 * f + (equation.h or 0))
 
 
 def _sigma(t: Any, field: Field) -> Poly:
