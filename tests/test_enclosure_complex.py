@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import flint
+import mpmath
 import pytest
 import sympy
 from flint import acb, arb, fmpq
@@ -187,8 +188,10 @@ def test_constants_beside_functions_of_x() -> None:
             a.bessel_y(1) * a.bessel_j(0) - a.bessel_j(1) * a.bessel_y(0)
         )
         assert ball_to_flint(found).overlaps(exact)
-    with pytest.raises(InputError, match="constants in the equation in t"):
-        evaluate("y'' + I*cos(x)*y = 1", 1, x0=0, y0=1, dy0=0)
+    wave = evaluate("y'' + I*cos(x)*y = 1", 1, x0=0, y0=1, dy0=0, digits=10)
+    with mpmath.workdps(20):
+        own = mpmath.odefun(lambda t, s: [s[1], 1 - 1j * mpmath.cos(t) * s[0]], 0, [mpmath.mpc(1), mpmath.mpc(0)])(1)[0]
+        assert abs(wave.to_mpmath() - own) < 1e-15
 
 
 #: What is wrong, where.

@@ -26,7 +26,7 @@ from kovacic.enclosure.precision import PointValue, number_of_digits, raise_prec
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.start import middle, spread_by
 from kovacic.enclosure.states import check_method, comparable, comparables, looked_up
-from kovacic.enclosure.way import Local, Way, ray
+from kovacic.enclosure.way import Local, Way, by_rays
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, count_work, limits_of
 
@@ -174,10 +174,9 @@ class AnalyticJourney:
         if self.chain:
             for stop in stops:
                 begun = begun.moved(stop)
-                found[stop] = begun.state(stop)
+                found |= begun.states([stop])
         else:
-            nearest = sorted(set(stops), key=lambda stop: (stop - begun.here).norm_squared())
-            found = {stop: begun.state(stop) for stop in nearest}
+            found = begun.states(stops)
         return [self._spread(target, found[stop]) for target, stop in zip(targets, stops, strict=True)]
 
     def _begin(self, prec: int) -> _Begun:
@@ -209,23 +208,23 @@ class _Begun:
     particular: State = (acb(0), acb(0))
     ways: dict[ExactPoint, Way] = field(default_factory=dict)
 
-    def state(self, stop: ExactPoint) -> State:
-        """(y, y') at the end of the straight way to a point."""
-        if stop == self.here:
-            y, dy = self.product.apply(self.start)
-            return y + self.particular[0], dy + self.particular[1]
-        direction = ray(self.here, stop)
-        way = self.ways.get(direction)
-        if way is None or not way.has(stop):
-            way = self.ways[direction] = self._way()
-        return way.state(stop)
+    def states(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        """(y, y') at the ends of straight ways to these points."""
+        y, dy = self.product.apply(self.start)
+        found = {self.here: (y + self.particular[0], dy + self.particular[1])}
+        for direction, on_it in by_rays(self.here, stops).items():
+            way = self.ways.get(direction)
+            if way is None or not way.has(on_it[0]):
+                way = self.ways[direction] = self._way()
+            found |= zip(on_it, way.states(on_it), strict=True)
+        return found
 
     def moved(self, stop: ExactPoint) -> _Begun:
         """To the end of a straight way."""
         if stop == self.here:
             return self
         way = self._way()
-        way.state(stop)
+        way.states([stop])
         return _Begun(stop, self.walk, self.start, way.product, way.particular)
 
     def _way(self) -> Way:

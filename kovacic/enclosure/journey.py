@@ -33,7 +33,7 @@ from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.system import check_segment
 from kovacic.enclosure.transport import Leg, walk
-from kovacic.enclosure.way import Way, ray
+from kovacic.enclosure.way import Way, by_rays, ray
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 
@@ -196,19 +196,16 @@ class Traveller:
 
     def _by_ways(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """Along the real axis, on ways that are kept for the next call."""
-        found: dict[ExactPoint, State] = {}
-        for stop in sorted(set(stops), key=lambda stop: abs(stop.x - here.x)):
-            self._check_gauge(here, stop)
-            found[stop] = self.state(start) if stop == here else self._on_way(here, stop, start, len(stops))
+        found: dict[ExactPoint, State] = {here: self.state(start)}
+        for direction, on_it in by_rays(here, stops).items():
+            for stop in on_it:
+                self._check_gauge(here, stop)
+            way = self.ways.get(direction)
+            if way is None or not way.has(on_it[0]):
+                discs = partial(walk, self.problem.system, prec=self.prec, targets=len(stops))
+                way = self.ways[direction] = Way(here, discs, start, self.product)
+            found |= zip(on_it, map(self._given, way.states(on_it), on_it), strict=True)
         return [found[stop] for stop in stops]
-
-    def _on_way(self, here: ExactPoint, stop: ExactPoint, start: State, targets: int) -> State:
-        direction = ray(here, stop)
-        way = self.ways.get(direction)
-        if way is None or not way.has(stop):
-            discs = partial(walk, self.problem.system, prec=self.prec, targets=targets)
-            way = self.ways[direction] = Way(here, discs, start, self.product)
-        return self._given(way.state(stop), stop)
 
     def _by_rays(self, stops: Sequence[ExactPoint], start: State, *, alone: bool) -> list[State]:
         """Stop by stop along each straight way: out of a singular point, or all the way where the stops can't share discs."""

@@ -7,7 +7,8 @@ question continues farther than to its own point, so that many questions in a ro
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -95,6 +96,14 @@ def ray(here: ExactPoint, x: ExactPoint) -> ExactPoint:
     return (x - here).scaled(1 / position(here, x))
 
 
+def by_rays(here: ExactPoint, stops: Sequence[ExactPoint]) -> dict[ExactPoint, list[ExactPoint]]:
+    """The points but `here`, each once, by their directions, the nearest first."""
+    found: dict[ExactPoint, list[ExactPoint]] = {}
+    for stop in sorted({*stops} - {here}, key=lambda stop: position(here, stop)):
+        found.setdefault(ray(here, stop), []).append(stop)
+    return found
+
+
 @dataclass
 class Way:
     """From `here` along one ray: `walk(a, b)` makes the discs from a to b, junctions on the ray.
@@ -123,25 +132,23 @@ class Way:
         """Is the point on the part that is kept?"""
         return self.has(x) and bool(position(self.here, x) <= position(self.here, self.end))
 
-    def state(self, x: ExactPoint) -> State:
-        """(y, y') at a point of the ray."""
-        place = position(self.here, x)
-        if place > position(self.here, self.end):
-            self._extend(x)
-        return self._locals[bisect_left(self._stops, place)].state(x)
-
-    def _extend(self, x: ExactPoint) -> None:
-        """To x; but for the first time on to twice the distance, for no more discs than there are, if nothing is in the way."""
-        if self._stops:
-            far = self.here + (x - self.here).scaled(2)
+    def states(self, stops: Sequence[ExactPoint]) -> list[State]:
+        """(y, y') at points of the ray, the nearest first."""
+        reached = position(self.here, self.end)
+        known = [stop for stop in stops if position(self.here, stop) <= reached]
+        found = [self._locals[bisect_left(self._stops, position(self.here, stop))].state(stop) for stop in known]
+        waiting = deque(stops[len(known) :])
+        if waiting and self._stops:
+            far = self.here + (waiting[-1] - self.here).scaled(2)
             with suppress(InputError, LimitExceeded):
-                self._go(far, x, len(self._stops))
-        if position(self.here, x) > position(self.here, self.end):
-            self._go(x, x, 0)
+                self._go(far, waiting, found, spare=len(self._stops))
+        if waiting:
+            self._go(waiting[-1], waiting, found, spare=0)
+        return found
 
-    def _go(self, far: ExactPoint, x: ExactPoint, spare: int) -> None:
-        """Towards `far`, at least to x, and then so many discs more."""
-        wanted = position(self.here, x)
+    def _go(self, far: ExactPoint, waiting: deque[ExactPoint], found: list[State], *, spare: int) -> None:
+        """Towards `far`, past all that wait, whose states are found, and then so many discs more: but for the first time a way
+        goes on to twice the distance, for no more discs than there are, if nothing is in the way."""
         for step in self.walk(self.end, far):
             y, dy = self.particular
             state = self.product.apply(self.start)
@@ -151,11 +158,13 @@ class Way:
             self.product = self.product.after(step.matrix)
             self.particular = y + step.added[0], dy + step.added[1]
             self.end = step.leave
-            arrived = self._stops[-1] >= wanted
-            if len(self._stops) > _MOST_DISCS and not arrived:
+            while waiting and position(self.here, waiting[0]) <= self._stops[-1]:
+                found.append(self._locals[-1].state(waiting.popleft()))
+            if len(self._stops) > _MOST_DISCS:
                 self._forget()
-            spare -= arrived
-            if arrived and step.leave != x and (spare < 0 or len(self._stops) >= _MOST_DISCS):
+            if not waiting:
+                spare -= 1
+            if spare < 0:
                 return
 
     def _forget(self) -> None:
