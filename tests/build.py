@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from kovacic import Equation
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import Equation
 from kovacic.reading.read import read_input
 
 __all__ = [

@@ -7,7 +7,8 @@ from itertools import islice
 
 from build import Poly, RatFunc
 
-from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
+from kovacic import Structure
+from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.verify.forms import ordinary_point, room

@@ -42,9 +42,9 @@ import flint
 from build import Poly, RatFunc
 from flint import acb, acb_poly, fmpq
 
-from kovacic import Solution
+from kovacic import Solution, Structure
 from kovacic.closed_form.klein import covariants
-from kovacic.decision import SemiInvariant, Structure
+from kovacic.decision import SemiInvariant
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, integral
 from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product

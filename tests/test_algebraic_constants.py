@@ -14,8 +14,8 @@ from strategies import Example
 from transform import hypergeometric
 
 import kovacic
+from kovacic import Limits
 from kovacic.algebra.embedding import approximation
-from kovacic.limits import Limits
 from kovacic.reading.constants import Constants, read_with_constants
 
 ENTRIES = [

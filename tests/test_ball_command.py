@@ -11,10 +11,10 @@ import time
 import pytest
 import sympy as sp
 
+from kovacic import InputError
 from kovacic.ball import RollingBall, X
 from kovacic.ball.body import InRoots
 from kovacic.ball.theorems import read_ratio
-from kovacic.errors import InputError
 
 
 @pytest.fixture

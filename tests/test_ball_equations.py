@@ -10,11 +10,11 @@ import pytest
 import sympy as sp
 from _pytest.mark import ParameterSet
 
+from kovacic import InputError, LimitExceeded
 from kovacic.ball import RollingBall, U, X, derivation
 from kovacic.ball.body import A1, A3, InRoots, exact, x1, x2
 from kovacic.ball.derivation import holds, vanishes
 from kovacic.ball.paper import PRINTED, R1, D, R, a, equations_of, explained, m
-from kovacic.errors import InputError, LimitExceeded
 from kovacic.writing.breaking import breakable
 
 GENERAL = RollingBall(m=m, R=R, a=a, A1=A1, A3=A3)

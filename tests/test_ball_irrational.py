@@ -6,10 +6,10 @@ import pytest
 import sympy as sp
 
 import kovacic
+from kovacic import InputError, LimitExceeded
 from kovacic.ball import RollingBall, closed_form
 from kovacic.ball.body import settled, sign
 from kovacic.ball.theorems import theorem
-from kovacic.errors import InputError, LimitExceeded
 
 CUBIC = sp.CRootOf(sp.Symbol("z") ** 3 - sp.Symbol("z") - 1, 0)
 # m, R, a, A1, A3, R1 (None: a plane), the group

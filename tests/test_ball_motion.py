@@ -13,11 +13,11 @@ import sympy as sp
 from ball_quadratures import quadratures
 from numpy.polynomial import chebyshev
 
+from kovacic import InputError, LimitExceeded
 from kovacic.ball import RollingBall, U
 from kovacic.ball.dynamics import Dynamics, Force, as_float, potential_of
 from kovacic.ball.motion import State, solve_motion
 from kovacic.ball.picture import draw
-from kovacic.errors import InputError, LimitExceeded
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
 START = State(u=1.0, du=0.5, dv=0.3, n=2.0, v=0.1, theta=0.3, u1=1.2, v1=0.2)

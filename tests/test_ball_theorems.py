@@ -11,6 +11,7 @@ import sympy as sp
 from build import QQ, RatFunc, read_input
 
 import kovacic
+from kovacic import InputError
 from kovacic.ball import RollingBall, X, closed_form, theorems
 from kovacic.ball import body as rolling
 from kovacic.ball.body import A1, A3, InRoots, x1, x2
@@ -22,7 +23,6 @@ from kovacic.ball.theorems import (
     BallSolution,
     theorem,
 )
-from kovacic.errors import InputError
 
 k = sp.Symbol("k")
 # m, R, a, A1, A3: complex roots; l < 0; a = 0; A1 = A3; homogeneous; real roots beyond -1 and beyond 1; a double root.

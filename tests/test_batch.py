@@ -23,12 +23,12 @@ from hypothesis import strategies as st
 from processes import started
 
 import kovacic
+from kovacic import InputError, KovacicError, Limits
 from kovacic.batch.files import answers, count_items, guess_format, item_from, read_items, take_up
 from kovacic.batch.pool import GRACE_SECONDS, Pool
 from kovacic.batch.records import LABELS, Item, Job, Record, Summary
 from kovacic.batch.worker import solve_item
-from kovacic.errors import InputError, KovacicError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS
 
 CASES = Path(__file__).parent / "data" / "cases.jsonl"
 

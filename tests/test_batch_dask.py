@@ -17,9 +17,9 @@ from batch_lines import answers_of, lines_of, random_runs
 from processes import started
 
 import kovacic
+from kovacic import InputError
 from kovacic.batch.backends import CHUNK
 from kovacic.batch.files import read_items
-from kovacic.errors import InputError
 
 pytestmark = [
     pytest.mark.long,

@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
 import kovacic
-from kovacic.general_solution import dsolve
+from kovacic import dsolve
 from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import Outcome, Row, determine

@@ -10,7 +10,7 @@ import textbook
 from published import Published
 
 import kovacic
-from kovacic.solution import Solution
+from kovacic import Solution
 
 ENTRIES = published.load()
 BY_ID = [pytest.param(entry, id=entry.id) for entry in ENTRIES]

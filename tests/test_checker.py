@@ -23,10 +23,9 @@ from hypothesis import given, settings
 from published import Published, load
 
 import kovacic
-from kovacic import checker
-from kovacic.decision import Decision, Exclusion, NoInvariant, Structure
+from kovacic import Solution, Structure, checker
+from kovacic.decision import Decision, Exclusion, NoInvariant
 from kovacic.limits import Budget
-from kovacic.solution import Solution
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.views.json import group_dict, to_dict

@@ -16,8 +16,8 @@ import pytest
 from processes import started
 
 import kovacic
+from kovacic import VerificationFailed
 from kovacic.cli import main
-from kovacic.errors import VerificationFailed
 
 COMMAND = [sys.executable, "-m", "kovacic"]
 #: What a slow machine shows of the progress, until it is wiped away.

@@ -18,6 +18,7 @@ from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
+from kovacic import Limits
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.form import solutions
@@ -33,7 +34,6 @@ from kovacic.closed_form.structure import (
     curve_of,
     logarithmic_derivative,
 )
-from kovacic.limits import Limits
 
 X = RatFunc(QQ.poly([0, 1]))
 

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from sympy.abc import t, x
 
 import kovacic
+from kovacic import Structure
 from kovacic.algebra.partial_fractions import _reduce_at, decompose
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution
@@ -34,7 +35,6 @@ from kovacic.closed_form.primitive import (
 from kovacic.closed_form.product import product
 from kovacic.closed_form.structure import Triangular
 from kovacic.closed_form.torsion import completed
-from kovacic.decision import Structure
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = RatFunc(QQ.poly([]))

@@ -18,9 +18,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.decision import Structure
+from kovacic import Limits, Structure
 from kovacic.galois.group import GroupKind
-from kovacic.limits import Limits
 from kovacic.parameters import Conditions
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural

@@ -23,10 +23,10 @@ from hypothesis import strategies as st
 from sympy import I, Rational, cos, exp, log, sin, sqrt
 
 import kovacic
+from kovacic import dsolve, solve_riccati
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges
 from kovacic.closed_form.jets import jet
-from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined

@@ -11,9 +11,9 @@ import flint
 import pytest
 from flint import arb, fmpq
 
+from kovacic import evaluate
 from kovacic.enclosure import start
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
 
 # n is a parameter; the points are between -3 and 3, or between 1 and 3 where 0 is singular
 EQUATIONS = {

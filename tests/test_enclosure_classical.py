@@ -11,19 +11,17 @@ import pytest
 from build import QQ, RatFunc
 from flint import acb, ctx, fmpq
 
+from kovacic import AccuracyWarning, InputError, LimitExceeded, Limits, evaluate
 from kovacic.enclosure import classical
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.classical import NotServed, classical_of
-from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
-from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget
 from kovacic.special import bessel, gauss
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel

@@ -13,12 +13,10 @@ import sympy
 from flint import acb, arb, fmpq
 
 import kovacic
+from kovacic import InputError, evaluate, monodromy
 from kovacic.enclosure import forcing, frame, problem, start
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.constants import in_balls
-from kovacic.enclosure.evaluate import evaluate
-from kovacic.enclosure.monodromy import monodromy
-from kovacic.errors import InputError
 
 X = sympy.Symbol("x")
 CONSTANTS = ["I", "1 + I", "2 - I*sqrt(2)", "sqrt(3)*I", "sqrt(2)", "-1/2 + sqrt(3)*I/2", "1/3 - 2*I"]

@@ -9,11 +9,8 @@ import pytest
 from flint import acb, arb
 
 import kovacic
+from kovacic import AccuracyWarning, InputError, connection_matrix, evaluate
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
-from kovacic.enclosure.monodromy import connection_matrix
-from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.errors import InputError
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
 

@@ -14,19 +14,24 @@ import pytest
 from clocks import controlled
 
 import kovacic
+from kovacic import (
+    AccuracyWarning,
+    Ball,
+    InputError,
+    LimitExceeded,
+    Limits,
+    connection_matrix,
+    evaluate,
+    monodromy,
+    tabulate,
+)
 from kovacic.doubles.lambdify import lambdify
-from kovacic.doubles.tabulate import tabulate
-from kovacic.enclosure.ball import Ball, ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
+from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.frame import least_growth
-from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System, check_segment
 from kovacic.enclosure.transport import cover
-from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Limits
 from kovacic.views.plot import sample
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}

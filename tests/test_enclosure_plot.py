@@ -13,9 +13,9 @@ import pytest
 import sympy
 
 import kovacic
+from kovacic import Ball
 from kovacic.cli.main import run
 from kovacic.doubles.curve import Arc
-from kovacic.enclosure.ball import Ball
 from kovacic.views.plot import plot, sample
 
 

@@ -16,19 +16,16 @@ from published import load
 from transform import from_omega, from_squared_difference
 
 import kovacic
+from kovacic import AccuracyWarning, InputError, LimitExceeded, Limits, connection_matrix, evaluate, monodromy
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.closed_form import closed_form_of
-from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import identity, multiply
-from kovacic.enclosure.monodromy import connection_matrix, monodromy
-from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
-from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois import Ground, Group, GroupKind
-from kovacic.limits import Budget, Limits, bounded_work
+from kovacic.limits import Budget, bounded_work
 from kovacic.special.search import find
 
 PRIMITIVE = {

@@ -12,14 +12,12 @@ import sympy
 from flint import acb, arb, ctx, fmpq
 
 import kovacic
+from kovacic import Ball, InputError, connection_matrix, evaluate
 from kovacic.enclosure import frobenius
-from kovacic.enclosure.ball import Ball, ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
-from kovacic.enclosure.monodromy import connection_matrix
+from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.singular import Singular
-from kovacic.errors import InputError
 
 Value = Callable[[acb], acb]
 

@@ -11,13 +11,11 @@ from typing import Any
 import pytest
 from flint import acb, arb, ctx, fmpq
 
+from kovacic import InputError, connection_matrix, evaluate
 from kovacic.enclosure import transport
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
-from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.precision import Method
 from kovacic.enclosure.states import evaluate_states
-from kovacic.errors import InputError
 
 Function = Callable[[acb], acb]
 

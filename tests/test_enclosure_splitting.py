@@ -12,20 +12,18 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evaluate
 from kovacic.enclosure import transport
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.frame import Frame, make_frame
 from kovacic.enclosure.matrices import Matrix, product
-from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.splitting import LEAF, Recurrence, bit_burst, is_split, make_block, split_legs
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import expand, transition
-from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget
 from tests.strategies import Example, examples, fractions, integers, nonzero
 
 AIRY = System.make((0, 1), (1,))

@@ -19,19 +19,17 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.enclosure.evaluate import evaluate
+from kovacic import AccuracyWarning, Ball, InputError, LimitExceeded, Limits, connection_matrix, evaluate
+from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.frame import make_frame, shift
 from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import product
-from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.points import ExactPoint, as_point
-from kovacic.enclosure.precision import AccuracyWarning, Method
+from kovacic.enclosure.precision import Method
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System, check_segment, distance_lower
 from kovacic.enclosure.transport import cover, piece_matrices
-from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget
 
 AIRY = ([0, 1], [1])
 

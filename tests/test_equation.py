@@ -20,7 +20,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.errors import InputError, NotLinear, NotRational, ParseError
+from kovacic import InputError, NotLinear, NotRational, ParseError
 from kovacic.reading.lexer import is_equation
 
 X = RatFunc(QQ.poly([0, 1]))

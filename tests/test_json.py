@@ -13,9 +13,8 @@ import sympy
 from published import Published, load
 
 import kovacic
+from kovacic import InputError, Limits, VerificationFailed
 from kovacic.checker import verdict
-from kovacic.errors import InputError, VerificationFailed
-from kovacic.limits import Limits
 
 loads = kovacic.Solution.from_json
 

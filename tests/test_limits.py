@@ -15,11 +15,10 @@ from clocks import controlled
 from sympy.abc import n, x
 
 import kovacic
+from kovacic import LimitExceeded, Limits, Solution
 from kovacic.engine.places import analyse
-from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds
+from kovacic.limits import Budget, check_time, limited, watched_seconds
 from kovacic.parameters import Conditions
-from kovacic.solution import Solution
 from kovacic.verify.local import points
 from kovacic.writing.formula import Formulas
 

@@ -17,11 +17,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic import Ball, InputError, Limits
+from kovacic import Ball, InputError, Limits, Solution
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.ball import RollingBall as Body
 from kovacic.exact import exact
-from kovacic.solution import Solution
 
 NUMPY = {scalar for scalar in np.sctypeDict.values() if issubclass(scalar, np.number | np.bool_)}
 KINDS: dict[str, Any] = {

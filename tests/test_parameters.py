@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic import Status
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.lifting import Lifter
 from kovacic.cli.main import run
-from kovacic.decision import Status
 from tests.parametric_cases import BALL
 
 K = FunctionField(("s", "t"))

@@ -13,8 +13,7 @@ from expressions import Expression, expressions
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.limits import Limits
+from kovacic import InputError, LimitExceeded, Limits, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
 from kovacic.reading.lexer import tokenize

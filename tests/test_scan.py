@@ -16,10 +16,9 @@ from build import read_input
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kovacic.batch import solve_many
+from kovacic import InputError, LimitExceeded, NotRational, ParseError, solve_many
 from kovacic.batch.records import LABELS, Record, label_of
 from kovacic.batch.scan import _COLOURS_AND_NAMES, Grid, Template, draw_map, parse_grid, points, scan_items
-from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
 

@@ -14,11 +14,12 @@ import jsonschema
 import pytest
 
 import kovacic
+from kovacic import Limits
 from kovacic.batch.records import Item, Job, ProcessLost, refused, stopped
 from kovacic.batch.worker import solve_item
 from kovacic.checker import verdict
 from kovacic.cli.main import run
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS
 
 EQUATIONS = [
     "x^2 + 3",

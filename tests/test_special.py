@@ -17,10 +17,11 @@ from build import QQ, RatFunc, read_input
 
 import kovacic
 import kovacic.errors
+from kovacic import Limits
 from kovacic.cli import main
 from kovacic.general_solution import in_special_functions
 from kovacic.general_solution.variation import special_wronskian as wronskian
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget
 from kovacic.special.airy import Airy
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback

@@ -22,14 +22,14 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic import InputError, LimitExceeded, Limits, Structure, VerificationFailed
 from kovacic.algebra.modular import rational_function_from_series
-from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Structure
+from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.places import analyse
-from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.galois import Ground
 from kovacic.galois.jacobian import Jacobian
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.division import backwards, inverse, quotient
 from kovacic.verify.evidence import Inspector
