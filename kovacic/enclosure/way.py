@@ -160,12 +160,12 @@ class Way:
             self.end = step.leave
             while waiting and position(self.here, waiting[0]) <= self._stops[-1]:
                 found.append(self._locals[-1].state(waiting.popleft()))
-            if len(self._stops) > _MOST_DISCS:
-                self._forget()
             if not waiting:
-                spare -= 1
+                spare = min(spare - 1, _MOST_DISCS - len(self._stops))
             if spare < 0:
                 return
+            if len(self._stops) > _MOST_DISCS:
+                self._forget()
 
     def _forget(self) -> None:
         """The first half of the discs."""
