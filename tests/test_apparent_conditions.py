@@ -8,6 +8,7 @@ import pytest
 import sympy
 
 import kovacic
+from tests.clocks import controlled
 
 x, E = sympy.symbols("x E")
 
@@ -112,3 +113,14 @@ def test_a_parameter_in_powers_is_as_good_as_its_power(name: str) -> None:
             right = sympy.sympify(S.replace("^", "**")).subs({"w": special, "l": l})
             value = (y.diff(x, 2) - right * y).subs(x, sympy.Rational(17, 7)).evalf(30)
             assert abs(value) < sympy.Float("1e-18") * abs(y.subs(x, sympy.Rational(17, 7)).evalf(30))
+
+
+@pytest.mark.parametrize("seconds", [0.2, 0.7, 1.2])
+def test_a_limit_within_the_search_is_a_value(seconds: float) -> None:
+    """Of powers and of transformations, too: what was found until then is the answer."""
+    S = "(-w^2 + (x-1)*(l*(l+1)*x-3)/x^4)*x^2/(x-1)^2 - (4*x-3)/(4*x^2*(x-1)^2)"
+    kovacic.conditions("x^2 + n", var="x")  # imports
+    with controlled(step=0.0005):
+        answer = kovacic.conditions(S, var="x", limits=kovacic.Limits(seconds=seconds))
+    assert "only as far as the limits allowed" in str(answer.complete)
+    assert "The list is complete only as far as the limits allowed" in answer.theorem()

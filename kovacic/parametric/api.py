@@ -66,8 +66,9 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     settings = Settings(budget, parsed.variable, only_theorems=max_degree is None)
     with budget.watched():
         found = partition(lifted, settings)
-        if found.complete is not True:
-            found = _in_powers(lifted, settings) or found
+        with suppress(LimitExceeded):  # then the first one is the answer, as far as it goes
+            if found.complete is not True:
+                found = _in_powers(lifted, settings) or found
     field = lifted.field.ground
     assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, field, constant, parsed.variable, budget)
@@ -92,10 +93,8 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
 def _in_powers(S: RatFunc, settings: Settings) -> Partition | None:
     """The partition by powers of the parameters, where it is complete."""
     powers = in_powers(S)
-    if powers is None:
-        return None
-    found = partition(powers.S, settings)
-    if found.complete is not True:
+    found = None if powers is None else partition(powers.S, settings)
+    if powers is None or found is None or found.complete is not True:
         return None
     return replace(found, regions=tuple(powers.back(region) for region in found.regions))
 
