@@ -191,7 +191,7 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
     assert not found.levels
 
 
-@pytest.mark.parametrize("V", ["x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)"])
+@pytest.mark.parametrize("V", ["x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)", "cosh(x)", "sin(x)"])
 def test_what_is_not_covered_is_undecided(V: str) -> None:
     found = kovacic.spectrum(V)
     assert not found.complete
@@ -222,6 +222,7 @@ def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, 
     [
         ("1/x^2 + x^2", {}),
         ("x^2 - E", {}),
+        ("I*x^2", {}),
         ("x^2", {"domain": (1, 0)}),
         ("x^2", {"domain": (0, "L")}),
         ("x^2", {"boundary": "neumann"}),
@@ -252,6 +253,18 @@ def test_a_sympy_expression_and_values() -> None:
     assert [state.energy for state in found.states({"b": 3})] == [sympy.Rational(k, 4) for k in (-25, -9, -1)]
     at = kovacic.spectrum("exp(-2*x) - 2*b*exp(-x)", assume={"b": 3})
     assert at.states() == found.states({"b": 3})
+
+
+def test_pi_is_a_number() -> None:
+    found = kovacic.spectrum("pi*x^2")
+    assert found.parameters == ()
+    assert found.levels[0].conditions == ()
+    assert sympy.expand(found.levels[0].energy - (2 * n + 1) * sympy.sqrt(sympy.pi)) == 0
+
+
+def test_a_root_that_may_vanish_is_positive() -> None:
+    found = kovacic.spectrum("A*x^2 + B/x^2", domain=HALF, boundary="friedrichs")
+    assert [*map(str, found.levels[0].conditions)] == ["A > 0", "B >= -1/4"]
 
 
 def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -23,8 +23,8 @@ from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range
 from kovacic.bound_states.quasi import Found, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
-from kovacic.equation import ENERGY, Parsed, parameters_of
-from kovacic.errors import InputError
+from kovacic.equation import ENERGY, EULER, PI, Parsed, parameters_of
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import exact_text, whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numerals import as_text
@@ -68,7 +68,11 @@ class Question:
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        return tuple(name for name in self.signs.symbols if name != self.energy)
+        return tuple(name for name in self.signs.symbols if name != self.energy and name not in self.constants)
+
+    @property
+    def constants(self) -> dict[str, Any]:
+        return _constants(self.V, self.signs.symbols)
 
     def with_potential(self, V: Any) -> Question:
         """The same for another potential, in real symbols."""
@@ -79,7 +83,8 @@ class Question:
     def plain(self, expression: Any) -> Any:
         """In plain symbols of the same names, as users write them; n for the number of a level."""
         number = next(name for name in ("n", "k", "j", "m", "n_") if name not in (*self.signs.symbols, self.variable))
-        names = {s: sympy.Symbol(s.name) for s in expression.free_symbols if not isinstance(s, sympy.Dummy)}
+        symbols = [s for s in expression.free_symbols if not isinstance(s, sympy.Dummy)]
+        names = {s: self.constants.get(s.name, sympy.Symbol(s.name)) for s in symbols}
         return expression.xreplace({**names, self.signs.n: sympy.Symbol(number)})
 
 
@@ -152,7 +157,7 @@ def spectrum(
     with budget.watched():
         try:
             return _answered(question, most, budget)
-        except Uncovered as reason:
+        except (Uncovered, LimitExceeded) as reason:
             return _spectrum(question, [], reason=f"undecided: {reason}")
 
 
@@ -172,6 +177,8 @@ def _question(
         S = expression - sympy.Symbol(energy)
     if energy in {s.name for s in expression.free_symbols}:
         raise InputError(f"the potential contains {energy}, the energy", hint="energy= gives it another name")
+    if expression.has(sympy.I):
+        raise InputError("the potential isn't real")
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     parsed = read_input(S, var=name, limits=limits, exponentials=True)
@@ -182,12 +189,20 @@ def _question(
     if others:
         raise InputError(f"{', '.join(others)} in the domain isn't a parameter of the potential")
     known = read_assumptions(assume, V, names)
+    for name in _constants(expression, names):
+        known = known.also(name, ("irrational", "positive"))
     signs = Signs(known, names)
     expression = read_expression(S[: S.rindex(" - ")]) if isinstance(S, str) else expression
     first, last = map(signs.real, ends)
     if signs.is_nonnegative(first - last) or first in (sympy.oo,) or last == -sympy.oo:
         raise InputError(f"the domain is empty: {first} isn't below {last}")
     return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS)
+
+
+def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:
+    """pi and e, which are parameters for the program, and aren't for users."""
+    symbols = {symbol.name for symbol in expression.free_symbols}
+    return {name: value for name, value in ((PI, sympy.pi), (EULER, sympy.E)) if name in names and name not in symbols}
 
 
 def _end(value: Any) -> Any:

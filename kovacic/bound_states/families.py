@@ -92,10 +92,10 @@ def _radicals(roots: list[Root]) -> tuple[tuple[Any, Any], ...]:
     return tuple(radical for root in roots for radical in root.radicals)
 
 
-def _are_real(roots: list[Root]) -> list[Any]:
-    """That what stands under the square roots isn't negative."""
+def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
+    """That what stands under the square roots isn't negative; or that it is positive."""
     squares = (root.square for root in roots if root.radicals and not root.square.has(sympy.I))
-    return [sympy.Ge(square, 0) for square in squares]
+    return [sympy.Gt(square, 0) if positive else sympy.Ge(square, 0) for square in squares]
 
 
 def jacobi_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
@@ -201,7 +201,12 @@ def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
         equation = -r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
         for found in solved(equation, roots, E):
             rate, difference = kappa.xreplace(found.values), delta.xreplace(found.values)
-            conditions = [*_are_real(roots), *_decay(frame, rate), *ends.conditions(frame.domain, origin, difference)]
+            conditions = [
+                *_are_real(roots[:1], positive=True),
+                *_are_real(roots[1:]),
+                *_decay(frame, rate),
+                *ends.conditions(frame.domain, origin, difference),
+            ]
             if possible(conditions, ends.signs):
                 from kovacic.bound_states.waves import laguerre_wave
 
@@ -267,7 +272,7 @@ def hermite_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
     n, x = ends.signs.n, frame.x
     for kappa in (root.value, -root.value):
         for found in solved(gamma - beta**2 / (4 * alpha) + kappa * (2 * n + 1), [root], E):
-            conditions = [*_are_real([root]), _above(kappa, 0, strict=True)]
+            conditions = [*_are_real([root], positive=True), _above(kappa, 0, strict=True)]
             if not possible(conditions, ends.signs):
                 continue
             shifted = x + sympy.factor(beta / (2 * alpha))

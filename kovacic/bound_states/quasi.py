@@ -27,7 +27,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.bound_states.ends import End
 from kovacic.bound_states.families import Ends, possible
 from kovacic.bound_states.frame import Spot, Uncovered
-from kovacic.engine.places import analyse
+from kovacic.engine.places import Kind, analyse
 from kovacic.equation import Equation
 from kovacic.limits import Budget
 from kovacic.parametric.exponents import Exponents, choices, choices_of_degree
@@ -56,6 +56,8 @@ def found_of_degree(
 ) -> Iterator[Found]:
     """All of them; raises `Uncovered` where the exponents need too large an extension of the field."""
     problem = analyse(S, budget)
+    if any(place.kind is Kind.RAMIFIED for place in problem.places):
+        raise Uncovered("at a ramified singular point no solution has a polynomial in it")
     generic = choices(problem)
     if generic is None:
         raise Uncovered("the exponents need too large an extension of the field")
@@ -153,6 +155,8 @@ def _found(
         demands = tuple(c.subs(energy, energies[0]) for c in demands)
     if not polynomial.has(energy):
         return None
+    if not polynomial.is_polynomial(energy):
+        raise Uncovered("the energies aren't the zeros of a polynomial")
     t = sympy.Symbol(variable)
     wave = y if equation is None else Given(lambda _: (), equation).translated(y)
     P = system[0].to_sympy(t)
