@@ -123,6 +123,22 @@ def test_exponents_at_conjugate_places() -> None:
         assert least.rad() < 1e-50
 
 
+def test_the_status_is_the_gravest_verdict(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """0 for checked lines alone, 1 where one is refuted, 2 where one is unreadable and none refuted, 3 else."""
+    right = kovacic.solve("x").to_json(full=True)
+    lines = {
+        "right": right,
+        "wrong": right.replace('"SL2"', '"GL2"'),
+        "none": "{",
+        "other": right.replace('"schema": 1', '"schema": 2'),
+    }
+    for names, status in (("right", 0), ("right wrong none", 1), ("none right other", 2), ("right other", 3)):
+        file = tmp_path / "answers.jsonl"
+        file.write_text("\n".join(lines[name] for name in names.split()), encoding="utf-8")
+        assert checker.main([str(file)]) == status
+    assert "refuted" in capsys.readouterr().out
+
+
 # ------------------------------------------------------------------------------------------- as a program
 
 

@@ -85,6 +85,22 @@ def test_small_equations(S: str, name: str, ground: Ground) -> None:
     assert (group.name, group.ground) == (name, ground)
 
 
+@pytest.mark.parametrize(
+    ("omega", "name"),
+    [
+        (1 / X - 2 / (X - 1) - 1 / (X + Fraction(1, 2)), "trivial"),  # (x - 1)^4 (x + 1/2)^2/x^2 has no residue
+        (1 / X - 2 / (X - 1) - 1 / (X - Fraction(1, 2)), "G_a"),
+        (Fraction(1, 3) / X - 3 / (X - 1), "mu_3"),
+    ],
+    ids=str,
+)
+def test_the_second_solution_of_a_rational_one(omega: RatFunc, name: str) -> None:
+    """y2 = y1 int dx/y1^2 lies in the field of y1 exactly if no residue is in the way; there is none of x^(-2/3) (x - 1)^6."""
+    solution = kovacic.solve(transform.from_omega(omega))
+    assert solution.group.name == name
+    assert solution.verify()
+
+
 @settings(max_examples=25)
 @given(strategies.distinct_irreducibles(1, 3, 3), st.data())
 def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObject) -> None:
