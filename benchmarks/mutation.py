@@ -394,7 +394,7 @@ def table() -> Iterator[str]:
         planted = killed + len(names)
         score = killed / max(planted - explained, 1)
         yield f"| {part} | {found['commit']} | {possible} | {planted} | {killed} | {explained} | {score:.1%} |"
-    yield "\nThe score leaves out the explained ones, which change no answer, or which a test notices that was added since.  Survivors:\n"
+    yield "\nThe score leaves out the explained ones, which change no answer or are noticed by a later test.  Survivors:\n"
     yield from survivors
 
 
