@@ -21,7 +21,7 @@ from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.partition import Partition, Settings, partition, together
+from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
@@ -66,9 +66,8 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     settings = Settings(budget, parsed.variable, only_theorems=max_degree is None)
     with budget.watched():
         found = partition(lifted, settings)
-        with suppress(LimitExceeded):  # then the first one is the answer, as far as it goes
-            if found.complete is not True:
-                found = _in_powers(lifted, settings) or found
+        if found.complete is not True:
+            found = _in_powers(lifted, settings, found)
     field = lifted.field.ground
     assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, field, constant, parsed.variable, budget)
@@ -90,12 +89,16 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     )
 
 
-def _in_powers(S: RatFunc, settings: Settings) -> Partition | None:
-    """The partition by powers of the parameters, where it is complete."""
-    powers = in_powers(S)
-    found = None if powers is None else partition(powers.S, settings)
-    if powers is None or found is None or found.complete is not True:
-        return None
+def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
+    """The partition by powers of the parameters, where it is complete; else the direct one."""
+    try:
+        powers = in_powers(S)
+        found = direct if powers is None else partition(powers.S, settings)
+    except LimitExceeded as limit:
+        return replace(direct, complete=as_far_as(limit))
+    if powers is None or found.complete is not True:
+        is_limited = str(found.complete).startswith(LIMITED)
+        return replace(direct, complete=found.complete) if is_limited else direct
     return replace(found, regions=tuple(powers.back(region) for region in found.regions))
 
 

@@ -36,6 +36,8 @@ from kovacic.parametric.solutions import solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 
+#: How completeness begins where a limit was reached.
+LIMITED = "only as far as the limits allowed"
 #: Said of a theory that holds for an equation without apparent singularities.
 _TRANSFORMED = ", after Darboux' transformation"
 _UNKNOWN = RegionVerdict(None, known=False)
@@ -74,7 +76,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
-        return Partition(verdict, _as_far_as(limit), "nothing but the generic answer")
+        return Partition(verdict, as_far_as(limit), "nothing but the generic answer")
 
 
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
@@ -143,7 +145,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
                 if any(not r.verdict.known or r.case != expected.case or r.complete is not True for r in found):
                     regions += found
     except LimitExceeded as limit:
-        complete = _as_far_as(limit)
+        complete = as_far_as(limit)
     half_integers = all_half_integers(problem)
     for statement in findings.natural:
         structure = statement.structure
@@ -179,12 +181,12 @@ def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Setting
         try:
             regions += _pieces(S, function, settings)
         except LimitExceeded as limit:
-            regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, _as_far_as(limit)))
+            regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, as_far_as(limit)))
     return regions
 
 
-def _as_far_as(limit: LimitExceeded) -> str:
-    return f"only as far as the limits allowed: {limit}"
+def as_far_as(limit: LimitExceeded) -> str:
+    return f"{LIMITED}: {limit}"
 
 
 def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
