@@ -35,7 +35,7 @@ _NAMES = {
         "ParseError",
         "VerificationFailed",
     ),
-    "general_solution": ("dsolve", "register", "solve_riccati", "unregister"),
+    "general_solution": ("dsolve", "register", "solve_riccati", "unregister", "validity"),
     "limits": ("Limits",),
     "parameters": ("conditions",),
     "solution": ("Solution", "solve"),

@@ -26,6 +26,7 @@ from kovacic.general_solution import dsolve as dsolve
 from kovacic.general_solution import register as register
 from kovacic.general_solution import solve_riccati as solve_riccati
 from kovacic.general_solution import unregister as unregister
+from kovacic.general_solution import validity as validity
 from kovacic.limits import Limits as Limits
 from kovacic.parameters import conditions as conditions
 from kovacic.solution import Solution as Solution

@@ -165,7 +165,7 @@ def dsolve(equation: str, as_json: bool, latex: bool, ics: str, **given: Any) ->
 
 def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
     """What `dsolve` finds; beside formulas of many lines a shorter one in special functions, if one is known."""
-    from kovacic.general_solution import dsolve, in_special_functions
+    from kovacic.general_solution import dsolve, in_special_functions, validity
     from kovacic.numerals import as_latex, as_text
     from kovacic.views.sentences import SHORTER
     from kovacic.writing.formula import caret
@@ -178,11 +178,13 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
         else:
             yield from (SHORTER,) if k else ()
             yield f"{'  ' if k else ''}{solution.lhs} = {caret(as_text(solution.rhs))}"
+            if needed := validity(solution):
+                yield f"  real and valid for {caret(str(needed))}"
 
 
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
     """What `dsolve` finds and notices, as a line of JSON."""
-    from kovacic.general_solution import dsolve, in_special_functions
+    from kovacic.general_solution import dsolve, in_special_functions, validity
     from kovacic.numerals import as_latex, as_text
 
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
@@ -197,6 +199,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
             "solution": as_text(found.rhs),
             "latex": as_latex(found),
             "special": None if shorter is None else as_text(shorter.rhs),
+            "validity": str(validity(found)) or None,
             "notices": [str(warning.message) for warning in noticed],
         }
     return json_line(data)

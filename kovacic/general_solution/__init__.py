@@ -10,13 +10,16 @@ from kovacic.general_solution.dsolve import dsolve, in_special_functions
 from kovacic.general_solution.homogeneous import NothingKnown
 from kovacic.general_solution.riccati import RiccatiSolutions, solve_riccati
 from kovacic.general_solution.sympy_hint import register, unregister
+from kovacic.general_solution.validity import Validity, validity
 
 __all__ = [
     "NothingKnown",
     "RiccatiSolutions",
+    "Validity",
     "dsolve",
     "in_special_functions",
     "register",
     "solve_riccati",
     "unregister",
+    "validity",
 ]

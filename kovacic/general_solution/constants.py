@@ -181,16 +181,16 @@ def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Ca
 
 def condition_of(zero: Expr) -> str:
     """`zero = 0` in a short form: without factors that aren't zero."""
-    left = _vanishing(zero)
+    left = vanishing_factors(zero)
     return f"{-left if left.could_extract_minus_sign() else left} = 0"
 
 
 def can_be(case: Case) -> bool:
     """Are there factors that may be zero in all that is zero in a case?"""
-    return all(_vanishing(zero) != 1 for zero in case.zeros)
+    return all(vanishing_factors(zero) != 1 for zero in case.zeros)
 
 
-def _vanishing(zero: Expr) -> Expr:
+def vanishing_factors(zero: Expr) -> Expr:
     """The factors that may be zero, each once."""
     whole = sympy.numer(sympy.together(zero))
     waves = sympy.expand(TR8(sympy.expand(whole)))

@@ -68,11 +68,13 @@ def dsolve(
     Parameters
     ----------
     eq : sympy.Eq, sympy.Expr or str
-        The equation, an expression that is zero, or text.  Coefficients may be rational in x, or in exp(k x), sines, ... of
-        multiples of k x.  SymPy's floats are the decimals that they are written as, and the answer has floats then; a
-        decimal in a text is an exact number.  A list of one equation gives a list of one answer.
+        The equation, an expression that is zero, or text.  Coefficients may be rational in x, in exp(k x), sines, ... of
+        multiples of k x, or in a power x^k.  Every part without x is a constant.  The right-hand side may be any function of
+        x, with jumps and impulses at constant points.  y''/y = x is multiplied out.  SymPy's floats are the decimals that
+        they are written as, and the answer has floats then; a decimal in a text is an exact number.  A list of one equation
+        gives a list of one answer.
     func : y(x) or y, optional
-        The unknown function, where more than one function occurs; or a list of it.
+        The unknown function, where more than one function of x occurs; or a list of it.
     hint : str, optional
         "default", "best" and "kovacic" mean the same: there is one method.
     simplify, x0, n : optional
@@ -136,6 +138,13 @@ def dsolve(
     Eq(w(x), tan(C1 + x))
     >>> print(dsolve("w' = 2*w/x + w^2", ics="w(1)=1"))
     Eq(w(x), -3*x**2/(x**3 - 4))
+
+    Jumps and constants:
+
+    >>> print(dsolve("y'' + y = sign(x)"))
+    Eq(y(x), C1*cos(x) + C2*sin(x) + (2 - 2*cos(x))*Heaviside(x) - 1)
+    >>> print(dsolve("y'' - exp(2*b)*y = 0"))
+    Eq(y(x), C1*exp(x*exp(b)) + C2*exp(-x*exp(b)))
 
     At singular points and at infinity:
 

@@ -1,0 +1,49 @@
+"""What a solution needs to be real and valid."""
+
+from __future__ import annotations
+
+import pytest
+import sympy
+from sympy.abc import a, b, c, k, m, v, w, x  # the names in texts
+
+import kovacic
+from kovacic.cli.main import main
+
+
+@pytest.mark.parametrize(
+    ("equation", "real", "exceptions"),
+    [
+        ("y'' + w^2*y = cos(v*x)", [], {w, v - w, v + w}),
+        ("y'' - 2*a*y' + a^2*y = exp(b*x)", [], {a - b}),
+        ("x^2*y'' + x*y' - y = log(x)", [x > 0], set()),
+        ("x^2*y'' + x*y' + (x^2 - 1/9)*y = 0", [x > 0], set()),
+        ("(1-x^2)*y'' - x*y' + y = 0", [1 - x**2 >= 0], set()),
+        ("y'' + y = x", [], set()),
+    ],
+)
+def test_what_is_needed(equation: str, real: list[object], exceptions: set[object]) -> None:
+    found = kovacic.validity(kovacic.dsolve(equation))
+    assert (list(found.real), set(found.exceptions)) == (real, exceptions)
+    assert bool(found) is bool(real or exceptions)
+
+
+def test_the_oscillator() -> None:
+    """Beyond m = 0, only critical damping, c^2 = 4 k m, is an exception, where the formula has one constant too few."""
+    solution = kovacic.dsolve("m*y'' + c*y' + k*y = 0")
+    assert set(kovacic.validity(solution).exceptions) == {m, c**2 - 4 * k * m}
+    critical = solution.rhs.subs(k, c**2 / (4 * m))
+    assert sympy.simplify(critical.diff(x) / critical).free_symbols == {c, m}
+
+
+def test_what_is_assumed_is_used() -> None:
+    t, p = sympy.symbols("t p", positive=True)
+    y = sympy.Function("y")(t)
+    assert not kovacic.validity(kovacic.dsolve(t * y.diff(t, 2) + y.diff(t) + p**2 * t * y))
+    with pytest.raises(kovacic.InputError):
+        kovacic.validity(t)
+
+
+def test_a_line_of_the_output(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["dsolve", "y'' + w^2*y = cos(v*x)"])
+    assert "real and valid for v + w != 0, v - w != 0, w != 0" in capsys.readouterr().out
