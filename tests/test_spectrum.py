@@ -265,6 +265,9 @@ def test_pi_is_a_number() -> None:
 def test_a_root_that_may_vanish_is_positive() -> None:
     found = kovacic.spectrum("A*x^2 + B/x^2", domain=HALF, boundary="friedrichs")
     assert [*map(str, found.levels[0].conditions)] == ["A > 0", "B >= -1/4"]
+    only_one = kovacic.spectrum("x^2 + B/x^2", domain=HALF)
+    assert [*map(str, only_one.levels[0].conditions)] == ["B >= 3/4"]
+    assert [*map(str, only_one.excluded)] == ["B < 3/4"]
 
 
 def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -19,7 +19,8 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     """
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
     left = _paired(left, signs)
-    roots = {symbol: root**2 for symbol, root in (radicals or {}).items() if root.is_Pow}
+    squares = {symbol: sympy.expand(root**2) for symbol, root in (radicals or {}).items()}
+    roots = {symbol: square for symbol, square in squares.items() if not _radicals(square)}
     squared = [_squared(_solved(c, signs), roots) for c in left]
     are_positive = {square for square, is_new in squared if is_new and square is not None}
     found = [
@@ -43,6 +44,10 @@ def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
         elif (is_lower and signs.is_positive(gap)) or (is_lower_too and signs.is_positive(-gap)):
             return (sympy.false,)
     return tuple(c for c in conditions if c not in implied)
+
+
+def _radicals(expression: Any) -> set[Any]:
+    return {power for power in expression.atoms(sympy.Pow) if not power.exp.is_Integer and power.base.free_symbols}
 
 
 def _squared(condition: Any, roots: Mapping[Any, Any]) -> tuple[Any, bool]:
