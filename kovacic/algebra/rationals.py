@@ -28,6 +28,10 @@ _LONG_DEGREE = 400
 _FACTORED_BITS, _SMOOTH_BITS = 160, 15
 #: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
 _POWER_SECONDS, _GCD_SECONDS = 1.2e-9, 1.2e-11
+#: Above this degree products and divisions look at the clock; divisions so many times for each degree of the divisor.
+_LOOK_DEGREE, _PIECES, _SHORTEST_PIECE = 100, 8, 64
+#: FLINT's time for a long product per bit of its coefficients.
+_PRODUCT_SECONDS, _LONG_PRODUCT = 2e-9, 10**7
 
 
 def to_fmpq(value: Scalar) -> Any:
@@ -102,6 +106,8 @@ class RationalPoly(Poly):
 
     def __mul__(self, other: Poly | Scalar) -> RationalPoly:
         if type(other) is RationalPoly:
+            if self.rep.degree() > _LOOK_DEGREE and other.rep.degree() > _LOOK_DEGREE:
+                self._foresee_product(other)
             return RationalPoly(self.rep * other.rep)
         if type(other) is int:
             return RationalPoly(self.rep * other)
@@ -110,10 +116,18 @@ class RationalPoly(Poly):
     __rmul__ = __mul__
 
     def __mod__(self, other: Poly | Scalar) -> RationalPoly:
-        return RationalPoly(self.rep % other.rep) if type(other) is RationalPoly else super().__mod__(other)
+        if type(other) is not RationalPoly:
+            return super().__mod__(other)
+        if self.rep.degree() <= _LOOK_DEGREE:
+            return RationalPoly(self.rep % other.rep)
+        return RationalPoly(_long_division(self.rep, other.rep)[1])
 
     def __floordiv__(self, other: Poly | Scalar) -> RationalPoly:
-        return RationalPoly(self.rep // other.rep) if type(other) is RationalPoly else super().__floordiv__(other)
+        if type(other) is not RationalPoly:
+            return super().__floordiv__(other)
+        if self.rep.degree() <= _LOOK_DEGREE:
+            return RationalPoly(self.rep // other.rep)
+        return RationalPoly(_long_division(self.rep, other.rep)[0])
 
     def __truediv__(self, other: Poly | Scalar) -> RationalPoly:
         if type(other) is RationalPoly and other.rep.degree() == 0:
@@ -135,8 +149,15 @@ class RationalPoly(Poly):
         return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
-        quotient, remainder = divmod(self.rep, other.rep)
+        quotient, remainder = _long_division(self.rep, other.rep)
         return RationalPoly(quotient), RationalPoly(remainder)
+
+    def _foresee_product(self, other: RationalPoly) -> None:
+        """Look at the clock before a long product; raise `LimitExceeded` where it won't end in time."""
+        check_time()
+        bits = (self.degree + other.degree) * (self.height_bits() + other.height_bits())
+        if bits > _LONG_PRODUCT:
+            check_duration(_PRODUCT_SECONDS * bits, f"a product of polynomials of degree {self.degree} and {other.degree}")
 
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
@@ -286,6 +307,45 @@ class RationalField(Field):
 
     def __str__(self) -> str:
         return "Q"
+
+
+def _is_power(polynomial: Any) -> bool:
+    """Is it c x^n?"""
+    return not any(polynomial.coeffs()[:-1])
+
+
+def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
+    """Quotient and remainder, in pieces of the dividend where that takes long, with a look at the clock between them.
+
+    FLINT's division over Q multiplies by powers of the divisor's leading coefficient even where that is 1, and takes many times
+    as long as that over Z.
+    """
+    size = divisor.degree()
+    if dividend.degree() <= _LOOK_DEGREE or dividend.degree() < size or size <= 0:
+        return divmod(dividend, divisor)  # type: ignore[no-any-return]
+    check_time()
+    if _is_power(divisor):  # FLINT divides as by any other polynomial
+        return dividend.right_shift(size) / divisor[size], dividend.mul_low(fmpq_poly([1]), size)
+    over_integers = divisor.numer().leading_coefficient() == 1
+    above, below = (dividend.numer(), divisor.numer()) if over_integers else (dividend, divisor)
+    quotient, rest = _in_pieces(above, below, max(size // _PIECES, _SHORTEST_PIECE))
+    if not over_integers:
+        return quotient, rest
+    scale = fmpq(1, dividend.denom())
+    return fmpq_poly(quotient) * (divisor.denom() * scale), fmpq_poly(rest) * scale
+
+
+def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
+    """Quotient and remainder: the leading coefficients first, so many at a time, each piece behind what is left of the last."""
+    coefficients, ring = dividend.coeffs(), type(dividend)
+    quotient = rest = ring([])
+    for end in range(len(coefficients), 0, -size):
+        check_time()
+        begin = max(0, end - size)
+        piece = rest.left_shift(end - begin) + ring(coefficients[begin:end])
+        part, rest = divmod(piece, divisor)
+        quotient = quotient.left_shift(end - begin) + part
+    return quotient, rest
 
 
 def _factored(polynomial: Any) -> list[tuple[Any, int]]:

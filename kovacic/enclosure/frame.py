@@ -23,6 +23,7 @@ from flint import acb_poly, arb, arb_poly, fmpq_poly
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
+from kovacic.limits import check_duration, check_time
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
 Parts = tuple[list[int], list[int] | None]
@@ -30,11 +31,16 @@ _BITS = 64
 _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
+_LONG, _HALVINGS, _FEW_HALVINGS = 100, 60, 6  # of the way, for a lower bound of the growth; few for degrees above 100
+_SHIFT_SECONDS = 2e-9  # that it takes at least to make the equation around a centre, per bit of its coefficients
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
 def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Parts, Parts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
+    degree = max(len(system.num), len(system.den))
+    bits = degree**2 * max(centre.height_bits(), scale.height_bits())
+    check_duration(_SHIFT_SECONDS * bits, f"the equation of degree {degree} around a point")
     q, p = system.along("den", centre, scale), system.along("num", centre, scale)
     re, im = q[0][0], q[1][0]
     turn = ExactPoint(re, -im) if im != 0 else ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
@@ -188,6 +194,18 @@ def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: fl
     return frame if frame is not None and frame.bound.log2_growth <= growth else None
 
 
+def largest_exponent(system: System, point: ExactPoint) -> float:
+    """No disc that contains the point has a frame with a larger exponent e: 4^e |S(point)| is below its majorant.
+
+    Infinite where S may vanish there.
+    """
+    with working_precision(_BITS):
+        here = to_acb(point)
+        size = abs(system.polynomial("num")(here)).lower()
+        steepest = arb(_STEEPEST**2) * abs(system.polynomial("den")(here)).upper()
+        return math.ceil(log2(steepest / size) / 2) if size > 0 else math.inf
+
+
 def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     """A lower bound of int |S|^(1/2) |dx| along the segment from a to b: so much the solutions grow, or oscillate.
 
@@ -195,21 +213,34 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     piece is of no use for the whole piece, its middle counts alone.
     """
     total = 0.0
-    towards = [i / 64 * 2.0**-k for k in range(60) for i in range(32, 16, -1 if k == 0 else -4)]  # 1/2, 31/64, ...
-    with working_precision(_BITS + 4 * len(system.num)):
+    degree = max(len(system.num), len(system.den))
+    halvings = _HALVINGS if degree <= _LONG else _FEW_HALVINGS
+    # 1/2, 31/64, ..., 17/64, and four points in each half of what is left
+    towards = [i / 64 * 2.0**-k for k in range(halvings) for i in range(32, 16, -1 if k == 0 else -4)]
+    with working_precision(_BITS + 4 * min(degree, _LONG)):
         start, step, both = to_acb(a), to_acb(b - a), [system.polynomial("num"), system.polynomial("den")]
         length = abs(step).upper()
         marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
         for first, last in itertools.pairwise(marks):
+            check_time()
             middle, half = step * (first + last) / 2, length * (last - first) / 2
             p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
-            for r in (half, half / 4, half / 16) if p else ():
-                size = p[0].lower() - sum((c.upper() * r**j for j, c in enumerate(p) if j), arb(0))
-                if size > 0:
-                    size /= sum((c.upper() * r**j for j, c in enumerate(q)), arb(0))
-                    total += float((size.sqrt() * 2 * r).lower())
-                    break
+            total += _growth_near(p, q, half)
     return total
+
+
+def _growth_near(p: list[arb], q: list[arb], half: arb) -> float:
+    """A lower bound of int |S|^(1/2) |dx| over the piece, from the absolute values of the coefficients around its middle."""
+    if not p:
+        return 0.0
+    with working_precision(_BITS):
+        others = arb_poly([0, *(c.upper() for c in p[1:])])
+        below = arb_poly([c.upper() for c in q])
+        for r in (half, half / 4, half / 16):
+            size = p[0].lower() - others(r)
+            if size > 0:
+                return float(((size / below(r)).sqrt() * 2 * r).lower())
+    return 0.0
 
 
 def log2(value: arb) -> float:

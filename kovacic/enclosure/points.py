@@ -103,6 +103,10 @@ class ExactPoint:
         """|z|^2, exactly."""
         return self.x * self.x + self.y * self.y
 
+    def height_bits(self) -> int:
+        """The length of the longest of the integers that it is made of."""
+        return max(int(self.x.height_bits()), int(self.y.height_bits()))
+
     def __complex__(self) -> complex:
         return complex(float(self.x), float(self.y))
 

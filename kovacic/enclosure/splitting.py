@@ -274,7 +274,7 @@ def bit_burst(system: System, frame: Frame, target: ExactPoint, prec: int) -> li
     while target != frame.centre:
         z = frame.seen(target)
         bits = prec + length  # the slopes are divided by the length of the step
-        if _height(z) <= 2 * length:
+        if z.height_bits() <= 2 * length:
             return [*matrices, *split_legs(system, frame, target, bits)]
         if prec < _FEW * length:
             return [*matrices, transition(expand(frame, bits), target)]
@@ -292,13 +292,8 @@ def legs(
     system: System, frame: Frame, enter: ExactPoint, leave: ExactPoint, prec: int
 ) -> tuple[list[Matrix], list[Matrix]]:
     """The factors, in order, of the matrices from the centre to both junctions of a disc."""
-    if enter == frame.centre + frame.centre - leave and _height(frame.seen(leave)) <= 2 * _BURST:
+    if enter == frame.centre + frame.centre - leave and frame.seen(leave).height_bits() <= 2 * _BURST:
         stop, start = split_legs(system, frame, leave, prec, mirror=True)
         return [start], [stop]
     start_factors, stop_factors = (bit_burst(system, frame, point, prec) for point in (enter, leave))
     return start_factors, stop_factors
-
-
-def _height(z: ExactPoint) -> int:
-    """The bits of the longest of the integers that z is made of."""
-    return max(int(x.height_bits()) for x in (z.x, z.y))

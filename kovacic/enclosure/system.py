@@ -130,7 +130,7 @@ def offsets(system: System, centre: ExactPoint) -> Zeros:
 
     Raises InputError if the centre is one of them.
     """
-    prec = 64 + min(max(int(part.height_bits()) for part in (centre.x, centre.y)), 1 << 14)
+    prec = 64 + min(centre.height_bits(), 1 << 14)
     while True:
         with working_precision(max(128, prec)):
             here = to_acb(centre)

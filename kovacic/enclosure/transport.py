@@ -25,7 +25,7 @@ from typing import Any
 
 from flint import acb, fmpq
 
-from kovacic.enclosure.frame import REACH, Frame, fitting, least_growth, log2
+from kovacic.enclosure.frame import REACH, Frame, fitting, largest_exponent, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import is_split, legs
@@ -132,7 +132,9 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
     begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
     growth = growth_of_disc(prec, targets)
-    foreseen = False
+    foreseen = _is_steep(system, a, b)
+    if foreseen:
+        _refuse(system, a, b, prec, 0.0)
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
         _LOG.debug("disc %d: centre %s, radius 2^%d", number, disc.frame.centre, disc.frame.e)
@@ -149,6 +151,12 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
             raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
 
 
+def _is_steep(system: System, a: ExactPoint, b: ExactPoint) -> bool:
+    """Would the way take too many steps if all were as short as the first one has to be?"""
+    e = largest_exponent(system, a)
+    return e < 0 and power_of_two(2 * int(e)) * _MAX_DISCS**2 < (b - a).norm_squared()
+
+
 def _refuse(system: System, a: ExactPoint, b: ExactPoint, prec: int, each: float) -> None:
     """Raise as soon as it is clear that the limits don't allow all steps from a to b, of so many seconds each.
 
@@ -157,7 +165,8 @@ def _refuse(system: System, a: ExactPoint, b: ExactPoint, prec: int, each: float
     """
     growth = least_growth(system, a, b)
     least = growth / (2 * (_allowed_growth(prec) + 10) * math.log(2))
-    reason = f"the solutions grow or oscillate by exp({growth:.2g}) on the way from {a} to {b}, which takes {least:.2g} steps"
+    size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
+    reason = f"the solutions grow or oscillate by {size} on the way from {a} to {b}, which takes {least:.2g} steps"
     if least > _MAX_DISCS:
         raise LimitExceeded(f"{reason} or more, above the limit of {_MAX_DISCS}", limit="unknown_degree")
     if each * (least - _TRIED) > watched_seconds(math.inf):
@@ -220,7 +229,10 @@ class StraightPiece:
         near = distance_lower(self.system, enter)
         if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
             e = min(e, math.ceil(log2(near)) + 1)
+        if guess is None:
+            e = min(e, largest_exponent(self.system, enter))
         for _ in range(20_000):
+            check_time()
             disc = self._disc(t, enter, e)
             if disc is not None:
                 return disc

@@ -1,0 +1,526 @@
+"""How long does a call work after its time is over?  Heavy equations through every public call that has limits.
+
+The limit is `seconds`, and the clock that it is read from is the processor's (`kovacic.limits.CLOCK`), so that the load of
+the machine plays no part.  The excess of a call is the processor time that it took beyond 1.2 * seconds + 0.1: what should be
+0 everywhere.  Each family of equations is made in several sizes, from such as take a moment to such as take hours; the
+answers of which the views are asked are solved before, with more time, where that is enough.  What a process loads once
+(SymPy, NumPy, matplotlib) was loaded before.  A call that works for 10 s longer is ended, and said.
+
+Regenerate:  python benchmarks/limits.py                     writes results/limits.{json,md}; some 20 minutes on two cores
+             python benchmarks/limits.py --family poles --call solve --seconds 0.5      prints those alone
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+import resource
+import subprocess
+import sys
+import threading
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+from typing import Any
+
+import families
+import frame
+import sympy
+import transform
+
+import kovacic
+from kovacic.errors import KovacicError
+from kovacic.limits import CLOCK, Limits
+
+SECONDS = (0.1, 0.5, 2.0)
+#: What is prepared may take so long; a call that takes longer than this is ended.
+PREPARATION, LONGEST = 20.0, 10.0
+X = families.X
+
+
+# --- The equations: a function of the size.  A text, a pair of coefficient lists, or a SymPy expression.
+
+
+def power(n: int) -> str:
+    return f"(x^2+3*x+7)^{n}+x"
+
+
+def power_of_a_quotient(n: int) -> str:
+    return f"(x+1)^{n}/(x^2-2)^{n // 2} + x"
+
+
+def nested_powers(n: int) -> str:
+    return f"((x+1)^{n}+(x+2)^{n}+1/3)^{n}"
+
+
+def pole_of_high_order(n: int) -> str:
+    return f"1/x^{n} + 3/(x-1)^{n // 2} + x"
+
+
+def pole_of_high_order_on_curves(n: int) -> str:
+    return f"(x+5)/(x^2-x+3)^{n}"
+
+
+def hermite(n: int) -> str:
+    return f"y'' - 2*x*y' + {2 * n}*y = 0"
+
+
+def legendre(n: int) -> str:
+    return f"(1-x^2)*y'' - 2*x*y' + {n * (n + 1)}*y = 0"
+
+
+def gegenbauer_shifted(n: int) -> str:
+    return f"(1-(x-1/3)^2)*y'' - 3*(x-1/3)*y' + {n * (n + 2)}*y = 0"
+
+
+def bessel_of_half_order(n: int) -> str:
+    return f"x^2*y'' + x*y' + (x^2 - ({2 * n + 1}/2)^2)*y = 0"
+
+
+def exponents_apart(n: int) -> str:
+    return f"x^4 + {2 * n}*x + 1"
+
+
+def poles(n: int) -> str:
+    return "+".join(f"{3 + i % 5}/(4*(x-{i})^2)" for i in range(1, n + 1))
+
+
+def poles_of_order_four(n: int) -> str:
+    return "+".join(f"1/(x-{i})^4" for i in range(1, n + 1))
+
+
+def quintic_poles(n: int) -> str:
+    return families.unique_irreducible(n, random.Random(n)).to_str("x")
+
+
+def accessory(n: int) -> str:
+    return families.none_accessory(n, random.Random(n)).to_str("x")
+
+
+def diagonal(n: int) -> str:
+    return families.diagonal(n, random.Random(n)).to_str("x")
+
+
+def roots_of_unity(n: int) -> str:
+    return f"1/(x^{n} - 1)"
+
+
+def irreducible_denominator(n: int) -> str:
+    return f"(x+2)/(x^{n} + x + 3)^2"
+
+
+def icosahedral(n: int) -> str:
+    build = families.FAMILIES["case 3, icosahedral"][0]
+    return build(n, random.Random(n)).to_str("x")
+
+
+def dicyclic(n: int) -> str:
+    curve = (X**3 + X + 1) ** 2 - 3
+    return transform.from_squared_product(curve / (3 * X**2 + 1) ** 2, Fraction(4, n * n)).to_str("x")
+
+
+def long_constant(n: int) -> str:
+    return f"x^2 + {10**n + 7}"
+
+
+def long_constants(n: int) -> tuple[list[int], list[int]]:
+    rng = random.Random(n)
+    return [rng.randrange(10**n) for _ in range(9)], [rng.randrange(10**n) for _ in range(5)]
+
+
+def many_coefficients(n: int) -> tuple[list[int], list[int]]:
+    rng = random.Random(n)
+    return [rng.randrange(10**9) for _ in range(n)], [rng.randrange(10**9) for _ in range(n // 2)]
+
+
+def number_field(n: int) -> str:
+    return f"(sqrt(2)*x^{n} + sqrt(3)*x + 1)/(x - sqrt(5))^2"
+
+
+def deep_number_field(n: int) -> str:
+    return f"(x^{n}+1)*(sqrt(2)+sqrt(3)*x)^2*(1+sqrt(7)/x)"
+
+
+def exponentials(n: int) -> str:
+    return f"y'' = (exp({2 * n}*x) + 3*exp(x) + 1/(1+exp(x))^{n})*y"
+
+
+def trigonometric(n: int) -> str:
+    return f"y'' + sin(x)^{n}*y'/(2+cos(x))^{n} + tan(x)*y = 0"
+
+
+def hyperbolic(n: int) -> str:
+    return f"y'' = ({n * (n + 1)} - {n * (n - 1)}/cosh(x)^2 + tanh(x)^{n})*y"
+
+
+def parameters(n: int) -> str:
+    return f"(n^2*x^{n} + a*x + 1)/(x^3 + n*x + a)^2"
+
+
+def polynomial_parameters(n: int) -> str:
+    return "+".join(f"a{i}*x^{i}" for i in range(min(n, 6))) + f"+x^{2 * n}"
+
+
+def parameters_at_poles(n: int) -> str:
+    return "(x+a)^2 + b/(x-c)^2 + " + "+".join(f"a^{i}/(x-{i})" for i in range(1, n))
+
+
+def sympy_expression(n: int) -> Any:
+    x = sympy.Symbol("x")
+    return sum((x + i) ** n / (x - i) ** 2 for i in range(1, n))
+
+
+def long_sum(n: int) -> str:
+    return "+".join(f"{i}/(x^2+{i}*x+{i * i + 1})" for i in range(1, n))
+
+
+def long_solution(n: int) -> str:
+    """y = exp(x^3) P with a random P of degree n."""
+    rng = random.Random(n)
+    omega = 3 * X**2
+    for _ in range(4):
+        P = families._random_poly(rng, n // 4)
+        omega = omega + families.RatFunc(P.derivative(), P)
+    return transform.from_omega(omega).to_str("x")
+
+
+FAMILIES: dict[str, tuple[Callable[[int], Any], tuple[int, ...]]] = {
+    "power": (power, (300, 2000, 5000)),
+    "power of a quotient": (power_of_a_quotient, (500, 4000, 9000)),
+    "nested powers": (nested_powers, (10, 40, 100)),
+    "pole of high order": (pole_of_high_order, (100, 2000, 10000)),
+    "pole of high order on curves": (pole_of_high_order_on_curves, (60, 600, 5000)),
+    "hermite": (hermite, (500, 4000, 12000)),
+    "legendre": (legendre, (300, 3000, 9000)),
+    "gegenbauer, shifted": (gegenbauer_shifted, (300, 3000, 9000)),
+    "bessel of half order": (bessel_of_half_order, (300, 3000, 9000)),
+    "exponents apart": (exponents_apart, (501, 5001, 20001)),
+    "poles": (poles, (40, 200, 1000)),
+    "poles of order 4": (poles_of_order_four, (20, 100, 500)),
+    "quintic poles": (quintic_poles, (20, 60, 200)),
+    "accessory parameters": (accessory, (20, 80, 300)),
+    "diagonal": (diagonal, (20, 60, 150)),
+    "roots of unity": (roots_of_unity, (60, 720, 5040)),
+    "irreducible denominator": (irreducible_denominator, (30, 300, 2000)),
+    "icosahedral": (icosahedral, (10, 40, 100)),
+    "dicyclic": (dicyclic, (29, 299, 2003)),
+    "long constant": (long_constant, (1000, 20000, 90000)),
+    "long constants": (long_constants, (100, 3000, 40000)),
+    "many coefficients": (many_coefficients, (30, 300, 3000)),
+    "number field": (number_field, (6, 30, 150)),
+    "deep number field": (deep_number_field, (4, 20, 100)),
+    "exponentials": (exponentials, (3, 12, 60)),
+    "trigonometric": (trigonometric, (2, 6, 20)),
+    "hyperbolic": (hyperbolic, (3, 12, 60)),
+    "parameters": (parameters, (3, 8, 40)),
+    "polynomial parameters": (polynomial_parameters, (2, 6, 30)),
+    "parameters at poles": (parameters_at_poles, (2, 5, 12)),
+    "sympy": (sympy_expression, (5, 15, 40)),
+    "long sum": (long_sum, (20, 80, 300)),
+    "long solution": (long_solution, (40, 160, 600)),
+}
+
+
+# --- The calls.  Of the equation itself:
+
+START: dict[str, Any] = {"y0": 1, "dy0": "1/2"}
+
+
+def _dsolve(equation: Any, limits: Limits, **options: Any) -> object:
+    if not (isinstance(equation, str) and "y" in equation):
+        equation = f"y'' = ({_text(equation)})*y"
+    return kovacic.dsolve(equation, var="x", limits=limits, **options)
+
+
+def _forced(equation: Any, limits: Limits) -> object:
+    if isinstance(equation, str) and "=" in equation:
+        return kovacic.dsolve(equation.replace("= 0", "= sin(x)/(x^2+1)"), var="x", limits=limits)
+    return kovacic.dsolve(f"y'' = ({_text(equation)})*y + sin(x)/(x^2+1)", var="x", limits=limits)
+
+
+def _text(equation: Any) -> str:
+    if isinstance(equation, tuple):
+        top, bottom = (families.QQ.poly(part).to_str("x") for part in equation)
+        return f"({top})/({bottom})"
+    return str(equation)
+
+
+def _riccati(equation: Any, limits: Limits) -> object:
+    return kovacic.solve_riccati(_text(equation), 0, -1, var="x", limits=limits)
+
+
+def _sampled(equation: Any, limits: Limits) -> object:
+    from kovacic.views.plot import sample
+
+    return sample(equation, "-0.7", "0.6", digits=40, limits=limits)
+
+
+OF_AN_EQUATION: dict[str, Callable[[Any, Limits], object]] = {
+    "solve": lambda S, limits: kovacic.solve(S, var="x", limits=limits),
+    "decide": lambda S, limits: kovacic.decide(S, var="x", limits=limits),
+    "conditions": lambda S, limits: kovacic.conditions(S, var="x", limits=limits),
+    "dsolve": _dsolve,
+    "dsolve with values": partial(_dsolve, ics={"y(1/3)": 1, "y'(1/3)": 0}),
+    "dsolve with a right-hand side": _forced,
+    "solve_riccati": _riccati,
+    "evaluate": lambda S, limits: kovacic.evaluate(S, "2.75", x0="2.25", limits=limits, **START),
+    "evaluate, 5,000 digits": lambda S, limits: kovacic.evaluate(
+        S, "2.75", x0="2.25", digits=5000, limits=limits, **START
+    ),
+    "evaluate, many points": lambda S, limits: kovacic.evaluate(
+        S, [Fraction(k, 300) for k in range(301)], x0="1/2", path="chain", limits=limits, **START
+    ),
+    "tabulate": lambda S, limits: kovacic.tabulate(S, "2.1", "2.9", x0="2.25", limits=limits, **START),
+    "connection_matrix": lambda S, limits: kovacic.connection_matrix(S, ["2.1", 2.5 + 1j, "2.9"], limits=limits),
+    "monodromy": lambda S, limits: kovacic.monodromy(S, limits=limits),
+    "sample": _sampled,
+}
+
+# Of an answer:
+
+
+def _explained(answer: Any, format: str) -> object:
+    return answer.explain(format=format)
+
+
+def _plotted(answer: Any) -> object:
+    from matplotlib import pyplot
+
+    try:
+        return answer.plot("2.1", "2.9")
+    finally:
+        pyplot.close("all")
+
+
+OF_AN_ANSWER: dict[str, Callable[[Any], object]] = {
+    "verify": lambda answer: answer.verify(),
+    "group": lambda answer: answer.group,
+    "equation_group": lambda answer: answer.equation_group,
+    "is_algebraic": lambda answer: answer.is_algebraic,
+    "closed_form": lambda answer: answer.closed_form,
+    "solutions": lambda answer: answer.solutions,
+    "special": lambda answer: answer.special,
+    "generic_conditions": lambda answer: answer.generic_conditions,
+    "to_json": lambda answer: answer.to_json(full=True),
+    "from_json": lambda answer: kovacic.Solution.from_json(answer.to_json(), limits=answer.limits),
+    "explain": partial(_explained, format="text"),
+    "explain: HTML": partial(_explained, format="html"),
+    "explain: LaTeX": partial(_explained, format="latex"),
+    "at": lambda answer: answer.at("2.75", x0="2.25", digits=200, **START),
+    "at: closed form": lambda answer: answer.at("2.75", x0="2.25", method="closed form", **START),
+    "lambdify": lambda answer: answer.lambdify(interval=("2.1", "2.9")),
+    "plot": _plotted,
+    "compare_with_monodromy": lambda answer: answer.compare_with_monodromy(),
+}
+
+# Of conditions:
+
+
+def _values(found: Any, size: int) -> dict[str, int]:
+    return {name: size + i for i, name in enumerate(found.parameters)}
+
+
+def _mapped(found: Any) -> object:
+    from matplotlib import pyplot
+
+    fixed = {name: 1 for name in found.parameters[2:]}
+    try:
+        return found.plot(parameters=found.parameters[:2], ranges=[(-2, 2)] * min(2, len(found.parameters)), fixed=fixed)
+    finally:
+        pyplot.close("all")
+
+
+OF_CONDITIONS: dict[str, Callable[[Any], object]] = {
+    "check": lambda found: found.check(10**6),
+    "case_at": lambda found: found.case_at(_values(found, 10007)),
+    "solve_at": lambda found: found.solve_at(_values(found, 10007)),
+    "conditions.plot": _mapped,
+}
+
+
+# --- Measuring.
+
+
+def measured(call: Callable[[], object], seconds: float) -> tuple[float, str]:
+    """The processor time of a call whose limit is a processor time, too, and how it ended."""
+    start = time.process_time()
+    try:
+        with CLOCK.read_from(time.process_time):
+            found = call()
+        ended = str(getattr(found, "status", "") or type(found).__name__)
+    except KovacicError as error:
+        ended = f"{type(error).__name__}: {error}"
+    except NotImplementedError as error:
+        ended = f"NotImplementedError: {error}"
+    except Exception as error:  # noqa: BLE001 - whatever else happens is a find of this script
+        ended = f"!! {type(error).__name__}: {error}"
+    return time.process_time() - start, ended.split("\n")[0][:200]
+
+
+def work(family: str, size: int, seconds: float, names: list[str]) -> None:
+    """Prints a line of JSON before and after each call of one equation: what a process of its own does."""
+    warnings.simplefilter("ignore")
+    prepare()
+    limits = Limits(seconds=seconds)
+    equation = FAMILIES[family][0](size)
+    answer: Any = None
+    found: Any = None
+    for name in names:
+        call: Callable[[], object]
+        if name in OF_AN_EQUATION:
+            call = partial(OF_AN_EQUATION[name], equation, limits)
+        elif name in OF_AN_ANSWER:
+            answer = solved(equation) if answer is None else answer
+            if answer is False:
+                continue
+            call = partial(OF_AN_ANSWER[name], replace(answer, limits=limits))
+        else:
+            found = conditions_of(equation) if found is None else found
+            if found is False:
+                continue
+            call = partial(OF_CONDITIONS[name], replace(found, limits=limits))
+        print(json.dumps({"call": name}), flush=True)
+        _end_after(time.process_time() + seconds + LONGEST)
+        used, ended = measured(call, seconds)
+        print(json.dumps({"call": name, "used": used, "ended": ended}), flush=True)
+
+
+def _end_after(processor_time: float) -> None:
+    """Let the system end this process once it has used so much."""
+    _, hard = resource.getrlimit(resource.RLIMIT_CPU)
+    resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(processor_time), hard))
+
+
+def prepare() -> None:
+    """Everything that is loaded once, is loaded."""
+    small = kovacic.solve("x^2 + 3")
+    for name, call in OF_AN_EQUATION.items():
+        measured(partial(call, "a*x^2 + 3" if name == "conditions" else "x^2 + 3", Limits()), 9)
+    for of_answer in OF_AN_ANSWER.values():
+        measured(partial(of_answer, replace(small)), 9)
+    found = kovacic.conditions("a*x^2 + b")
+    for of_conditions in OF_CONDITIONS.values():
+        measured(partial(of_conditions, replace(found, limits=Limits(seconds=0.2))), 9)
+
+
+def solved(equation: Any) -> Any:
+    """The answer, False if it takes too long."""
+    try:
+        answer = kovacic.solve(equation, var="x", limits=Limits(seconds=PREPARATION))
+    except KovacicError:
+        return False
+    return answer if answer.status is not kovacic.Status.UNDECIDED else False
+
+
+def conditions_of(equation: Any) -> Any:
+    try:
+        return kovacic.conditions(equation, var="x", limits=Limits(seconds=PREPARATION))
+    except KovacicError:
+        return False
+
+
+def rows_of(family: str, size: int, seconds: float, names: list[str]) -> Iterator[dict[str, Any]]:
+    """What the processes for one equation say; one that doesn't go on is ended, and another one has the rest of the calls."""
+    while names:
+        process = subprocess.Popen(
+            [sys.executable, __file__, "--work", family, str(size), str(seconds), *names],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        begun = None
+        assert process.stdout is not None
+        while True:
+            timer = threading.Timer(20 * LONGEST, process.kill)
+            timer.start()
+            line = process.stdout.readline()
+            timer.cancel()
+            if not line:
+                break
+            row = json.loads(line)
+            begun = None if "used" in row else row["call"]
+            if "used" in row:
+                names = names[names.index(row["call"]) + 1 :]
+                excess = row["used"] - 1.2 * seconds - 0.1
+                yield {"family": family, "size": size, "seconds": seconds, "excess": excess, **row}
+        status = process.wait()
+        if begun is None and status == 0:
+            return
+        if begun is None:
+            yield {"family": family, "size": size, "seconds": seconds, "call": names[0], "excess": 999, "used": 999, "ended": f"no preparation: status {status}"}  # fmt: skip
+            return
+        names = names[names.index(begun) + 1 :]
+        yield {"family": family, "size": size, "seconds": seconds, "call": begun, "excess": LONGEST, "used": LONGEST, "ended": f"!! ended by the measurement: status {status}"}  # fmt: skip
+
+
+def calls_of(family: str) -> list[str]:
+    """Conditions are for equations with parameters."""
+    names = [*OF_AN_EQUATION, *OF_AN_ANSWER, *OF_CONDITIONS]
+    with_parameters = "parameters" in family.split()
+    return [name for name in names if with_parameters or (name not in OF_CONDITIONS and name != "conditions")]
+
+
+def main() -> None:
+    parser = frame.parser(__doc__)
+    parser.add_argument("--family", action="append", help="only those (may be repeated)")
+    parser.add_argument("--call", action="append", help="only those (may be repeated)")
+    parser.add_argument("--seconds", type=float, action="append", help="the limits (may be repeated)")
+    parser.add_argument("--size", type=int, action="append", help="these sizes instead of the three of each family")
+    parser.add_argument("--level", type=int, action="append", help="of the three sizes the first, second or third: 0, 1, 2")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--work", nargs="+", help="(what its processes are started with)")
+    options = parser.parse_args()
+    if options.work:
+        family, size, seconds, *names = options.work
+        work(family, int(size), float(seconds), names)
+        return
+    tasks = []
+    for family in options.family or FAMILIES:
+        names = [name for name in calls_of(family) if not options.call or name in options.call]
+        for size in options.size or [FAMILIES[family][1][level] for level in options.level or range(3)]:
+            tasks += [(family, size, seconds, names) for seconds in options.seconds or SECONDS]
+
+    def run(task: tuple[str, int, float, list[str]]) -> list[dict[str, Any]]:
+        rows = []
+        for row in rows_of(*task):
+            rows.append(row)
+            if row["excess"] > 0 or row["ended"].startswith("!!"):
+                print(f"{row['excess']:6.2f}  {row['family']} {row['size']}  {row['call']}  {row['seconds']} s: {row['ended']}", flush=True)  # fmt: skip
+        return rows
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        rows = [row for found in pool.map(run, tasks) for row in found]
+    late = [row for row in rows if row["excess"] > 0]
+    print(f"{len(rows)} calls, {len(late)} with an excess")
+    if not (options.family or options.call or options.seconds or options.size or options.level):
+        frame.save("limits", {"calls": len(rows), "late": late}, report(rows))
+
+
+def report(rows: list[dict[str, Any]]) -> str:
+    """The Markdown of the results: for each call, how many were tried, how many ran out of time, and the worst excess."""
+    lines = ["# Limits of time", "", frame.line(), ""]
+    lines += [
+        f"{len(rows)} calls: {len(FAMILIES)} families of equations in three sizes, limits of {', '.join(map(str, SECONDS))} s of",
+        "processor time. The excess is the processor time beyond 1.2 * limit + 0.1 s.",
+        "",
+    ]
+    table = []
+    for name in [*OF_AN_EQUATION, *OF_AN_ANSWER, *OF_CONDITIONS]:
+        mine = [row for row in rows if row["call"] == name]
+        if not mine:
+            continue
+        out_of_time = sum(row["used"] > row["seconds"] for row in mine)
+        late = sum(row["excess"] > 0 for row in mine)
+        worst = max(mine, key=lambda row: row["excess"])
+        shown = f"{worst['excess']:.2f} ({worst['family']} {worst['size']})" if worst["excess"] > 0 else "none"
+        table.append([name, str(len(mine)), str(out_of_time), str(late), shown])
+    lines += frame.table(["call", "tried", "used up the time", "in excess", "worst excess, s"], table)
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()
