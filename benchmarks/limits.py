@@ -6,12 +6,14 @@ the machine plays no part.  The excess of a call is the processor time that it t
 answers of which the views are asked are solved before, with more time, where that is enough.  What a process loads once
 (SymPy, NumPy, matplotlib) was loaded before.  A call that works for 10 s longer is ended, and said.
 
-Regenerate:  python benchmarks/limits.py                     writes results/limits.{json,md}; some 20 minutes on two cores
+Regenerate:  python benchmarks/limits.py                     writes results/limits.{json,md}; an hour on two cores
+             python benchmarks/limits.py --level 1           the same with the middle sizes alone, 20 minutes
              python benchmarks/limits.py --family poles --call solve --seconds 0.5      prints those alone
 """
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import random
@@ -23,7 +25,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -37,9 +39,11 @@ import kovacic
 from kovacic.errors import KovacicError
 from kovacic.limits import CLOCK, Limits
 
-SECONDS = (0.1, 0.5, 2.0)
+SECONDS = (0.1, 0.3, 1.0)
 #: What is prepared may take so long; a call that takes longer than this is ended.
 PREPARATION, LONGEST = 20.0, 10.0
+#: Seconds on the wall without a word, after which a process is killed.
+_SILENCE = 200.0
 X = families.X
 
 
@@ -125,7 +129,7 @@ def dicyclic(n: int) -> str:
 
 
 def long_constant(n: int) -> str:
-    return f"x^2 + {10**n + 7}"
+    return f"x^2 + 1{'0' * (n - 1)}7"
 
 
 def long_constants(n: int) -> tuple[list[int], list[int]]:
@@ -328,9 +332,11 @@ def _values(found: Any, size: int) -> dict[str, int]:
 def _mapped(found: Any) -> object:
     from matplotlib import pyplot
 
-    fixed = {name: 1 for name in found.parameters[2:]}
+    fixed = dict.fromkeys(found.parameters[2:], 1)
     try:
-        return found.plot(parameters=found.parameters[:2], ranges=[(-2, 2)] * min(2, len(found.parameters)), fixed=fixed)
+        return found.plot(
+            parameters=found.parameters[:2], ranges=[(-2, 2)] * min(2, len(found.parameters)), fixed=fixed
+        )
     finally:
         pyplot.close("all")
 
@@ -346,6 +352,29 @@ OF_CONDITIONS: dict[str, Callable[[Any], object]] = {
 # --- Measuring.
 
 
+@dataclass(frozen=True)
+class Row:
+    """One call: its equation, its limit, the processor time that it took, and how it ended."""
+
+    family: str
+    size: int
+    seconds: float
+    call: str
+    used: float
+    ended: str
+
+    @property
+    def excess(self) -> float:
+        return self.used - 1.2 * self.seconds - 0.1
+
+    @property
+    def is_noteworthy(self) -> bool:
+        return self.excess > 0 or self.ended.startswith("!!")
+
+    def __str__(self) -> str:
+        return f"{self.excess:6.2f}  {self.family} {self.size}  {self.call}  {self.seconds} s: {self.ended}"
+
+
 def measured(call: Callable[[], object], seconds: float) -> tuple[float, str]:
     """The processor time of a call whose limit is a processor time, too, and how it ended."""
     start = time.process_time()
@@ -357,7 +386,7 @@ def measured(call: Callable[[], object], seconds: float) -> tuple[float, str]:
         ended = f"{type(error).__name__}: {error}"
     except NotImplementedError as error:
         ended = f"NotImplementedError: {error}"
-    except Exception as error:  # noqa: BLE001 - whatever else happens is a find of this script
+    except Exception as error:  # whatever else happens is a find of this script
         ended = f"!! {type(error).__name__}: {error}"
     return time.process_time() - start, ended.split("\n")[0][:200]
 
@@ -370,17 +399,22 @@ def work(family: str, size: int, seconds: float, names: list[str]) -> None:
     equation = FAMILIES[family][0](size)
     answer: Any = None
     found: Any = None
+    _end_after(time.process_time() + 2 * PREPARATION)
     for name in names:
         call: Callable[[], object]
         if name in OF_AN_EQUATION:
             call = partial(OF_AN_EQUATION[name], equation, limits)
         elif name in OF_AN_ANSWER:
-            answer = solved(equation) if answer is None else answer
+            if answer is None:
+                _end_after(time.process_time() + 2 * PREPARATION)
+                answer = solved(equation)
             if answer is False:
                 continue
             call = partial(OF_AN_ANSWER[name], replace(answer, limits=limits))
         else:
-            found = conditions_of(equation) if found is None else found
+            if found is None:
+                _end_after(time.process_time() + 2 * PREPARATION)
+                found = conditions_of(equation)
             if found is False:
                 continue
             call = partial(OF_CONDITIONS[name], replace(found, limits=limits))
@@ -424,7 +458,7 @@ def conditions_of(equation: Any) -> Any:
         return False
 
 
-def rows_of(family: str, size: int, seconds: float, names: list[str]) -> Iterator[dict[str, Any]]:
+def rows_of(family: str, size: int, seconds: float, names: list[str]) -> Iterator[Row]:
     """What the processes for one equation say; one that doesn't go on is ended, and another one has the rest of the calls."""
     while names:
         process = subprocess.Popen(
@@ -433,35 +467,57 @@ def rows_of(family: str, size: int, seconds: float, names: list[str]) -> Iterato
             text=True,
         )
         begun = None
-        assert process.stdout is not None
-        while True:
-            timer = threading.Timer(20 * LONGEST, process.kill)
-            timer.start()
-            line = process.stdout.readline()
-            timer.cancel()
-            if not line:
-                break
-            row = json.loads(line)
-            begun = None if "used" in row else row["call"]
-            if "used" in row:
-                names = names[names.index(row["call"]) + 1 :]
-                excess = row["used"] - 1.2 * seconds - 0.1
-                yield {"family": family, "size": size, "seconds": seconds, "excess": excess, **row}
+        for said in _lines(process):
+            begun = None if "used" in said else said["call"]
+            if begun is None:
+                names = names[names.index(said["call"]) + 1 :]
+                yield Row(family, size, seconds, **said)
         status = process.wait()
-        if begun is None and status == 0:
-            return
-        if begun is None:
-            yield {"family": family, "size": size, "seconds": seconds, "call": names[0], "excess": 999, "used": 999, "ended": f"no preparation: status {status}"}  # fmt: skip
+        if begun is None:  # all is done, or what was to be prepared wasn't
+            if status:
+                print(f"        {family} {size}: nothing prepared for {', '.join(names)} (status {status})", flush=True)
             return
         names = names[names.index(begun) + 1 :]
-        yield {"family": family, "size": size, "seconds": seconds, "call": begun, "excess": LONGEST, "used": LONGEST, "ended": f"!! ended by the measurement: status {status}"}  # fmt: skip
+        yield Row(family, size, seconds, begun, seconds + LONGEST, f"!! ended by the measurement: status {status}")
 
 
-def calls_of(family: str) -> list[str]:
+def _lines(process: Any) -> Iterator[dict[str, Any]]:
+    """What it prints; where nothing comes for a long time, it is killed."""
+    while True:
+        timer = threading.Timer(_SILENCE, process.kill)
+        timer.start()
+        line = process.stdout.readline()
+        timer.cancel()
+        if not line:
+            return
+        yield json.loads(line)
+
+
+def calls_of(family: str, wanted: list[str] | None) -> list[str]:
     """Conditions are for equations with parameters."""
     names = [*OF_AN_EQUATION, *OF_AN_ANSWER, *OF_CONDITIONS]
-    with_parameters = "parameters" in family.split()
-    return [name for name in names if with_parameters or (name not in OF_CONDITIONS and name != "conditions")]
+    if "parameters" not in family.split():
+        names = [name for name in names if name not in OF_CONDITIONS and name != "conditions"]
+    return [name for name in names if not wanted or name in wanted]
+
+
+def tasks_of(options: Any) -> Iterator[tuple[str, int, float, list[str]]]:
+    """Each equation with one of the limits, in turn, or with those that were asked for."""
+    turns = itertools.cycle(SECONDS)
+    for family in options.family or FAMILIES:
+        sizes = options.size or [FAMILIES[family][1][level] for level in options.level or range(3)]
+        for size in sizes:
+            for seconds in options.seconds or [next(turns)]:
+                yield family, size, seconds, calls_of(family, options.call)
+
+
+def measure(task: tuple[str, int, float, list[str]]) -> list[Row]:
+    rows = []
+    for row in rows_of(*task):
+        rows.append(row)
+        if row.is_noteworthy:
+            print(row, flush=True)
+    return rows
 
 
 def main() -> None:
@@ -469,8 +525,8 @@ def main() -> None:
     parser.add_argument("--family", action="append", help="only those (may be repeated)")
     parser.add_argument("--call", action="append", help="only those (may be repeated)")
     parser.add_argument("--seconds", type=float, action="append", help="the limits (may be repeated)")
-    parser.add_argument("--size", type=int, action="append", help="these sizes instead of the three of each family")
-    parser.add_argument("--level", type=int, action="append", help="of the three sizes the first, second or third: 0, 1, 2")
+    parser.add_argument("--size", type=int, action="append", help="these sizes instead of those of each family")
+    parser.add_argument("--level", type=int, action="append", help="the first (0), second or third size of each family")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--work", nargs="+", help="(what its processes are started with)")
     options = parser.parse_args()
@@ -478,45 +534,38 @@ def main() -> None:
         family, size, seconds, *names = options.work
         work(family, int(size), float(seconds), names)
         return
-    tasks = []
-    for family in options.family or FAMILIES:
-        names = [name for name in calls_of(family) if not options.call or name in options.call]
-        for size in options.size or [FAMILIES[family][1][level] for level in options.level or range(3)]:
-            tasks += [(family, size, seconds, names) for seconds in options.seconds or SECONDS]
-
-    def run(task: tuple[str, int, float, list[str]]) -> list[dict[str, Any]]:
-        rows = []
-        for row in rows_of(*task):
-            rows.append(row)
-            if row["excess"] > 0 or row["ended"].startswith("!!"):
-                print(f"{row['excess']:6.2f}  {row['family']} {row['size']}  {row['call']}  {row['seconds']} s: {row['ended']}", flush=True)  # fmt: skip
-        return rows
-
+    tasks = list(tasks_of(options))
     with ThreadPoolExecutor(options.jobs) as pool:
-        rows = [row for found in pool.map(run, tasks) for row in found]
-    late = [row for row in rows if row["excess"] > 0]
+        rows = [row for found in pool.map(measure, tasks) for row in found]
+    late = [row for row in rows if row.is_noteworthy]
     print(f"{len(rows)} calls, {len(late)} with an excess")
-    if not (options.family or options.call or options.seconds or options.size or options.level):
-        frame.save("limits", {"calls": len(rows), "late": late}, report(rows))
+    if not (options.family or options.call):
+        data = {"calls": len(rows), "equations": len(tasks), "late": [asdict(row) for row in late]}
+        frame.save("limits", data, report(rows, len(tasks)))
 
 
-def report(rows: list[dict[str, Any]]) -> str:
+def report(rows: list[Row], equations: int) -> str:
     """The Markdown of the results: for each call, how many were tried, how many ran out of time, and the worst excess."""
-    lines = ["# Limits of time", "", frame.line(), ""]
-    lines += [
-        f"{len(rows)} calls: {len(FAMILIES)} families of equations in three sizes, limits of {', '.join(map(str, SECONDS))} s of",
-        "processor time. The excess is the processor time beyond 1.2 * limit + 0.1 s.",
+    families_tried = len({row.family for row in rows})
+    limits = ", ".join(f"{seconds:g}" for seconds in sorted({row.seconds for row in rows}))
+    lines = [
+        "# Limits of time",
+        "",
+        frame.line(),
+        "",
+        f"{len(rows)} calls, of {equations} equations out of {families_tried} families, with limits of {limits} s of processor",
+        "time.  The excess is the processor time beyond 1.2 * limit + 0.1 s.",
         "",
     ]
     table = []
     for name in [*OF_AN_EQUATION, *OF_AN_ANSWER, *OF_CONDITIONS]:
-        mine = [row for row in rows if row["call"] == name]
+        mine = [row for row in rows if row.call == name]
         if not mine:
             continue
-        out_of_time = sum(row["used"] > row["seconds"] for row in mine)
-        late = sum(row["excess"] > 0 for row in mine)
-        worst = max(mine, key=lambda row: row["excess"])
-        shown = f"{worst['excess']:.2f} ({worst['family']} {worst['size']})" if worst["excess"] > 0 else "none"
+        out_of_time = sum(row.used > row.seconds for row in mine)
+        late = sum(row.excess > 0 for row in mine)
+        worst = max(mine, key=lambda row: row.excess)
+        shown = f"{worst.excess:.2f} ({worst.family} {worst.size})" if late else "none"
         table.append([name, str(len(mine)), str(out_of_time), str(late), shown])
     lines += frame.table(["call", "tried", "used up the time", "in excess", "worst excess, s"], table)
     return "\n".join(lines)

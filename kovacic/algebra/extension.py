@@ -21,6 +21,7 @@ from kovacic.algebra.lifting import Lifter, inverse_by_primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import coefficients_from_traces, power_sums
+from kovacic.limits import check_time
 
 #: Up to this degree of the modulus, Euclid's algorithm is as fast as lifting.
 _EUCLID_DEGREE = 2
@@ -192,6 +193,7 @@ class ExtensionPoly(Poly):
         return ExtensionPoly(self.field, tuple(a + b for a, b in zip(self.parts, other.parts, strict=True)))
 
     def _mul(self, other: ExtensionPoly) -> ExtensionPoly:
+        check_time()
         n, modulus = self.field.dimension, self.field.modulus
         products: list[Poly] = [self.field.base.poly([])] * (2 * n - 1)
         for i, a in enumerate(self.parts):

@@ -157,7 +157,9 @@ class RationalPoly(Poly):
         check_time()
         bits = (self.degree + other.degree) * (self.height_bits() + other.height_bits())
         if bits > _LONG_PRODUCT:
-            check_duration(_PRODUCT_SECONDS * bits, f"a product of polynomials of degree {self.degree} and {other.degree}")
+            check_duration(
+                _PRODUCT_SECONDS * bits, f"a product of polynomials of degree {self.degree} and {other.degree}"
+            )
 
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
@@ -227,7 +229,14 @@ class RationalPoly(Poly):
         return self.integer_str(variable) if self.rep.denom() == 1 else super().to_str(variable)
 
     def coefficient_strings(self) -> list[str]:
-        return list(map(str, self.rep.numer().coeffs()))  # Python prints integers of at most 4300 digits
+        coefficients = self.rep.numer().coeffs()
+        if self.degree <= _LOOK_DEGREE:
+            return list(map(str, coefficients))  # Python prints integers of at most 4300 digits
+        written = []
+        for coefficient in coefficients:
+            check_time()
+            written.append(str(coefficient))
+        return written
 
     def to_sympy(self, variable: Any) -> Any:
         from sympy import Add, Rational

@@ -36,6 +36,8 @@ class RationalSeries:
             return RationalPoly(fmpq_poly([]))
         numerators, scale = list[Any](), fmpz(1)
         for k in range(count - 1, -1, -1):
+            if k % 64 == 0:
+                check_time()
             numerators.append(self._terms[k][0] * scale)
             scale *= self._scales[k]
         return RationalPoly(fmpq_poly(fmpz_poly(numerators[::-1]), self._terms[count - 1][1]))

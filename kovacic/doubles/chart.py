@@ -39,6 +39,9 @@ recessive one."""
 _NOISE = 2.0**-40
 """Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
+#: So many coefficients around a point are found by derivatives.
+_FEW_TERMS = 2
+
 
 @dataclass(frozen=True)
 class RationalChart:
@@ -129,7 +132,10 @@ class RationalChart:
         """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
         line: Any = fmpq_poly([centre.x, power_of_two(e)])
         line = line if self.problem.embedded is None else arb_poly(line)
-        found = [[arb(v) for v in part(line).coeffs()[:terms]] for part in self._equation]
+        found = []
+        for part in self._equation:
+            check_time()
+            found.append([arb(v) for v in _expanded(part, line, terms)])
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
@@ -268,3 +274,16 @@ def _real_problem(equation: object, params: Mapping[str, object] | None, constan
             "functions of real numbers need an equation with real coefficients", hint="evaluate takes others"
         )
     return problem
+
+
+def _expanded(polynomial: Any, line: Any, terms: int) -> list[Any]:
+    """The first coefficients of the composition with a line: of a few ones, the powers of a long one are never made."""
+    if terms > _FEW_TERMS:
+        return polynomial(line).coeffs()[:terms]  # type: ignore[no-any-return]
+    centre, scale = line[0], line[1]
+    found, factor = [], scale**0
+    for k in range(min(terms, polynomial.degree() + 1)):
+        found.append(polynomial(centre) * factor)
+        polynomial = polynomial.derivative()
+        factor = factor * scale / (k + 1)
+    return found

@@ -194,16 +194,16 @@ def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: fl
     return frame if frame is not None and frame.bound.log2_growth <= growth else None
 
 
-def largest_exponent(system: System, point: ExactPoint) -> float:
+def largest_exponent(system: System, point: ExactPoint) -> int | None:
     """No disc that contains the point has a frame with a larger exponent e: 4^e |S(point)| is below its majorant.
 
-    Infinite where S may vanish there.
+    None where S may vanish there.
     """
     with working_precision(_BITS):
         here = to_acb(point)
         size = abs(system.polynomial("num")(here)).lower()
         steepest = arb(_STEEPEST**2) * abs(system.polynomial("den")(here)).upper()
-        return math.ceil(log2(steepest / size) / 2) if size > 0 else math.inf
+        return math.ceil(log2(steepest / size) / 2) if size > 0 else None
 
 
 def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:

@@ -30,7 +30,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits, limited, limits_of
+from kovacic.limits import Budget, Limits, check_time, limited, limits_of
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
 
@@ -278,6 +278,7 @@ def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
     points, places = [midpoint(root) for root, _ in problem.poles(64)], []
     for i, p in enumerate(points):
+        check_time()
         gap = min([fmpq(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
         places.append((p.rounded(gap.p.bit_length() - gap.q.bit_length() - 8), gap / 2))
     return places
@@ -299,7 +300,7 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
         base = ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(
             int(spread.p.bit_length() - spread.q.bit_length()) - 10
         )
-        radii = [min([r, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2 for z, r in places]
+        radii = [_radius(z, r, base, centres) for z, r in places]
         found.append((min(radius / r for radius, (_, r) in zip(radii, places, strict=True)), base, radii))
     narrowest, base, radii = max(found, key=lambda item: item[0])
     if narrowest == 0:
@@ -313,6 +314,12 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
             corners.append(corners[-1] * quarter)
         loops.append(((base, *(z + c for c in corners), base), z))
     return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
+
+
+def _radius(z: ExactPoint, largest: Any, base: ExactPoint, centres: Sequence[ExactPoint]) -> Any:
+    """Half of the largest that is allowed, or of the distance from the segments between the base and the other points."""
+    check_time()
+    return min([largest, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2
 
 
 def _root_below(square: Any) -> Any:

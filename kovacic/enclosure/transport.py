@@ -154,7 +154,7 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
 def _is_steep(system: System, a: ExactPoint, b: ExactPoint) -> bool:
     """Would the way take too many steps if all were as short as the first one has to be?"""
     e = largest_exponent(system, a)
-    return e < 0 and power_of_two(2 * int(e)) * _MAX_DISCS**2 < (b - a).norm_squared()
+    return e is not None and bool(power_of_two(2 * e) * _MAX_DISCS**2 < (b - a).norm_squared())
 
 
 def _refuse(system: System, a: ExactPoint, b: ExactPoint, prec: int, each: float) -> None:
@@ -229,8 +229,9 @@ class StraightPiece:
         near = distance_lower(self.system, enter)
         if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
             e = min(e, math.ceil(log2(near)) + 1)
-        if guess is None:
-            e = min(e, largest_exponent(self.system, enter))
+        steepest = largest_exponent(self.system, enter) if guess is None else None
+        if steepest is not None:
+            e = min(e, steepest)
         for _ in range(20_000):
             check_time()
             disc = self._disc(t, enter, e)

@@ -171,6 +171,7 @@ def _all_choices(points: Sequence[SingularPoint], m: int, roots: _Roots) -> tupl
     """Step 1 at every point."""
     found = []
     for point in points:
+        check_time()
         chosen = _choices(point, m, roots)
         if chosen is None:
             return None
@@ -233,6 +234,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
         weight = SCALE[m] * (1 if point.place.at_infinity else -1)
         parts = [(weight * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
+            check_time()
             sums = _summed(sums, parts)
             if len(sums) > _MOST_FAMILIES:
                 return None

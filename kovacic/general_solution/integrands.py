@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import sympy
@@ -14,9 +15,12 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
+from kovacic.limits import check_duration
 from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
+#: SymPy's time for a term of what it expands; and from which on terms and exponent of a power aren't counted.
+_TERM_SECONDS, _MANY = 2e-5, 10**4
 #: The numbers that are parameters in coefficients.
 NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
 
@@ -27,7 +31,22 @@ def prepared(integrand: Expr) -> Expr:
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
+    check_duration(_TERM_SECONDS * _terms(integrand), "expanding an integrand")
     return sympy.expand(integrand, power_exp=False)
+
+
+def _terms(expression: Expr) -> float:
+    """How many terms the expanded product has at most."""
+    if expression.is_Add:
+        return sum(map(_terms, expression.args))
+    if expression.is_Mul:
+        return math.prod(map(_terms, expression.args))
+    if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
+        n, k = _terms(expression.base), int(expression.exp)
+        if n == 1:
+            return 1.0
+        return float(math.comb(int(n) + k - 1, k)) if n * k < _MANY else math.inf
+    return 1.0
 
 
 def integral_of_product(term: Expr, x: Expr) -> Expr | None:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 import sympy
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.riccati_equation import read_riccati
-from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited, watched_seconds
 from kovacic.numerals import as_latex
+from kovacic.process import last_of
 from kovacic.solution import Solution, solve
 
 
@@ -59,6 +62,10 @@ class RiccatiSolutions:
         if self.polynomial is not None:
             found.append((as_latex(self.polynomial), 0))
         return r",\quad ".join(f"{left} = {as_latex(right)}" for left, right in found).join("$$")
+
+
+#: Degrees of all coefficients of omega's polynomial together, from which on its change of variable is made in a process.
+_LONG_POLYNOMIAL = 300
 
 
 @limited
@@ -133,9 +140,29 @@ def solve_riccati(
     if solution.case != 1 and solution.riccati is not None:
         omega = -factor * w - gauge
         coefficients = [atoms.ratio(c) for c in solution.riccati.coefficients]
-        polynomial = sympy.numer(sympy.together(sum(c * omega**k for k, c in enumerate(coefficients))))
-        polynomial = sympy.collect(sympy.expand(polynomial), w)
+        value = sum(c * omega**k for k, c in enumerate(coefficients))
+        degrees = sum(c.num.degree + c.den.degree for c in solution.riccati.coefficients)
+        polynomial = _cleared(value, w) if degrees < _LONG_POLYNOMIAL else _cleared_apart(value, w)
     return RiccatiSolutions(rational, family, polynomial, finite, solution)
+
+
+def _cleared(value: Any, w: Any) -> Any:
+    """The numerator, by powers of w."""
+    return sympy.collect(sympy.expand(sympy.numer(sympy.together(value))), w)
+
+
+def _cleared_apart(value: Any, w: Any) -> Any:
+    """The same where it can be stopped, since SymPy may take minutes."""
+    found = last_of(_yield_cleared, value, w, seconds=watched_seconds(inf))
+    if found is None:
+        raise LimitExceeded(
+            "the polynomial of the algebraic solutions takes longer than the time limit", limit="seconds"
+        )
+    return found
+
+
+def _yield_cleared(value: Any, w: Any) -> Iterator[Any]:
+    yield _cleared(value, w)
 
 
 def _rational_omegas(solution: Solution, atoms: Any) -> list[Any]:

@@ -40,9 +40,10 @@ def find_conditions(
     S: Any, *, var: Any, assume: Mapping[Any, Any] | None, max_degree: int, limits: Limits
 ) -> ParametricAnswer:
     """What `kovacic.conditions` returns, as data: arguments and exceptions are the same."""
-    parsed = read_input(S, var=var, limits=limits, exponentials=True)
-    given = parsed
-    S, parsed, assume = with_values(S, parsed, assume, limits)
+    with Budget(limits).watched():
+        parsed = read_input(S, var=var, limits=limits, exponentials=True)
+        given = parsed
+        S, parsed, assume = with_values(S, parsed, assume, limits)
     names = parameters_of(parsed.S.field)
     if not names:
         used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""

@@ -10,13 +10,13 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
-from flint import fmpz
+from flint import fmpq_poly, fmpz
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.errors import LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_time
 
 T = TypeVar("T")
 
@@ -55,9 +55,8 @@ class Arithmetic:
     result isn't defined.
     """
 
-    def __init__(self, limits: Limits = DEFAULT_LIMITS, budget: Budget | None = None) -> None:
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
-        self._budget = Budget(limits) if budget is None and limits.seconds is not None else budget
 
     def integer(self, digits: str) -> int:
         """The integer with these decimal digits."""
@@ -225,8 +224,7 @@ class Arithmetic:
                 f"up to {degree + 1} coefficients of up to {bits} bits, above the limit of {most} bits for all together"
             )
             raise LimitExceeded(said, limit="bits")
-        if self._budget is not None:
-            self._budget.check()
+        check_time()
 
     def _integer_value(self, exponent: Value) -> int:
         if isinstance(exponent, Monomial) and exponent.power == 0 and isinstance(exponent.coefficient, int):
@@ -259,4 +257,5 @@ def _term(coefficient: int | Fraction, power: int) -> Monomial | Poly:
 
 
 def _monomial(coefficient: int | Fraction, power: int) -> Poly:
-    return QQ.poly([0] * power + [coefficient])
+    check_time()
+    return RationalPoly(fmpq_poly([to_fmpq(coefficient)]).left_shift(power))

@@ -34,6 +34,10 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
     T = function_of_x(equation)
     angle = T.args[0]
     waves = T.func is tan
+    # its zeros are where x is infinite, and f has no pole elsewhere
+    infinite = S.field.poly([1, 0, 1] if waves else [0, 1])
+    if S.den.remove(infinite)[0].degree > 0:
+        return None
     s = T.diff(x).xreplace({T: t})
     f = cancel(s**2 * Atoms(t).ratio(S) - s * s.diff(t, 2) / 2 + s.diff(t) ** 2 / 4)
     n = sympy.degree(sympy.fraction(f)[1], t)

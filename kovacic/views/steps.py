@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import Any
 
 from sympy import Add, Symbol
@@ -10,7 +11,7 @@ from sympy import Add, Symbol
 from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, search
-from kovacic.engine.places import Kind, Place, analyse
+from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget
 from kovacic.numerals import as_text
@@ -56,9 +57,16 @@ class Steps:
 
     def __init__(self, answer: Answer) -> None:
         self.answer = answer
-        self.problem = analyse(answer.S, Budget())
-        self.places = self.problem.places
         self.formulas = formulas_of(answer)
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The equation with its local data."""
+        return analyse(self.answer.S, Budget())
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        return self.problem.places
 
     def local_data(self) -> Iterator[Block]:
         yield Heading("Poles and local exponents")

@@ -25,7 +25,8 @@ _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"\*"), " "),
 ]
 _INNERMOST = re.compile(r"(\b(?:sqrt|cbrt|root))?\(([^()]*)\)")
-_QUOTIENT = re.compile(r"([^\s/,-][^\s/,]*)/([^\s/,]+)")
+# It begins where a word does: else each digit of a long number would be tried as a beginning.
+_QUOTIENT = re.compile(r"(?<![^\s/,-])([^\s/,-][^\s/,]*)/([^\s/,]+)")
 # Characters for private use stand for the parts of a formula which are ready.
 _PART = 0xF0000
 _READY = re.compile(f"[{chr(_PART)}-{chr(0x10FFFD)}]")
