@@ -32,6 +32,7 @@ J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. 
 from __future__ import annotations
 
 import fileinput
+import io
 import json
 import multiprocessing
 import re
@@ -1377,6 +1378,7 @@ def verdicts(lines: Iterator[str], seconds: float = 60) -> Iterator[str]:
 def main(files: list[str]) -> int:
     """Check all lines of the files; the exit status."""
     statuses = {0}
+    sys.stdin = sys.stdin or io.StringIO()  # one that is closed is empty
     try:
         with fileinput.input(files, encoding="utf-8") as lines:
             for said in verdicts(filter(str.strip, lines)):

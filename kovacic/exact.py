@@ -16,7 +16,7 @@ from typing import Any
 from flint import acb, arb, fmpq, fmpz
 
 from kovacic.errors import InputError
-from kovacic.numerals import in_a_message
+from kovacic.numerals import as_text, in_a_message, plain_text
 
 _NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 _MAX_EXPONENT = 100_000
@@ -45,7 +45,9 @@ def exact(value: Any, name: str) -> Parts:
     reader = _READERS.get(_library(value), _of_python)
     parts = reader(value, name)
     if parts is None:
-        raise InputError(f"{name} isn't a number that is known exactly: {str(value)[:60]!r} ({type(value).__name__})")
+        raise InputError(
+            f"{name} isn't a number that is known exactly: {plain_text(value)[:60]!r} ({type(value).__name__})"
+        )
     return parts
 
 
@@ -53,7 +55,7 @@ def exact_real(value: Any, name: str) -> Fraction:
     """The same as a fraction; raises `InputError` where the number isn't real."""
     re, im = exact(value, name)
     if im != 0:
-        raise InputError(f"{name} isn't a real number: {str(value)[:60]!r}")
+        raise InputError(f"{name} isn't a real number: {plain_text(value)[:60]!r}")
     return Fraction(int(re.p), int(re.q))
 
 
@@ -64,7 +66,7 @@ def whole(value: Any, name: str, *, least: int | None = 0) -> int:
     except TypeError:
         found = None
     if found is None:
-        raise InputError(f"{name} must be an integer, not {str(value)[:60]!r} ({type(value).__name__})")
+        raise InputError(f"{name} must be an integer, not {plain_text(value)[:60]!r} ({type(value).__name__})")
     if least is not None and found < least:
         raise InputError(f"{name} = {in_a_message(found)}: at least {least} is needed")
     return found
@@ -84,7 +86,7 @@ def exact_text(value: Any, name: str) -> str:
     if isinstance(value, str):
         return value.strip()
     if _library(value) == "sympy":
-        return str(value)
+        return as_text(value)
     number = exact_real(value, name)
     if isinstance(value, float | Decimal) or _kind(value) == "f":
         return str(value)

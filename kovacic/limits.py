@@ -9,12 +9,12 @@ from contextvars import ContextVar
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import wraps
-from math import copysign, inf, isfinite, isnan
+from math import inf, isfinite, isnan
 from typing import Any, ParamSpec, TypeVar
 
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import exact_real, whole
-from kovacic.numerals import in_a_message
+from kovacic.numerals import in_a_message, plain_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,13 +90,15 @@ def seconds_of(given: Any, name: str) -> float | None:
     else:
         seconds = _as_float(exact_real(given, name))
     if seconds < 0:
-        raise InputError(f"{name} = {given}: a time isn't negative")
+        raise InputError(f"{name} = {plain_text(given)[:60]}: a time isn't negative")
     return seconds
 
 
 def _as_float(time: Fraction) -> float:
     """Infinite beyond the doubles."""
-    return float(time) if abs(time) < 10**300 else copysign(inf, time)
+    if abs(time) < 10**300:
+        return float(time)
+    return inf if time > 0 else -inf
 
 
 DEFAULT_LIMITS = Limits()

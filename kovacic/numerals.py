@@ -78,6 +78,20 @@ def as_text(value: Any) -> str:
     return text(_settings(value)).doprint(value)  # type: ignore[no-any-return]
 
 
+def plain_text(value: Any) -> str:
+    """The same for whatever was given: what isn't a number or an expression is written as Python does.
+
+    >>> len(plain_text(10**5000)), plain_text("x")
+    (5001, 'x')
+    """
+    if isinstance(value, int | Fraction) or hasattr(value, "free_symbols"):
+        return as_text(value)
+    try:
+        return str(value)
+    except ValueError:  # long integers inside of a list, for instance
+        return type(value).__name__
+
+
 def as_latex(expression: Any) -> str:
     """What `sympy.latex` gives for an expression, with numbers of any length."""
     _, latex = _printers()

@@ -16,7 +16,7 @@ import pytest
 from processes import started
 
 import kovacic
-from kovacic import VerificationFailed
+from kovacic import VerificationFailed, checker
 from kovacic.cli import main
 
 COMMAND = [sys.executable, "-m", "kovacic"]
@@ -533,6 +533,14 @@ def test_streams_that_the_shell_has_closed(tmp_path: Path, line: str, status: in
     assert "Traceback" not in done.stderr
     for answers in tmp_path.iterdir():
         assert [json.loads(line)["status"] for line in answers.read_text().splitlines()] == ["error"]
+
+
+def test_the_checker_alone_takes_closed_input_as_empty() -> None:
+    """As `kovacic check - <&-`."""
+    done = subprocess.run(
+        ["bash", "-c", f"{sys.executable} {checker.__file__} <&-"], capture_output=True, text=True, timeout=60
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
 @pytest.mark.parametrize("command", [["batch", "-"], ["scan", "x+n", "n=1:3"]])

@@ -53,6 +53,13 @@ def test_growth_beyond_all_steps_is_said_at_once(S: str, x: object, x0: object) 
         evaluate(S, x, x0=x0, method="taylor", limits=Limits(seconds=600), **START)
 
 
+def test_a_steep_equation_is_refused_before_its_first_disc() -> None:
+    """Discs of 2^-113, with numbers as long: some hundreds of them would be made until the growth is looked at."""
+    with controlled() as clock, pytest.raises(LimitExceeded, match=r"exp\(\d\.\d+e\+\d+\) on the way from 9/4 to 11/4"):
+        evaluate("(x^2+3*x+7)^60 + x", "11/4", x0="9/4", limits=Limits(seconds=600), **START)
+    assert clock.looks < 500
+
+
 def test_a_closed_form_needs_no_steps_whatever_the_growth() -> None:
     value = kovacic.solve("10^20").at(1, x0=0, y0=1, dy0=10**10)
     size = math.log2(value.re[0]) + value.re[1]
@@ -108,6 +115,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "many digits": lambda limits: evaluate("x^9 + 1/(x-7)^3", 2, x0=1, digits=100_000, limits=limits, **START),
     "a high degree": lambda limits: evaluate("1/(x^500+x+3)", 2, x0=1, limits=limits, **START),
     "a higher degree": lambda limits: evaluate("1/(x^2000+x+3)", 2, x0=1, limits=limits, **START),
+    "a steep way": lambda limits: connection_matrix("(x^2+3*x+7)^400+x", [2, 2 + 1j, 3], limits=limits),
     "a long way": lambda limits: evaluate("-1-1/x^2", 10**5, x0=1, limits=limits, **START),
     "many points": lambda limits: evaluate("x", range(-300, 0), x0=0, digits=300, limits=limits, **START),
     "at": lambda limits: kovacic.solve("x^2+3").at(2, x0=1, digits=90_000, method="taylor", limits=limits, **START),

@@ -72,6 +72,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "solve: factors of a denominator": lambda limits: kovacic.solve("1/(x^2520 - 1)", limits=limits),
     "solve: parameters": lambda limits: kovacic.solve(over_parameters(), var="x", limits=limits),
     "solve: text": lambda limits: kovacic.solve("(x+1)^9000/(x-2)^8000 + x", limits=limits),
+    "solve: a power and more": lambda limits: kovacic.solve("(x^2 + 3*x + 7)^700 + x", limits=limits),
     "decide": lambda limits: kovacic.decide("x^4 + 40002*x + 1", limits=limits),
     "verify": lambda limits: answer("x^4 + 10002*x + 1", limits).verify(),
     "group": lambda limits: answer(dicyclic().to_str("x"), limits).group,
@@ -168,6 +169,32 @@ def test_a_long_gcd_is_foreseen_only_where_there_is_one() -> None:
             (f**6).gcd(f**5 * g)
         with pytest.raises(LimitExceeded, match="a power of degree"):
             f**300
+
+
+@pytest.mark.parametrize("leading", [1, 3])
+@pytest.mark.parametrize("degree", [1, 63, 129, 240, 241])
+def test_a_long_division_in_pieces_gives_quotient_and_remainder(degree: int, leading: int) -> None:
+    """q g + r built from q and r, with denominators; and by a power of x, which is a cut."""
+    g = QQ.poly([*(Fraction(3 * k % 7 - 3, 5 if leading == 1 else 1) for k in range(degree)), Fraction(leading)])
+    r = QQ.poly([Fraction(k % 5 - 2, 3) for k in range(degree)])
+    for divisor in (g * 5, QQ.poly([0, 1]) ** degree * leading):
+        q = QQ.poly([Fraction(k % 11 - 5, 2) for k in range(242 - degree)] + [1])
+        assert divmod(q * divisor + r, divisor) == (q, r)
+        assert (q * divisor + r) // divisor == q
+        assert (q * divisor + r) % divisor == r
+
+
+def test_long_products_and_divisions_look_at_the_clock() -> None:
+    """The remainder of a power takes minutes by some divisors, and is a cut by a power of x."""
+    X = QQ.poly([0, 1])
+    f = (X * X + 3 * X + 7) ** 300 + X
+    with controlled(looks_in_time=3) as clock, Budget(Limits(seconds=1)).watched():
+        assert (f % X**300).degree == 299
+        with pytest.raises(LimitExceeded, match="time limit"):
+            f % (X * X + X + 1) ** 30
+        assert clock.late_looks <= 1
+        with pytest.raises(LimitExceeded, match="time limit"):
+            f * f
 
 
 def test_every_place_looks_at_the_clock() -> None:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
+from fractions import Fraction
 
 import jsonschema
 import pytest
+import sympy
 
 import kovacic
 from kovacic import checker
@@ -49,6 +52,36 @@ def test_the_group_of_a_root_of_high_order() -> None:
     assert checker.verdict(line).startswith("checked")
     data["group"]["n"] = digits(N + 1)
     assert checker.verdict(json.dumps(data)).startswith("refuted")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda n: kovacic.evaluate("x", 1, x0=0, frobenius=(n, 1), limits=kovacic.Limits(seconds=1)),
+        lambda n: kovacic.evaluate("1/x^2", 1, x0=n, which="regular", limits=kovacic.Limits(seconds=1)),
+        lambda n: kovacic.connection_matrix(([Fraction(1, n), 1], [1]), [n, 2], limits=kovacic.Limits(seconds=1)),
+        lambda n: kovacic.solve("a/x^2", assume={"a": n}),
+        lambda n: kovacic.solve("a/x^2", assume={"a": sympy.Integer(n)}),
+        lambda n: kovacic.tabulate("x", 0, 1, x0=sympy.sqrt(-n), y0=1, dy0=0),
+        lambda n: kovacic.conditions("x^2 + a", max_degree=Fraction(1, n)),
+        lambda n: kovacic.evaluate("x", [n], x0=0, y0=[n], dy0=1),
+        lambda n: kovacic.solve("x^2 + 3").plot(0, n),
+        lambda n: kovacic.solve("x^2 + 3").plot(0, 1, points=n),
+        lambda n: kovacic.solve("x^2 + 3").lambdify(interval=(0, 1), which=n),
+        lambda n: kovacic.conditions("n*(n + 1)/x^2 - 1").plot(ranges=[(0, n)]),
+        lambda n: kovacic.conditions("n*(n + 1)/x^2 - 1").plot(steps=n),
+        lambda n: kovacic.solve("x", limits=kovacic.Limits(seconds=n)),
+        lambda n: kovacic.dsolve("y'' = y", ics={"y(0)": n, "y'(0)": 1}),
+        lambda n: kovacic.solve_riccati(n, n, n, var="x"),
+    ],
+)
+def test_a_long_argument_gives_a_value_or_says_why_not(call: Callable[[int], object]) -> None:
+    said = ""
+    try:
+        call(N)
+    except kovacic.KovacicError as error:
+        said = str(error)
+    assert len(said) < 1000
 
 
 def _schema() -> str:

@@ -28,6 +28,7 @@ from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_tw
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.system import foresee_move
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
 from kovacic.reading.change_of_variable import function_of_x, without_change
@@ -132,10 +133,7 @@ class RationalChart:
         """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
         line: Any = fmpq_poly([centre.x, power_of_two(e)])
         line = line if self.problem.embedded is None else arb_poly(line)
-        found = []
-        for part in self._equation:
-            check_time()
-            found.append([arb(v) for v in _expanded(part, line, terms)])
+        found = [[arb(v) for v in _expanded(part, line, terms)] for part in self._equation]
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
@@ -279,6 +277,8 @@ def _real_problem(equation: object, params: Mapping[str, object] | None, constan
 def _expanded(polynomial: Any, line: Any, terms: int) -> list[Any]:
     """The first coefficients of the composition with a line: of a few ones, the powers of a long one are never made."""
     if terms > _FEW_TERMS:
+        if isinstance(line, fmpq_poly):
+            foresee_move(polynomial.degree(), max(int(line[0].height_bits()), int(line[1].height_bits())))
         return polynomial(line).coeffs()[:terms]  # type: ignore[no-any-return]
     centre, scale = line[0], line[1]
     found, factor = [], scale**0

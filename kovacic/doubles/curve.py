@@ -25,6 +25,7 @@ from kovacic.doubles.chart import PieceChart
 from kovacic.enclosure.ball import finite_ball
 from kovacic.enclosure.points import ExactPoint, to_double
 from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -92,7 +93,11 @@ class Coefficients:
 
 def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> Coefficients:
     """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
-    rows = [_at(chart, point) for point in points]
+    rows = []
+    for k, point in enumerate(points):
+        if k % 32 == 0:
+            check_time()
+        rows.append(_at(chart, point))
     beta, S = np.array(rows).T
     return Coefficients(np.array([float(point.re) for point in points]), beta, S)
 
@@ -114,6 +119,8 @@ def arcs(
 
     `states` gives y and y' in balls.  Raises `LimitExceeded` where more than 400,000 samples would be needed.
     """
+    if points > _MOST:
+        raise LimitExceeded(f"the curve would have more than {_MOST} samples", limit="samples")
     here = coefficients(chart, _grid(chart, interval, width))
     finest = _FINEST * float(width)
     too_fine = here.frequency * finest > 2 * np.pi

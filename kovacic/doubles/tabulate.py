@@ -428,7 +428,11 @@ def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
     terms, count, size = variant.terms, 2 if not chart.is_forced else 3, len(cells)
-    found = [_local(chart, ExactPoint(centre), e, terms) for centre, e in cells]
+    found = []
+    for k, (centre, e) in enumerate(cells):
+        if k % 32 == 0:
+            check_time()
+        found.append(_local(chart, ExactPoint(centre), e, terms))
     length = max(2, *(len(part) + i for local in found for i, part in enumerate(local)))
     numbers, source, z = (np.zeros((2, *shape, size)) for shape in ((3, length), (terms, count), (terms, count)))
     for k, ((centre, e), local) in enumerate(zip(cells, found, strict=True)):

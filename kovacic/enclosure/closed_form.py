@@ -37,6 +37,7 @@ from kovacic.enclosure.system import check_segment
 from kovacic.engine.decide import decide_reducible
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import Budget, Limits, check_time
+from kovacic.numerals import in_a_message
 from kovacic.verify import verify
 
 _CHEAP = 400  # degree of P up to which the values of two exponentials cost less than the Taylor steps
@@ -292,7 +293,7 @@ def omega(problem: NumericProblem, which: int, x0: ExactPoint, bits: int) -> acb
             if found and not 0 <= which < len(found):
                 names = "only which = 0" if len(found) == 1 else f"which = 0, ..., {len(found) - 1}"
                 hint = "tabulate gives every solution, by initial values"
-                raise InputError(f"which = {which}: the equation has {names} here", hint=hint)
+                raise InputError(f"which = {in_a_message(which)}: the equation has {names} here", hint=hint)
             if found and found[which].is_finite():
                 ball = found[which]
                 if ball.rel_accuracy_bits() >= bits or ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)):

@@ -14,6 +14,7 @@ from flint import acb, arb
 
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, to_acb
 from kovacic.errors import InputError
+from kovacic.numerals import plain_text
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ def as_number(value: Any, name: str) -> Number:
                 return as_point(expression.expand(), name)
         if not getattr(expression, "is_number", False) or getattr(expression, "is_finite", None) is False:
             raise
-        number = Constant(str(value), lambda: in_balls(expression, {}))
+        number = Constant(plain_text(value), lambda: in_balls(expression, {}))
         number.value()
         return number
 

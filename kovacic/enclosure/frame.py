@@ -23,7 +23,7 @@ from flint import acb_poly, arb, arb_poly, fmpq_poly
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
-from kovacic.limits import check_duration, check_time
+from kovacic.limits import check_time
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
 Parts = tuple[list[int], list[int] | None]
@@ -32,15 +32,11 @@ _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LONG, _HALVINGS, _FEW_HALVINGS = 100, 60, 6  # of the way, for a lower bound of the growth; few for degrees above 100
-_SHIFT_SECONDS = 2e-9  # that it takes at least to make the equation around a centre, per bit of its coefficients
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
 def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Parts, Parts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
-    degree = max(len(system.num), len(system.den))
-    bits = degree**2 * max(centre.height_bits(), scale.height_bits())
-    check_duration(_SHIFT_SECONDS * bits, f"the equation of degree {degree} around a point")
     q, p = system.along("den", centre, scale), system.along("num", centre, scale)
     re, im = q[0][0], q[1][0]
     turn = ExactPoint(re, -im) if im != 0 else ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
@@ -222,7 +218,8 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
         length = abs(step).upper()
         marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
         for first, last in itertools.pairwise(marks):
-            check_time()
+            if degree > _LONG:
+                check_time()
             middle, half = step * (first + last) / 2, length * (last - first) / 2
             p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
             total += _growth_near(p, q, half)

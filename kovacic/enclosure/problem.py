@@ -23,6 +23,7 @@ from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System, Zeros
 from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotRational
+from kovacic.numerals import as_text
 
 _BITS = 40  # to which constants are known where nothing was asked for
 
@@ -234,7 +235,7 @@ def _parameters(S: RatFunc, given: Equation | None, right: Equation | None) -> t
 def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:
     """The equation with a right-hand side at values of its parameters."""
     a, b, c, f = (_specialised(part, values) for part in (right.a, right.b, right.c, right.f))
-    h = None if right.h is None else right.h.subs({name: str(value) for name, value in values.items()})
+    h = None if right.h is None else right.h.subs({name: as_text(value) for name, value in values.items()})
     return replace(right, a=a, b=b, c=c, f=f, h=h)
 
 

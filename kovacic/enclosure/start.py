@@ -31,6 +31,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.numerals import plain_text
 
 _STARTS = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"
 _SHELL_STARTS = "--y0 and --dy0, or --frobenius C1,C2, or --regular"
@@ -129,7 +130,7 @@ def read_start(
 
 def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
     """The regular singular point, ordinary point or infinity ("oo") that the argument stands for."""
-    if str(x0) in ("oo", "inf", "+inf"):
+    if plain_text(x0) in ("oo", "inf", "+inf"):
         return Singular.at(problem, None)
     number = as_number(x0, name)
     if isinstance(number, ExactPoint):

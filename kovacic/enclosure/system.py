@@ -20,9 +20,10 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, to_fraction
 from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
-from kovacic.limits import check_duration
+from kovacic.limits import check_duration, check_time
 
 _ISOLATION = 4e-6  # seconds that it takes to isolate the zeros of a polynomial, over the square of its degree
+_MOVE_SECONDS = 2e-9  # that it takes at least to move a polynomial to a point, per bit of its coefficients
 _SHARP = 40  # relative bits to which the distances of singular points are known
 _SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
 _EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
@@ -115,12 +116,19 @@ def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
         return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
 
 
+def foresee_move(degree: int, bits: int) -> None:
+    """Raise `LimitExceeded` where there isn't the time to write down a polynomial around a point of so many bits."""
+    check_duration(_MOVE_SECONDS * degree**2 * bits, f"a polynomial of degree {degree} around a point of {bits} bits")
+
+
 def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
+    foresee_move(len(coefficients), max(a.height_bits(), step.height_bits()))
     lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
     if lines[1] == 0:
         return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
     real, imag = fmpq_poly([]), fmpq_poly([])
     for c in reversed(coefficients):
+        check_time()
         real, imag = real * lines[0] - imag * lines[1] + c, real * lines[1] + imag * lines[0]
     return real, imag
 

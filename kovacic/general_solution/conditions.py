@@ -15,7 +15,8 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
-from kovacic.exact import exact_text, is_complex
+from kovacic.exact import exact_real, exact_text, is_complex
+from kovacic.numerals import plain_text
 from kovacic.reading.parser import listed
 
 Expr = Any  # SymPy publishes no types
@@ -77,10 +78,10 @@ class ConditionReader:
         """One condition.  Raises `InputError`."""
         self._terms = {}
         left = self._side(key, is_key=True)
-        text = f"{key} = {value}"
+        text = f"{plain_text(key)} = {plain_text(value)}"
         if not self._terms:
             raise self._no_condition(key)
-        if str(value).strip() == BOUNDED:
+        if plain_text(value).strip() == BOUNDED:
             return Condition(self._linear(left, key), None, text)
         right = self._side(value, is_key=False)
         whole = sympy.expand(left - right)
@@ -222,11 +223,11 @@ def _exact(given: Any) -> Expr:
     if is_complex(given):
         return _exact(given.real) + sympy.I * _exact(given.imag)
     try:
-        return sympy.Rational(exact_text(given, "the value"))
+        value = exact_real(exact_text(given, "the value"), "the value")
     except (TypeError, ValueError):
-        raise InputError(
-            f"the value {given!r} can't be read", hint="give a number, or text such as 'sqrt(2)'"
-        ) from None
+        said = f"the value {plain_text(given)[:60]!r} can't be read"
+        raise InputError(said, hint="give a number, or text such as 'sqrt(2)'") from None
+    return sympy.Rational(value.numerator, value.denominator)
 
 
 def exact(expression: Expr) -> Expr:

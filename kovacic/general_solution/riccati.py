@@ -14,7 +14,7 @@ from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.riccati_equation import read_riccati
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited, watched_seconds
-from kovacic.numerals import as_latex
+from kovacic.numerals import as_latex, plain_text
 from kovacic.process import last_of
 from kovacic.solution import Solution, solve
 
@@ -111,7 +111,7 @@ def solve_riccati(
         p, q, r, var = equation.p, equation.q, equation.r, equation.x.name
     elif q is None or r is None:
         raise InputError("one of p, q, r is missing", hint="give all three, or an equation")
-    if str(r).strip() in ("0", "0.0"):
+    if plain_text(r).strip() in ("0", "0.0"):
         raise InputError("r is zero: the equation is linear of first order")
     given = read_coefficients(r, q, p, 0, var=var, limits=limits).equation
     assert given is not None

@@ -8,6 +8,7 @@ from typing import Any
 
 from kovacic.errors import InputError
 from kovacic.exact import exact_real, whole
+from kovacic.numerals import in_a_message, plain_text
 from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
 #: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].
@@ -19,14 +20,19 @@ _KINDS = (
     CellKind("not determined", "#dddddd"),
     CellKind("S not defined", "#000000"),
 )
+#: The ends of ranges, and so many intervals, at most.
+_FARTHEST, _MOST_STEPS = 10**300, 10_000
 LABELS = tuple(kind.name for kind in _KINDS)
 
 
 def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
     """So many intervals from one number to another, exactly."""
     first, last = exact_real(low, "an end of a range"), exact_real(high, "an end of a range")
+    if max(abs(first), abs(last)) > _FARTHEST:
+        raise InputError("a range of a map is beyond the range of doubles, in which pictures are drawn")
     if first >= last:
-        raise InputError(f"the range from {first} to {last} is empty", hint="give the smaller number first")
+        said = f"the range from {plain_text(first)[:60]} to {plain_text(last)[:60]} is empty"
+        raise InputError(said, hint="give the smaller number first")
     return [first + (last - first) * k / steps for k in range(steps + 1)]
 
 
@@ -58,6 +64,8 @@ def plot(
     if len(given) != len(chosen):
         raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
     steps = whole(steps, "steps", least=1)
+    if steps > _MOST_STEPS:
+        raise InputError(f"steps = {in_a_message(steps)}: at most {_MOST_STEPS} are drawn")
     values = [_grid(low, high, steps) for low, high in given]
 
     def colour(*point: Fraction) -> int:

@@ -26,6 +26,7 @@ from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem
 from kovacic.equation import Equation
 from kovacic.limits import Budget
+from kovacic.numerals import as_text
 from kovacic.parametric.exponents import Exponents, local_parts
 from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
@@ -293,7 +294,7 @@ def _conditions(value: Poly) -> list[Poly]:
 
 def _text(function: Poly) -> str:
     """A polynomial in the parameters, and maybe square roots."""
-    return caret(str(function.to_sympy(sympy.Symbol("x"))))
+    return caret(as_text(function.to_sympy(sympy.Symbol("x"))))
 
 
 def may_be_natural(degree: Any) -> bool:

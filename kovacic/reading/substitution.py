@@ -15,6 +15,7 @@ from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.exact import exact_text
 from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.numerals import plain_text
 from kovacic.reading.lexer import tokenize
 from kovacic.reading.read import read_input
 
@@ -104,7 +105,7 @@ def with_values(
     ('(4*(3/2)^2 - 1)/(4*x^2) - k', {'k': 'integer'})
     """
     given = {name: _told(str(name), what) for name, what in assume.items()} if isinstance(assume, Mapping) else {}
-    values = {str(name): what for name, what in given.items() if _WORDS.fullmatch(str(what)) is None}
+    values = {str(name): what for name, what in given.items() if _WORDS.fullmatch(plain_text(what)) is None}
     if not values:
         return S, parsed, given or assume
     names = parameters_of(parsed.S.field)
@@ -113,7 +114,7 @@ def with_values(
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
     texts = {name: value_text(value, name, parsed.variable, limits) for name, value in values.items()}
     change = None if parsed.equation is None else parsed.equation.change
-    text = parsed.text if change is None and not isinstance(S, str) else str(S).strip()
+    text = parsed.text if change is None and not isinstance(S, str) else plain_text(S).strip()
     filled = Template(text, [*texts]).filled(texts)
     rest = {name: what for name, what in given.items() if str(name) not in texts}
     variable = parsed.variable if change is None else change.variable

@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
+#: The ends of pictures.
+_FARTHEST = 10**300
 #: A formula of more characters isn't written into the legend.
 _LONGEST_LABEL = 50
 #: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
@@ -138,6 +140,8 @@ def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
     b = as_point(stop, "to")
     if not (a.is_real() and b.is_real()) or a.re >= b.re:
         raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
+    if max(abs(a.re), abs(b.re)) > _FARTHEST:
+        raise InputError(f"the interval from {a} to {b} is beyond the range of doubles, in which pictures are drawn")
     return a.re, b.re
 
 
