@@ -28,12 +28,16 @@ author = "The kovacic developers"
 version = release = kovacic.__version__
 copyright = author
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 napoleon_google_docstring = False
 napoleon_use_param = False  # types are words, not links
 napoleon_use_rtype = False
 myst_enable_extensions = ["dollarmath", "deflist"]
 myst_heading_anchors = 3
+nb_execution_mode = "force"  # the notebook has no outputs of its own
+nb_execution_timeout = 300
+nb_execution_raise_on_error = True
+nb_mime_priority_overrides = [("html", "image/png", 1), ("html", "text/html", 2)]
 exclude_patterns = ["build", "_build"]
 suppress_warnings = ["myst.strikethrough"]
 
@@ -88,6 +92,8 @@ def _as_rst(app: Any, what: str, name: str, thing: object, options: object, line
 
 def _one_by_one(app: Any, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
     """Attributes that are described together, `num, den : Poly`, get an entry each, as parameters do."""
+    if what == "property":
+        lines.insert(0, "")  # else what stands before a colon is taken for the type
     if "Attributes" not in lines:
         return
     start = lines.index("Attributes") + 2
@@ -99,9 +105,13 @@ def _one_by_one(app: Any, what: str, name: str, thing: object, options: object, 
             lines[k:end] = [line for each in together[1].split(", ") for line in (f"{each} : {together[2]}", *said)]
 
 
+def _take_notebook(app: Any) -> None:
+    """The tour as a page, whose outputs are computed when it is built."""
+    target = HERE / "notebook.ipynb"
+    target.write_bytes((HERE.parent / "examples" / "kovacic.ipynb").read_bytes())
+
+
 def _draw(app: Any) -> None:
-    if tags.has("reference"):  # noqa: F821 - Sphinx gives it to this file; a test builds the reference alone
-        return
     runpy.run_path(str(HERE / "pictures.py"))["draw_all"](HERE / "_static" / "pictures")
 
 
@@ -112,7 +122,9 @@ def _fill(app: Any, name: str, source: list[str]) -> None:
 def setup(app: Any) -> None:
     """Sphinx calls this."""
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_display, None))
-    app.connect("builder-inited", _draw)
+    if not tags.has("reference"):  # noqa: F821 - Sphinx gives it to this file; a test builds the reference alone
+        app.connect("config-inited", lambda app, _: _take_notebook(app))
+        app.connect("builder-inited", _draw)
     app.connect("source-read", _fill)
     app.connect("autodoc-process-docstring", _one_by_one, priority=100)  # before napoleon
     app.connect("autodoc-process-docstring", _as_rst)

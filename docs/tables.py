@@ -23,7 +23,7 @@ def sympy_tests() -> str:
     """Every test equation of SymPy's ODE module with the two answers, under the test that has it."""
     lines: list[str] = []
     for test, group in groupby(problems("dsolve_sympy"), lambda problem: re.sub(":(?! )", ": ", problem["source"])):
-        lines += [f"## `{test}`", "", "```{table}", ":class: equations", ":widths: 30 35 35", ""]
+        lines += [f"### `{test}`", "", "```{table}", ":class: equations", ":widths: 30 35 35", ""]
         lines += ["| | kovacic.dsolve | sympy.dsolve |", "| --- | --- | --- |"]
         for problem in group:
             answers = [_answer(problem["answers"][system]) for system in SYSTEMS]

@@ -596,3 +596,32 @@ def test_nested_square_roots_that_cancel_are_an_integer() -> None:
     assert is_natural(multiple / nested + 3) != is_natural(2 - multiple / nested)
     assert is_natural((multiple - 3 * nested) * (multiple + 3 * nested) + 2)
     assert not is_natural(multiple - nested)
+
+
+def test_a_page_begins_with_the_answer_and_its_links_lead_somewhere() -> None:
+    """Headings with apostrophes and signs, too; nothing is loaded, and the styles don't reach beyond the page's own part."""
+    for S in ("1/x - 3/(16*x^2)", "x"):
+        page = kovacic.solve(S).explain(format="html")
+        headings = re.findall(r'<h[12] id="([^"]+)"', page)
+        assert headings[:2] == ["the-equation", "the-answer"]
+        assert len(set(headings)) == len(headings)
+        links = re.findall(r'<a href="#([^"]+)"', page)
+        assert links == headings[2:]
+        assert "solution" in page[page.index('id="the-answer"') : page.index("<nav>")]
+        style = page[page.index("<style>") : page.index("</style>")]
+        assert all(
+            rule.strip().startswith((".kovacic", "@font-face")) for rule in re.findall(r"[^{}]+(?=\{)", style[7:])
+        )
+        assert not re.search(r"(?:src|href)=.https?:|url\((?!data:|#)", page)
+        assert page.isascii()
+
+
+def test_an_explanation_in_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The suffix says which format."""
+    for suffix, form in ((".html", "html"), (".md", "markdown"), (".tex", "latex"), (".txt", "text")):
+        target = tmp_path / f"answer{suffix}"
+        assert run(["explain", "x^2 + 3", "-o", str(target)]) == 0
+        assert capsys.readouterr().out == f"wrote {target}\n"
+        assert target.read_text(encoding="utf-8") == kovacic.solve("x^2 + 3").explain(format=form)
+    assert run(["explain", "x", "x^2", "-o", str(tmp_path / "b.txt")]) == 2
+    assert run(["explain", "x", "-o", str(tmp_path / "b.doc")]) == 2

@@ -132,7 +132,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.long
 @pytest.mark.skipif(
-    find_spec("sphinx") is None or find_spec("myst_parser") is None, reason="needs what the documentation is built with"
+    find_spec("sphinx") is None or find_spec("myst_nb") is None, reason="needs what the documentation is built with"
 )
 def test_every_public_attribute_is_on_the_built_pages(pages: Path) -> None:
     names = documented(pages)

@@ -9,6 +9,7 @@ import re
 from base64 import b64encode
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from html import unescape
 from pkgutil import get_data
 from string import Template
 
@@ -193,7 +194,7 @@ FORMATS = {
         plain=shown.latex,
     ),
     "html": Format(
-        heading=lambda text, level: f'<h{level} id="{anchor(text)}">{text}</h{level}>',
+        heading=lambda text, level: f'<h{level} id="{anchor(unescape(text))}">{text}</h{level}>',
         math=_html_math,
         formula=_html_formula,
         table=_html_table,
@@ -204,7 +205,7 @@ FORMATS = {
 
 
 def page(title: str, body: str) -> str:
-    """A page of HTML that needs nothing from elsewhere, the font of its formulas included, in ASCII."""
+    """A page of HTML in ASCII that needs nothing from elsewhere; its styles are for itself, where it stands in a notebook."""
     font = b64encode(get_data("kovacic.writing", "math.woff2") or b"").decode("ascii")
     written = _HTML.substitute(title=shown.html(title), font=font, body=body)
     return written.encode("ascii", "xmlcharrefreplace").decode()
@@ -215,13 +216,14 @@ _HTML = Template("""<!doctype html>
 <title>$title</title>
 <style>
 @font-face { font-family: "kovacic math"; src: url(data:font/woff2;base64,$font) format("woff2") }
-body { max-width: 52rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 Georgia, serif; color: #222; background: #fff }
-table { border-collapse: collapse; margin: 1rem 0 } td, th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
-h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } svg { max-width: 100%; height: auto }
-math { font-family: "kovacic math", math; font-size: 1.08em }
-p { overflow-x: auto }
-mtd { text-align: left; math-style: normal } figure { margin: 1rem 0 } figcaption { color: #666; font-size: .9em }
-nav ul { columns: 16rem; padding-left: 1.2rem } a { color: #04529c }
-</style></head><body>
-$body</body></html>
+.kovacic { max-width: 52rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 Georgia, serif; color: #222; background: #fff }
+.kovacic table { border-collapse: collapse; margin: 1rem 0 }
+.kovacic td, .kovacic th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
+.kovacic h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } .kovacic svg { max-width: 100%; height: auto }
+.kovacic math { font-family: "kovacic math", math; font-size: 1.08em } .kovacic p { overflow-x: auto }
+.kovacic mtd { text-align: left; math-style: normal }
+.kovacic figure { margin: 1rem 0 } .kovacic figcaption { color: #666; font-size: .9em }
+.kovacic nav ul { columns: 16rem; padding-left: 1.2rem } .kovacic a { color: #04529c }
+</style></head><body><main class="kovacic">
+$body</main></body></html>
 """)
