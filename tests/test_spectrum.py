@@ -62,7 +62,11 @@ def check(row: Solvable) -> None:
         scale = abs(sympy.N(state.wave.subs(x, sympy.Rational(7, 10)), 30))
         assert abs(sympy.N(left.subs(x, sympy.Rational(7, 10)), 30)) < 1e-15 * scale
         if levels.norm is not None and number in row.numbers:
-            integral = integral_of_square(state.wave, max(a, -8.0 if "exp(-" in row.V else -40.0), min(b, 40.0))
+            integral = integral_of_square(
+                state.wave,
+                max(a, -8.0 if "exp(-" in row.V else -40.0),
+                min(b, 40.0 if "h(" in row.V or "exp" in row.V else 200.0),
+            )
             assert abs(integral / complex(sympy.N(levels.norm.subs({**at, n: state.number}))) - 1) < 1e-9
 
 
