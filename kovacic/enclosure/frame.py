@@ -193,13 +193,14 @@ def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: fl
 def largest_exponent(system: System, point: ExactPoint) -> int | None:
     """No disc that contains the point has a frame with a larger exponent e: 4^e |S(point)| is below its majorant.
 
-    None where S may vanish there.
+    None where S vanishes there, may vanish, or isn't defined.
     """
     with working_precision(_BITS):
         here = to_acb(point)
         size = abs(system.polynomial("num")(here)).lower()
         steepest = arb(_STEEPEST**2) * abs(system.polynomial("den")(here)).upper()
-        return math.ceil(log2(steepest / size) / 2) if size > 0 else None
+        is_known = size > 0 and steepest > 0
+        return math.ceil(log2(steepest / size) / 2) if is_known else None
 
 
 def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
