@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from kovacic.closed_form.form import ClosedForm
+    from kovacic.doubles.combination import Combination
     from kovacic.doubles.lambdify import LambdifyOptions
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
@@ -203,7 +204,7 @@ class Solution(Answer):
         return evaluate(self, x, x0=x0, derivative=derivative, **options)
 
     @limited
-    def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction:
+    def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction | Combination:
         """A solution as a vectorised NumPy function in double precision, its error measured.
 
         Parameters

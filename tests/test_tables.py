@@ -81,3 +81,37 @@ def test_nan_stays_nan(make: str) -> None:
     assert np.isnan(f(np.array([math.nan, math.nan]))).all()
     with pytest.raises(kovacic.InputError):
         f(np.array([math.nan, 4.0]))
+
+
+@pytest.mark.parametrize(
+    ("equation", "interval", "start", "exact"),
+    [
+        ("-1", (0, 31415), SINE, math.sin),
+        ("-1", (-10, 3_141_592), {"x0": 0, "y0": 1, "dy0": 0}, math.cos),
+        ("y'' + 2*y' + 101*y = 0", (-1, 30), SINE, lambda x: math.exp(-x) * math.sin(10 * x) / 10),
+        ("4", (0, 9), {"x0": "1/3", "y0": 1, "dy0": 0}, lambda x: math.cosh(2 * x - 2 / 3)),
+        (
+            "-1 + 2/x^2",
+            (1, 5000),
+            {"x0": 1, "y0": "sin(1) - cos(1)", "dy0": "cos(1)"},
+            lambda x: math.sin(x) / x - math.cos(x),
+        ),
+    ],
+)
+def test_given_values_of_a_closed_form_use_it(equation: str, interval: Any, start: dict[str, Any], exact: Any) -> None:
+    """Up to a million zeros, where a table would have hundreds of thousands of pieces."""
+    f: Any = kovacic.solve(equation).lambdify(interval=interval, **start)
+    assert type(f).__name__ == "Combination"
+    assert f.measured is not None
+    assert f.measured.worst < 1000
+    assert f.interval == interval
+    points = [interval[0] + (interval[1] - interval[0]) * share for share in (0.0, 0.17, 0.5, 0.83, 1.0)]
+    for point in points:
+        assert f(point) == pytest.approx(exact(point), rel=2e-12, abs=1e-15)
+
+
+def test_a_coefficient_that_may_be_zero_is_no_sum() -> None:
+    """exp(-x), without a share of exp(x) that would grow."""
+    f: Any = kovacic.solve("1").lambdify(interval=(0, 30), x0=0, y0=1, dy0=-1)
+    assert type(f).__name__ == "TabulatedFunction"
+    assert f(30.0) == pytest.approx(math.exp(-30), rel=1e-14)

@@ -27,6 +27,7 @@ from flint import acb
 from kovacic.api import find_answer
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import PieceChart, RationalChart, chart_of
+from kovacic.doubles.combination import Combination, combination
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
@@ -56,7 +57,7 @@ _SAMPLES, _ZEROS, _WORST = 24, 3, 4
 _MANY, _EACH, _BESIDE = 400, 8, 0.01
 """Parts of a region, points of each that suspects are chosen from, and the distance from a zero over that to the next one."""
 
-Function = ProductForm | TabulatedFunction
+Function = ProductForm | TabulatedFunction | Combination
 
 
 class LambdifyStart(InitialValues, total=False):
@@ -120,13 +121,14 @@ def lambdify(
     var : str
         The name of the variable, where an equation is given as text; by default as for `kovacic.solve`.
     x0, y0, dy0, frobenius, path
-        The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table.
+        The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table, or,
+        where two solutions of case 1 are known, a sum of these two, however many oscillations there are.
     limits : Limits
         What the work may cost; by default those of `kovacic.Limits()`.
 
     Returns
     -------
-    ProductForm or TabulatedFunction
+    ProductForm, TabulatedFunction or Combination
         Called with a number or an array.  `measured` has the error in units in the last place of |y|: at 24 points, which are
         the ends of the interval (if they are singular, a thousandth of its length beside them), a point on either side of up to
         three zeros of a real solution, at a hundredth of the distance to the next zero, and others in between; and at four of
@@ -177,7 +179,7 @@ def lambdify(
     if not start:
         base = chart.base(number, candidates)
         chart = chart.beginning(number, base)
-    job = _Job(chart, interval, region, number, base, start, limits)
+    job = _Job(chart, interval, region, number, base, start, candidates, limits)
     function = job.function(careful=bool(careful))
     if not check:
         return function
@@ -236,12 +238,18 @@ class _Job:
     number: int
     base: ExactPoint | None
     start: Mapping[str, Any]
+    candidates: list[ExactPoint]
     limits: Limits | None
 
     def function(self, *, careful: bool, plain: Function | None = None) -> Function:
         """The solution in double-doubles or plain doubles, `plain` if that is known."""
         if isinstance(plain, ProductForm) and plain.polynomial is None:
             return replace(plain, careful=careful)  # the factors are the same
+        if isinstance(plain, Combination):
+            return replace(plain, careful=careful)
+        found = self._combination()
+        if found is not None:
+            return replace(found, careful=careful)
         form = self._product_form(careful)
         if form is not None:
             return replace(form, careful=careful)
@@ -254,6 +262,11 @@ class _Job:
             return None
         with working_precision(_PREC):
             return product_form(self.chart.problem, self.number, self.region, self.base, careful)
+
+    def _combination(self) -> Combination | None:
+        if not self.start or not isinstance(self.chart, RationalChart):
+            return None
+        return combination(self.chart, self.region, self.candidates, self.limits)
 
     def measured(self, function: Function) -> Measured | str:
         """The error of the function, or why it isn't known."""
@@ -292,6 +305,7 @@ def measure(
     """
     chart = equation if isinstance(equation, PieceChart) else chart_of(equation, dict(start or {}), None)
     if not chart.given:
+        assert not isinstance(function, Combination)
         assert function.base is not None
         chart = chart.beginning(which, function.base)
     near = _zeros(function) if points is None else ()
@@ -299,7 +313,9 @@ def measure(
     given = np.append(samples(function, near) if near else np.atleast_1d(points), extra)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
-    reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
+    # far ways of thousands of oscillations have the closed form in balls alone
+    method = None if isinstance(function, Combination) else "taylor"
+    reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method=method)]
     if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     with working_precision(_PREC):
