@@ -54,6 +54,7 @@ def test_roots_of_powers_and_of_other_polynomials(f: RationalPoly, n: int) -> No
         assert (radical**n + 1).root(n) is None
 
 
+@pytest.mark.long
 @given(st.data(), st.sampled_from([QQ, SQRT5]), st.integers(0, 40))
 def test_a_factor_is_removed_as_often_as_it_divides(data: st.DataObject, field: AlgebraicField, count: int) -> None:
     elements = polynomials if field == QQ else over(field)
@@ -84,6 +85,7 @@ def test_cleared_functions_have_coprime_integer_coordinates(data: st.DataObject,
     assert num.content() == Poly.content(num)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("field", [SQRT5, CUBIC], ids=str)
 @given(data=st.data())
 def test_extension_arithmetic_is_a_ring_with_division_and_gcd(field: AlgebraicField, data: st.DataObject) -> None:
@@ -119,6 +121,7 @@ def test_homomorphisms_and_coordinates_are_inverse_to_each_other() -> None:
             return
 
 
+@pytest.mark.long
 @given(st.lists(st.fractions(max_denominator=10**12), min_size=1, max_size=5))
 def test_lifting_recovers_rationals_of_any_size(values: list[Fraction]) -> None:
     vector = QQ.poly([*values, 1])
@@ -365,6 +368,7 @@ def test_sparse_polynomials_factor_whatever_their_coefficients_are(
     assert sorted(_factored_over_q(whole)[1], key=str) == sorted(factors, key=str)
 
 
+@pytest.mark.long
 @given(st.lists(polynomials.filter(lambda f: f.degree > 0), min_size=1, max_size=4), st.integers(1, 7), st.booleans())
 def test_factors_of_powers_are_those_of_their_roots(parts: list[RationalPoly], n: int, equal: bool) -> None:
     """Powers of long squarefree polynomials, of others, and products with different multiplicities."""

@@ -82,6 +82,7 @@ def _has_the_right_case(example: Example) -> None:
     assert answer.verified
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(strategies.over_number_fields())
 def test_moved_by_a_moebius_map_over_a_number_field(example: Example) -> None:
@@ -95,6 +96,7 @@ def test_moved_by_moebius_maps_over_number_fields_in_the_long_run(example: Examp
     _has_the_right_case(example)
 
 
+@pytest.mark.long
 @settings(max_examples=20)
 @given(strategies.over_number_fields("case 1: diagonal"))
 def test_two_omegas_over_a_number_field(example: Example) -> None:
@@ -108,6 +110,7 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
     assert str(answer.constants) == "x**2 + 6"
 
 
+@pytest.mark.long
 @settings(max_examples=40)
 @given(strategies.over_number_fields("case 1", "case 2", "odd"))
 def test_closed_forms_over_a_number_field(example: Example) -> None:
@@ -217,6 +220,7 @@ def test_a_root_of_a_quintic_without_radicals() -> None:
     assert any("alpha**5 - alpha - 1" in notice for notice in answer.notices)
 
 
+@pytest.mark.long
 def test_solutions_use_the_root_that_was_meant() -> None:
     """alpha = sqrt(1 + sqrt(2)) isn't its conjugate -alpha: checked numerically in the closed form."""
     x = sympy.Symbol("x", positive=True)

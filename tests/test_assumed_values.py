@@ -106,6 +106,7 @@ def test_a_sign_shortens_the_statement() -> None:
     assert str(region.statement).startswith("b = 2*d + 3, ")
 
 
+@pytest.mark.long
 def test_what_is_said_to_be_positive_is() -> None:
     field = FunctionField(("a", "b"))
     a, b = (over_parameters(field.generator(name)) for name in "ab")

@@ -28,6 +28,7 @@ def run(capsys):
     return call
 
 
+@pytest.mark.long
 def test_command_by_ratio(run):
     status, output = run("--ratio", "3/2", "--json")
     data = json.loads(output.out)
@@ -40,6 +41,7 @@ def test_command_by_ratio(run):
     assert "Theorem 2" in output.out
 
 
+@pytest.mark.long
 def test_command_with_a_name_for_the_ratio(run):
     status, output = run("--ratio", "k", "--json")
     data = json.loads(output.out)
@@ -48,6 +50,7 @@ def test_command_with_a_name_for_the_ratio(run):
     assert "(sqrt(x - x1) + sqrt(x - x2))**(2*k)" in data["omega_3"]
 
 
+@pytest.mark.long
 def test_command_with_equal_radii(run):
     """omega_3 = const is a solution: c1, for every ball, l < 0 included."""
     for moments in (("1/4", "1/3"), ("1/3", "1/4")):
@@ -59,6 +62,7 @@ def test_command_with_equal_radii(run):
         assert sp.diff(sp.parse_expr(data["omega_3"]).expand().coeff("c1"), X) == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ratio", ["3/2", "1/3", "-2/5", "1/2"])
 def test_command_prints_n_in_closed_form(run, ratio):
     """n and omega_3 as printed, read back, solve the linear equations in the roots; y solves (13)."""
@@ -91,6 +95,7 @@ def test_command_prints_n_in_closed_form(run, ratio):
         assert label in text
 
 
+@pytest.mark.long
 def test_text_names_D_and_E(run):
     body = ("--mass", "1", "--radius", "1", "--offset", "1/5", "--A1", "1/4", "--A3", "1/3", "--sphere", "3")
     text = run(*body)[1].out
@@ -98,6 +103,7 @@ def test_text_names_D_and_E(run):
     assert json.loads(run(*body, "--json")[1].out)["omega_3"].count("x**2") == 3
 
 
+@pytest.mark.long
 def test_command_with_a_large_ratio(run):
     """Theorem 1 with N = 401: decided, and the solutions in powers instead of pages of coefficients."""
     status, output = run("--ratio", "401/2", "--json")
@@ -106,6 +112,7 @@ def test_command_with_a_large_ratio(run):
     assert "(sqrt(x - x1) + sqrt(x - x2))**401" in data["omega_3"]
 
 
+@pytest.mark.long
 def test_command_with_an_irrational_ratio_and_latex(run):
     status, output = run("--ratio", "sqrt(2)", "--json", "--latex")
     data = json.loads(output.out)
@@ -113,6 +120,7 @@ def test_command_with_an_irrational_ratio_and_latex(run):
     assert set(data["latex"]) == {"a1", "a2", "b1", "b2", "11", "12", "13"}
 
 
+@pytest.mark.long
 def test_command_by_parameters(run):
     body = ("--mass", "1", "--radius", "2", "--offset", "1/5", "--A1", "1", "--A3", "4/3", "--sphere", "3")
     status, output = run(*body, "--json", "--latex", "--explain")
@@ -123,6 +131,7 @@ def test_command_by_parameters(run):
     assert r"K_{11} = " in data["derivation"]
 
 
+@pytest.mark.long
 def test_command_with_irrational_numbers(run):
     body = ("--mass", "sqrt(2)", "--radius", "sqrt(3)", "--sphere", "2*sqrt(3)", "--A1", "sqrt(2)", "--A3", "3/2")
     status, output = run(*body, "--json")
@@ -187,6 +196,7 @@ def simulated(run, *arguments):
     return json.loads(output.out)["motion"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -207,6 +217,7 @@ def test_command_follows_every_start(run, arguments):
     assert motion["energy_drift"] < 1e-11
 
 
+@pytest.mark.long
 def test_command_says_what_happens(run, tmp_path):
     picture = tmp_path / "path.png"
     status, output = run(*_BODY, "--sphere", "3", "--time", "4", "--plot", str(picture))
@@ -247,6 +258,7 @@ def test_simulation_refuses_what_would_take_too_long(run):
     assert "100000 oscillations" in output.err
 
 
+@pytest.mark.long
 def test_ctrl_c_during_a_simulation_is_status_130_and_leaves_no_picture(tmp_path):
     """A run of minutes, interrupted when it has begun to integrate; an older picture stays what it was."""
     picture, started = tmp_path / "path.png", tmp_path / "started"

@@ -28,6 +28,7 @@ def with_roots() -> RollingBall:
     return RollingBall(m=mass, R=R, a=offset, A1=A1, A3=A3)
 
 
+@pytest.mark.long
 def test_every_printed_formula_is_derived_for_all_parameters():
     found = holds()
     assert set(found) == {
@@ -60,6 +61,7 @@ def planted() -> list[ParameterSet]:
     return cases
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("key", "name"), planted())
 def test_a_wrong_term_in_a_printed_formula_is_seen(key, name, monkeypatch):
     """Every formula enters into the derivation: with the ball's mass added, one of the groups fails."""
@@ -67,6 +69,7 @@ def test_a_wrong_term_in_a_printed_formula_is_seen(key, name, monkeypatch):
     assert not all(vanishes(part) for _, parts in derivation.residuals() for part in parts)
 
 
+@pytest.mark.long
 def test_the_equations_of_a_ball_are_the_printed_ones():
     """`BallOnSphere` has its own short formulas; here for all parameters."""
     sphere = GENERAL.on_sphere(R1)
@@ -82,6 +85,7 @@ def test_the_equations_of_a_ball_are_the_printed_ones():
     assert sp.cancel(sp.diff(first, X) / 2 + first**2 / 4 - second - sphere.S) == 0
 
 
+@pytest.mark.long
 def test_equations_12_and_13_in_the_roots():
     sphere = with_roots().on_sphere(R1)
     place = InRoots(R / R1)
@@ -90,6 +94,7 @@ def test_equations_12_and_13_in_the_roots():
         assert sp.cancel(found - expected) == 0
 
 
+@pytest.mark.long
 def test_constant_coefficients_and_the_semi_invariant():
     """The identities behind the closed forms, for all parameters; and l D = m R^2 A1 B + D'^2/4."""
     sphere = GENERAL.on_sphere(R1)
@@ -129,6 +134,7 @@ def test_equations_print():
     assert found["11"].latex.endswith("= 0")
 
 
+@pytest.mark.long
 def test_the_paper_s_equations_print_under_its_numbers():
     text, latex, markdown = explained(), explained(format="latex"), explained(format="markdown")
     for number in range(1, 14):
@@ -141,6 +147,7 @@ def test_the_paper_s_equations_print_under_its_numbers():
     assert latex.count("{") == latex.count("}")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
 def test_latex_compiles_without_overfull_boxes(tmp_path):
     """The derivation as `--explain --latex` prints it, and the equations of balls as `--latex` does."""

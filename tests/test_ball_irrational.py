@@ -43,6 +43,7 @@ def rolling(values):
     return ball.on_plane() if R1 is None else ball.on_sphere(R1), group
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("values", [*BODIES.values(), *(v for v, _ in DEGENERATE.values())], ids=[*BODIES, *DEGENERATE])
 def test_the_engine_agrees_with_the_theorem_and_the_closed_form_holds(values):
     sphere, group = rolling(values)
@@ -70,6 +71,7 @@ def test_inequalities_are_decided_exactly():
         RollingBall(m=1, R="sqrt(3+2*sqrt(2))", a=0, A1="1/4", A3="1/3").on_sphere("-1-sqrt(2)")
 
 
+@pytest.mark.long
 def test_a_number_that_is_not_algebraic_has_equations_but_no_decision():
     sphere, _ = rolling(("pi", 1, "1/5", "1/4", "1/3", 3, None))
     assert sphere.S.has(sp.pi)

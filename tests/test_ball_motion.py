@@ -169,6 +169,7 @@ def steady_precession(sphere):
     return middle
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("R1", [3, -3, None])
 def test_steady_precession(R1):
     """And motions as near to it as rounding allows: all of them are the same up to their distance."""
@@ -218,6 +219,7 @@ def test_no_start_is_refused(seed, count):
     assert asymptotic <= count / 100
 
 
+@pytest.mark.long
 def test_ten_thousand_oscillations_are_as_exact_as_one():
     """Against the quadratures in 30 digits, and against stepping from one oscillation to the next."""
     for ball in BALLS.values():
@@ -310,6 +312,7 @@ def test_near_the_separatrix(R1, gap):
     assert np.abs(motion.u(times) - reference(sphere, start, times)["u"]).max() < 1e-10 / abs(gap)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("gap", [1e-15, 0.0, -1e-15])
 def test_asymptotic_motions_are_followed_as_long_as_their_digits_last(gap):
     start = pendulum(SPHERE, gap)
@@ -321,6 +324,7 @@ def test_asymptotic_motions_are_followed_as_long_as_their_digits_last(gap):
             motion.contact(time)
 
 
+@pytest.mark.long
 def test_from_rest_beside_the_upright_position():
     """Up to the second time that it stands upright: u = 1e-7 to 1e-11 only shift the time by log(10^k) over the growth rate."""
     motions = [solve_motion(SPHERE, State(u=10.0**-k, du=0, dv=0, n=0)) for k in (7, 8, 9)]
@@ -334,6 +338,7 @@ def test_from_rest_beside_the_upright_position():
     assert abs(first - second) < 3 * grid[1]
 
 
+@pytest.mark.long
 def test_motions_that_just_turn_are_periodic():
     for gap in (1e-9, -1e-9):
         motion = solve_motion(SPHERE, pendulum(SPHERE, gap))
@@ -356,6 +361,7 @@ def test_the_start_is_where_the_state_says(R1):
     assert np.abs(way - 0.5 * e_u).max() < 1e-8
 
 
+@pytest.mark.long
 def test_the_reaction_presses_unless_the_ball_is_fast():
     """Inside a sphere the default force presses the ball to the wall; outside a fast ball would leave the sphere."""
     slow = replace(START, du=0.01, dv=0.01, n=0.0)
@@ -505,6 +511,7 @@ def test_text_is_never_executed(call, text, capsys):
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.long
 def test_pictures(tmp_path):
     for name, R1, options in (("outside", 3, {}), ("inside", -3, {"potential": POTENTIAL}), ("plane", None, {})):
         path = tmp_path / f"{name}.png"
@@ -512,6 +519,7 @@ def test_pictures(tmp_path):
         assert path.stat().st_size > 20_000
 
 
+@pytest.mark.long
 def test_a_picture_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
     motion, times = solve_motion(SPHERE, START), np.linspace(0, 1, 20)
     picture = tmp_path / "path.svg"

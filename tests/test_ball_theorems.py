@@ -140,6 +140,7 @@ def test_both_theorems_by_the_engine_for_all_radii_and_roots():
         assert statement.case_at({**at, "x1": at["x2"]}) == 1
 
 
+@pytest.mark.long
 def test_both_theorems_for_every_physical_parameter():
     """m, R, a, A1, A3, R1 all symbolic: the whole statement with its degenerate balls, proven to be complete."""
     statement = kovacic.conditions(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1).S, var="x")
@@ -158,6 +159,7 @@ def test_theorem_2_formula_for_all_ratios_and_roots():
     assert satisfies(closed_form(InRoots(k)), InRoots(k), IN_ROOTS)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("part", ["omega", "y", "omega_3", "n"])
 def test_a_wrong_sign_in_a_closed_form_is_seen(part):
     for rho in (k, sp.Rational(3, 2)):
@@ -175,6 +177,7 @@ def test_a_wrong_sign_in_a_closed_form_is_seen(part):
         assert good.solves(InRoots(rho))
 
 
+@pytest.mark.long
 def test_the_formula_in_E_for_all_parameters():
     """The closed form of a ball whose parameters are symbols, with l = s^2: A3 = A1 + s^2/(m R^2)."""
     s = sp.Symbol("s")
@@ -187,6 +190,7 @@ def test_the_formula_in_E_for_all_parameters():
     assert satisfies(form, sphere, chart)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("N", range(1, 7))
 def test_theorem_1_solutions_exactly(N, sign):
@@ -208,6 +212,7 @@ def product_of(powers: dict[RatFunc, Fraction]) -> RatFunc:
     return prod((base ** int(e) for base, e in powers.items() if not e % 1), start=RatFunc(QQ.poly([1])))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sign", [1, -1])
 def test_theorem_1_solutions_for_N_up_to_50(N_at_most_50, sign):
     """The same, over Q: x1 = 1, x2 = -1, to which an affine change of x carries any two roots."""
@@ -250,6 +255,7 @@ def test_theorem_1_printed_solutions():
     assert closed_form(InRoots(sp.Integer(1))).omega_3.coeff(C2).is_number  # R = R1: omega_3 = const
 
 
+@pytest.mark.long
 def test_rational_omega_beyond_what_is_written_out():
     form = closed_form(InRoots(sp.Integer(9)))
     assert satisfies(
@@ -263,6 +269,7 @@ def test_rational_omega_beyond_what_is_written_out():
         assert exact.is_Rational
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", sorted(BALLS))
 def test_closed_form_and_group_of_every_ball(name):
     for sphere in places(name):
@@ -306,6 +313,7 @@ def test_what_the_theorems_say():
     assert "constant" in theorem(ball("complex").on_plane())[0]
 
 
+@pytest.mark.long
 def test_R1_is_R_has_a_constant_omega_3():
     """For all balls: omega_3 = 1 with the n that its own linear equation demands satisfies the other one."""
     rolling = RollingBall(m=m, R=R, a=a, A1=A1, A3=A3)
@@ -343,6 +351,7 @@ def test_theorem_2_by_the_engine(roots):
             assert (answer.case, answer.riccati.degree, answer.verified) == (expected, expected, True), ratio
 
 
+@pytest.mark.long
 def test_the_engine_finds_one_of_our_two_omegas_or_a_pair_of_them():
     """Its omega solves the same Riccati equation over Q(x): for N odd both omegas are rational, and so is every one."""
     for N in (1, 2, 3, 7):
@@ -372,6 +381,7 @@ def test_ratios_that_are_nearly_irrational_or_nearly_of_theorem_1(ratio):
     assert (answer.case, answer.verified, answer.group.order) == (2, True, 4 * sp.denom(2 * rho))
 
 
+@pytest.mark.long
 def test_normalised_equation_is_the_general_one():
     """x = (x1 + x2)/2 + s (x1 - x2)/2 carries (13) into the one with the roots 1 and -1."""
     scale = (x1 - x2) / 2

@@ -135,6 +135,7 @@ def test_everything_that_solve_takes_is_an_item() -> None:
     assert item_from(5, {"S": "x", "id": {1, 2}}).error is not None
 
 
+@pytest.mark.long
 @given(st.text(), st.none() | st.text(), st.dictionaries(st.text().map("k".__add__), st.text()))
 def test_items_survive_the_pipe(pool: Pool, text: str, var: str | None, extra: dict[str, str]) -> None:
     (record,) = pool.run([Item(3, text, var, extra)])
@@ -143,6 +144,7 @@ def test_items_survive_the_pipe(pool: Pool, text: str, var: str | None, extra: d
     assert {key: record.data[key] for key in extra} == extra
 
 
+@pytest.mark.long
 def test_records_survive_the_pipe() -> None:
     item = Item(7, "x^2+3", extra={"id": "tab\tnewline\n"})
     conditions = {"timeout": 20, "group": True, "limits": Limits(degree=7)}
@@ -158,6 +160,7 @@ def test_records_survive_the_pipe() -> None:
 # Running
 
 
+@pytest.mark.long
 def test_solve_many_answers_in_order_with_schema_1() -> None:
     records = list(kovacic.solve_many([*QUICK, "x+", {"S": "x", "id": "a"}], jobs=2, timeout=60))
     assert [record.number for record in records] == list(range(1, 8))
@@ -171,6 +174,7 @@ def test_solve_many_answers_in_order_with_schema_1() -> None:
         _ = records[5].solution
 
 
+@pytest.mark.long
 def test_answers_validate_against_the_schema(pool: Pool) -> None:
     import jsonschema
 
@@ -198,6 +202,7 @@ def test_answers_longer_than_a_pipe_arrive_whole(pool: Pool) -> None:
         assert (record.number, record.label, record.data["id"]) == (item.number, "none", item.extra["id"])
 
 
+@pytest.mark.long
 def test_equations_are_taken_lazily(pool: Pool) -> None:
     taken = 0
 
@@ -214,6 +219,7 @@ def test_equations_are_taken_lazily(pool: Pool) -> None:
     pool.close()
 
 
+@pytest.mark.long
 def test_the_time_limit_holds_and_costs_nobody_else_an_answer() -> None:
     with Pool(2, Job(timeout=1.0)) as pool:
         records = list(pool.run(items([SLOW, *QUICK, SLOW, *QUICK])))
@@ -225,6 +231,7 @@ def test_the_time_limit_holds_and_costs_nobody_else_an_answer() -> None:
         assert "time limit of 1 s" in record.solution.reason
 
 
+@pytest.mark.long
 def test_an_equation_never_waits_for_a_slow_one_without_limit() -> None:
     with Pool(2, Job()) as pool:
         records = pool.run(items([SLOW, *QUICK]), ordered=False)
@@ -235,6 +242,7 @@ def test_an_equation_never_waits_for_a_slow_one_without_limit() -> None:
         assert [cases[number] for number in range(2, 7)] == QUICK_CASES
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not LINUX, reason="needs Linux's memory limits")
 def test_the_memory_limit_holds() -> None:
     with Pool(1, Job(memory=30, timeout=60)) as pool:
@@ -243,6 +251,7 @@ def test_the_memory_limit_holds() -> None:
     assert "memory limit of 30 MiB" in records[1].data["proof"]["undecided"]
 
 
+@pytest.mark.long
 def test_killed_processes_lose_nothing_and_repeat_nothing() -> None:
     """Processes are killed that have started; the records that they have given arrive afterwards."""
     texts = [QUICK[k % 5] for k in range(300)]
@@ -260,6 +269,7 @@ def test_killed_processes_lose_nothing_and_repeat_nothing() -> None:
     assert [record.case for record in sorted(finished, key=lambda r: r.number)] == QUICK_CASES * 60
 
 
+@pytest.mark.long
 def test_an_item_that_loses_every_process_is_reported() -> None:
     with Pool(1, Job()) as pool:
         records = pool.run(items(["x", SLOW, "x"]))
@@ -288,6 +298,7 @@ def _kill_later(pool: Pool, times: int) -> None:
     threading.Thread(target=kill, daemon=True).start()
 
 
+@pytest.mark.long
 def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answer() -> None:
     with Pool(2, Job(), workers.divides_by_zero) as pool:
         found = list(pool.run(items([*QUICK, workers.FATAL, *QUICK])))
@@ -297,6 +308,7 @@ def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answe
     assert "ZeroDivisionError" in (found[5].error or "")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("end", ["exception", "exit", "signal 15", "signal 40"])
 def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch: pytest.MonkeyPatch, end: str) -> None:
     """As on Windows, in both processes; timeouts hold there, too."""
@@ -308,6 +320,7 @@ def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch
     assert "the worker process ended with" in (records[1].error or "")
 
 
+@pytest.mark.long
 def test_a_system_that_does_not_say_how_many_cores_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(os, "sched_getaffinity", raising=False)
     assert [record.label for record in kovacic.solve_many(["x"])] == ["none"]
@@ -320,11 +333,13 @@ def test_memory_limits_are_refused_where_the_system_has_none(monkeypatch: pytest
         kovacic.solve_many(["x"], memory=100)
 
 
+@pytest.mark.long
 def test_a_worker_that_cannot_start_is_an_error() -> None:
     with Pool(1, Job(), workers.cannot_start) as pool, pytest.raises(KovacicError, match="no such module"):
         list(pool.run(items(["x"])))
 
 
+@pytest.mark.long
 def test_workers_end_with_their_parent() -> None:
     program = (
         "import os, time\n"
@@ -428,6 +443,7 @@ def test_a_record_that_contradicts_itself_is_no_answer(tmp_path: Path, change: d
     assert json.loads(path.read_text(encoding="utf-8")) == other
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("content", ["x^2 + 3\n", '{"S": "x", "id": 1}\n"x^2"\n', "\0\nprecious\n", "[]\n"])
 def test_a_file_of_something_else_is_not_taken_up(tmp_path: Path, content: str) -> None:
     path = tmp_path / "equations.jsonl"
@@ -447,6 +463,7 @@ def test_broken_and_repeated_lines_in_the_middle_are_removed(tmp_path: Path) -> 
     assert path.read_bytes() == first + second
 
 
+@pytest.mark.long
 @given(st.integers(min_value=0))
 def test_a_run_cut_anywhere_is_completed(tmp_path_factory: pytest.TempPathFactory, cut: int) -> None:
     path = tmp_path_factory.mktemp("cut") / "answers.jsonl"
@@ -463,6 +480,7 @@ def test_a_run_cut_anywhere_is_completed(tmp_path_factory: pytest.TempPathFactor
 # The command
 
 
+@pytest.mark.long
 def test_the_command_answers_every_line(tmp_path: Path) -> None:
     path = tmp_path / "in.txt"
     path.write_text("\n".join([*QUICK, "x +"]) + "\n")
@@ -477,6 +495,7 @@ def test_the_command_answers_every_line(tmp_path: Path) -> None:
     assert "6/6" not in ran.stderr
 
 
+@pytest.mark.long
 def test_the_command_reads_standard_input_and_answers_at_once() -> None:
     arguments = [sys.executable, "-m", "kovacic", "batch", "-", "-j", "1", "-q"]
     with started(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
@@ -488,6 +507,7 @@ def test_the_command_reads_standard_input_and_answers_at_once() -> None:
         assert process.wait(timeout=60) == 0
 
 
+@pytest.mark.long
 def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "answers.jsonl"
     path.write_text("precious\n")
@@ -499,6 +519,7 @@ def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
     assert command(str(tmp_path / "absent")).returncode == 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("signal_sent", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None:
     source, output = tmp_path / "in.txt", tmp_path / "out.jsonl"

@@ -73,6 +73,7 @@ _RUNS = st.lists(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=20)
 @given(_RUNS, st.sampled_from([1, 2, 8]), st.booleans(), st.booleans())
 @example([("wrong key", 2000)], 1, True, False)
@@ -85,6 +86,7 @@ def test_every_line_is_answered_once(pools: Pools, runs: list[Run], jobs: int, o
     assert (found if ordered else sorted(found)) == answers_of(runs)
 
 
+@pytest.mark.long
 def test_bad_lines_without_end_keep_nobody_from_his_answer_nor_from_his_time_limit() -> None:
     """An input that never ends, all of it refused but for two lines, one of which is slow."""
 
@@ -123,6 +125,7 @@ def test_what_ends_an_input_too_early_is_raised_after_the_answers(pools: Pools, 
         next(records)
 
 
+@pytest.mark.long
 def test_a_named_pipe_is_answered_while_it_is_silent(tmp_path: Path) -> None:
     """As `kovacic batch <(generate)`: the first answer comes before the second line."""
     path = tmp_path / "pipe"

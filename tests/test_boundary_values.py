@@ -83,6 +83,7 @@ def is_multiple(found: Any, expected: Any, point: Any) -> bool:
     return found != 0 and all(abs(sympy.N(value, 30)) < 1e-20 for value in values)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("s", "left", "right"), SCALES, ids=str)
 def test_eigenfunctions(s: Any, left: Any, right: Any) -> None:
     """Built from the answer; Dirichlet, Neumann (Robin after a factor) and mixed conditions: one free constant."""
@@ -264,6 +265,7 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
     assert sympy.simplify(found - expected) == 0
 
 
+@pytest.mark.long
 def test_limits_that_cannot_be() -> None:
     """A logarithm in y', a pole, an eigenvalue that isn't one; and a sign that nobody knows is undecided."""
     for text, values in (

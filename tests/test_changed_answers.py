@@ -122,6 +122,7 @@ def look(line: str) -> int:
     return judged
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", ANSWERS)
 def test_a_change_is_refuted_or_named(text: str) -> None:
     assert look(kovacic.solve(text).to_json(full=True)) > 300

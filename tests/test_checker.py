@@ -151,6 +151,7 @@ def test_it_is_one_file_that_imports_the_standard_library_and_flint() -> None:
             assert name == "flint" or str(name).partition(".")[0] in sys.stdlib_module_names
 
 
+@pytest.mark.long
 def test_it_runs_alone(tmp_path: Path) -> None:
     alone = Path(shutil.copy(FILE, tmp_path / "checker.py"))
     right, wrong = tmp_path / "right.jsonl", tmp_path / "wrong.jsonl"
@@ -201,6 +202,7 @@ def test_a_file_that_is_missing() -> None:
     assert "there_is_no_such_file" in done.stderr
 
 
+@pytest.mark.long
 def test_a_line_has_its_time() -> None:
     """(x + 9^2000)^3000 would have numbers of 6 million digits; the lines after it are read all the same."""
     lines = [kovacic.solve(text).to_json(full=True) for text in ("2", "x", "x^2 + 3")]
@@ -227,6 +229,7 @@ def test_published_answers_are_checked(entry: Published) -> None:
     assert said.startswith(("checked: ", *TOO_LARGE))
 
 
+@pytest.mark.long
 def test_textbook_answers_are_checked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(FILE.parent.parent / "benchmarks"))
     import closed_forms
@@ -275,6 +278,7 @@ def refuse(text: str) -> None:
         assert said.startswith("refuted"), (evidence, said)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("entry", SOLVABLE[::8], ids=lambda entry: entry.id)
 def test_no_solvable_equation_has_a_proof_of_none(entry: Published) -> None:
     refuse(entry.S)
@@ -379,6 +383,7 @@ def lines_with_orders() -> Iterator[tuple[RatFunc, dict[str, Any]]]:
         yield S, json.loads(json.dumps({**to_dict(answer), "group": group_dict(answer)}))
 
 
+@pytest.mark.long
 def test_orders_modulo_primes_are_checked_and_forged_ones_refuted() -> None:
     for _, data in lines_with_orders():
         orders = data["group"]["orders"]
@@ -411,6 +416,7 @@ def test_an_order_modulo_primes_doesnt_make_a_finite_group_infinite() -> None:
     assert checker.verdict(json.dumps(data)).startswith("refuted: it isn't shown that 10 is the order modulo 11")
 
 
+@pytest.mark.long
 def test_orders_modulo_primes_are_those_of_the_kernel() -> None:
     """Linear algebra in the checker, Euclid's algorithm in the kernel: beside one right order every prime and order."""
     agreed = 0

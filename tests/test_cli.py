@@ -39,6 +39,7 @@ def run(
     )
 
 
+@pytest.mark.long
 def test_a_solution_in_words() -> None:
     done = run("solve", "x^2+3")
     assert done.returncode == 0
@@ -219,6 +220,7 @@ def test_json_is_one_object_a_line(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
+@pytest.mark.long
 def test_standard_input_one_a_line() -> None:
     done = run("solve", "--json", "-", stdin="x\n\n# a comment\n  x^2+3  \n")
     assert [json.loads(line)["input"] for line in done.stdout.splitlines()] == ["x", "x^2+3"]
@@ -404,6 +406,7 @@ def test_a_failed_self_check_is_status_4(monkeypatch: pytest.MonkeyPatch, capsys
     assert "please report" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_ctrl_c_is_status_130() -> None:
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
     with started([*COMMAND, "solve", "-"], **pipes) as process:
@@ -443,6 +446,7 @@ def test_ctrl_c_while_solutions_are_computed(
     assert ("Liouvillian solutions exist" in shown.out) == (arguments[0] == "solve")  # what was known has been told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "command", ["solve --no-solutions x x", "evaluate x --x0 0 --y0 1 --dy0 0 --at 1,2,3,4", "dsolve y\\'\\'=y"]
 )
@@ -453,6 +457,7 @@ def test_a_reader_that_goes_away_at_once(command: str) -> None:
     assert done.stderr == ""
 
 
+@pytest.mark.long
 def test_a_closed_pipe_is_quiet() -> None:
     done = subprocess.run(
         f"yes x | {sys.executable} -m kovacic solve --json - 2>&1 >/dev/stdout | head -1; echo ${{PIPESTATUS[1]}}",
@@ -469,6 +474,7 @@ def test_a_closed_pipe_is_quiet() -> None:
     assert done.stderr == ""
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
 @pytest.mark.parametrize(
     "arguments",
@@ -501,6 +507,7 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
         assert "Traceback" not in done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("line", "status"),
     [
@@ -561,6 +568,7 @@ def test_a_picture_that_cannot_be_made_is_refused_before_any_work(tmp_path: Path
         assert message in done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("redirected", ["", "2>&1"])
 @pytest.mark.parametrize("command", ["batch -", "scan x^2+n n=1:300", "scan x^2+n n=1:300 --format csv"])
 def test_a_batch_whose_reader_goes_away_ends(command: str, redirected: str) -> None:
@@ -594,6 +602,7 @@ def on_terminal(
     return output.decode() if bars else _BAR.sub("", output.decode())
 
 
+@pytest.mark.long
 def test_colours_on_a_terminal_only_and_not_with_no_color() -> None:
     env = {key: value for key, value in os.environ.items() if key not in ("NO_COLOR", "TERM")}
     command = ("solve", "--no-solutions", "x^2+3")  # which doesn't import SymPy
@@ -611,6 +620,7 @@ def in_turn(env: dict[str, str], *commands: list[str]) -> list[list[str]]:
     return [part.splitlines() for part in shown.split("end of output\n")[:-1]]
 
 
+@pytest.mark.long
 def test_lines_keep_to_the_width_of_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     long = "x^1000 + 12345678901234567890123456789012345678901234567890*x"
     assert main.run(["solve", "x"]) == 0

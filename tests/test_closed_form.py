@@ -140,6 +140,7 @@ CASES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("strategy", CASES, ids=["omega", "diagonal", "scalar", "apparent", "curve", "Q8", "dihedral"])
 def test_random_equations_of_cases_1_and_2_have_exact_solutions(strategy: object) -> None:
     @settings(max_examples=12)
@@ -330,6 +331,7 @@ def test_the_terms_of_an_elliptic_integral_keep_their_signs_where_the_angle_is_c
         assert abs(mpmath.diff(value, point, 2) - expected) < 1e-15 * abs(value(point))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("g", "at"), [("(x - 1)*(x - 2)*(x**2 + 1)", (-3, 0, 3)), ("(x + 1)*(x**3 - 2)", (-2, 2)), ("x**3 + x + 1", (0, 3))]
 )
@@ -364,12 +366,14 @@ def test_the_lemniscates_integral() -> None:
     assert y2 / y1 == sympy.elliptic_f(2 * sympy.atan(x), sympy.Rational(1, 2))
 
 
+@pytest.mark.long
 def test_branch_points_may_be_complex_constants() -> None:
     y1 = ((x - sympy.I) * (x - 2) * (x - 3)) ** sympy.Rational(1, 4)
     S = sympy.factor(sympy.simplify(y1.diff(x, 2) / y1), extension=[sympy.I])
     assert kovacic.solve(S).solutions[1].has(sympy.elliptic_f)
 
 
+@pytest.mark.long
 def test_legendres_modulus_may_be_a_parameter() -> None:
     y = kovacic.solve(_with_square("(1 - x**2)*(1 - k**2*x**2)")).solutions[1]
     (integral,) = y.atoms(sympy.elliptic_f)

@@ -54,11 +54,13 @@ def test_partial_fractions_add_up(r: RatFunc) -> None:
     assert all(residue.value.degree < residue.factor.degree for residue in parts.residues)
 
 
+@pytest.mark.long
 @given(strategies.omegas())
 def test_products_have_the_logarithmic_derivative_that_they_were_made_of(omega: RatFunc) -> None:
     assert product(omega).logarithmic_derivative == omega
 
 
+@pytest.mark.long
 @given(st.data())
 def test_logarithms_of_partial_fractions(data: st.DataObject) -> None:
     """The SymPy integral differentiates back to r, at a point, with jets."""
@@ -70,6 +72,7 @@ def test_logarithms_of_partial_fractions(data: st.DataObject) -> None:
         assert abs(jet(expression, x, point)[1] - jet(Atoms(x).ratio(r), x, point)[0]) < 1e-25
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(strategies.rational_functions(4), squarefree)
 def test_integrals_on_curves(r: RatFunc, g: Poly) -> None:
@@ -83,6 +86,7 @@ def test_integrals_on_curves(r: RatFunc, g: Poly) -> None:
             assert found.integrand(g) == residue.logarithmic
 
 
+@pytest.mark.long
 @settings(max_examples=40)
 @given(strategies.rational_functions(3), squarefree.filter(lambda g: g.degree <= 2))
 def test_integrals_of_genus_0_differentiate_back(r: RatFunc, g: Poly) -> None:
@@ -194,6 +198,7 @@ def test_exact_check_notices_every_changed_part() -> None:
     assert not is_exact_solution(twice, ball.S, ZERO)
 
 
+@pytest.mark.long
 @settings(max_examples=15)
 @given(strategies.case_1_diagonal())
 def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
@@ -203,6 +208,7 @@ def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
     assert solutions(answer.S, answer.decision, 1 / (2 * X) - X).checked == "exact"
 
 
+@pytest.mark.long
 @given(
     strategies.rational_functions(3),
     squarefree.filter(lambda p: bool(p[0])),

@@ -50,6 +50,7 @@ def test_known_conditions_are_found_and_proven_complete(family: Family, answers:
         assert answer.case_at(point) == family.expected(*values), point
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
 def test_two_hundred_exact_points_agree_with_the_engine(family: Family, answers: dict[str, Conditions]) -> None:
     report = answers[family.name].check(200)
@@ -68,6 +69,7 @@ def test_a_wrong_region_is_noticed(answers: dict[str, Conditions]) -> None:
     ).check(20)
 
 
+@pytest.mark.long
 def test_kimura_for_three_parameters() -> None:
     answer = kovacic.conditions("-((1-l^2)/(4*x^2)+(1-m^2)/(4*(x-1)^2)+(l^2+m^2-n^2-1)/(4*x*(x-1)))", var="x")
     assert answer.complete is True
@@ -92,6 +94,7 @@ def test_schwarz_table_has_the_parities() -> None:
     assert kimura((None, F(1, 3), F(1, 3))) is None
 
 
+@pytest.mark.long
 def test_yoshida_homogeneous_potentials_of_degree_three() -> None:
     """Morales-Ruiz & Ramis 2001, k = 3, with the dihedral family (exponent differences 1/3, 1/2, 1/2 + j) as well."""
     answer = kovacic.conditions("((24*lam-35)*x^2 + (40-24*lam)*x - 32)/(144*x^2*(x-1)^2)", var="x")
@@ -107,6 +110,7 @@ def test_yoshida_homogeneous_potentials_of_degree_three() -> None:
     assert answer.check(200)
 
 
+@pytest.mark.long
 def test_ball_on_the_sphere_with_all_its_constants() -> None:
     """Theorem 1 with its converse, and Theorem 2, in the physical parameters."""
     x = sympy.Symbol("x")
@@ -127,6 +131,7 @@ def test_ball_on_the_sphere_with_all_its_constants() -> None:
     assert answer.check(200)
 
 
+@pytest.mark.long
 def test_sextic_oscillator() -> None:
     """Quasi-exactly solvable: a determinant for each natural number, and nothing else [Turbiner 1988]."""
     answer = kovacic.conditions("x^6 + a*x^2 + b", var="x", max_degree=3)
@@ -147,6 +152,7 @@ def test_sextic_oscillator() -> None:
     assert report.inside >= 15
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("S", "statement", "delta"),
     [
@@ -216,6 +222,7 @@ def test_natural_numbers_under_assumptions() -> None:
     assert kovacic.conditions("x^6 + a*x^2 + b", var="x", assume={"a": "odd"}).regions
 
 
+@pytest.mark.long
 def test_algebraic_points(answers: dict[str, Conditions]) -> None:
     assert answers["chebyshev"].case_at({"n": sympy.sqrt(2)}) == 2
     assert answers["whittaker"].case_at({"k": sympy.sqrt(2), "m": sympy.Rational(1, 2) - sympy.sqrt(2)}) == 1
@@ -375,6 +382,7 @@ def test_solve_under_assumptions() -> None:
     assert "solve_at" in str(answer.reason)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("S", "known"),
     [
@@ -431,6 +439,7 @@ def test_hypersurfaces_from_which_no_parameter_is_eliminated(
     assert answer.check(60)
 
 
+@pytest.mark.long
 def test_with_a_fixed_degree_and_several_parameters_one_determinant_is_complete() -> None:
     answer = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x", max_degree=3)
     (region,) = answer.regions
@@ -446,6 +455,7 @@ def test_with_a_fixed_degree_and_several_parameters_one_determinant_is_complete(
     assert report.open == 0
 
 
+@pytest.mark.long
 def test_a_polynomial_of_high_degree() -> None:
     """P of degree 150 for 76 values of b, the roots of a polynomial that only the recurrence gives quickly."""
     answer = kovacic.conditions("x^6 - 303*x^2 + b", var="x")
@@ -501,6 +511,7 @@ def test_views(answers: dict[str, Conditions]) -> None:
     assert pickle.loads(pickle.dumps(answer)) == answer
 
 
+@pytest.mark.long
 def test_a_map_of_two_parameters(answers: dict[str, Conditions]) -> None:
     pytest.importorskip("matplotlib")
     axes = answers["whittaker"].plot(ranges=((-1, 1), (-1, 1)), steps=4)
@@ -536,6 +547,7 @@ def _regions_agree_with_the_engine(S: str, samples: int, seconds: float) -> None
     assert report, (S, report.disagreements)
 
 
+@pytest.mark.long
 @given(parametric_equations())
 @settings(max_examples=25)
 def test_random_equations_agree_with_the_engine(S: str) -> None:
@@ -697,6 +709,7 @@ def test_the_note_uses_the_name_of_the_constant() -> None:
     assert any("alpha_ is the root of alpha_**4" in notice for notice in answer.notices)
 
 
+@pytest.mark.long
 def test_families_of_integers_are_merged_and_covered_ones_left_out() -> None:
     """Yoshida's degrees -1 and 2: each family once, and no region all of whose points lie in an earlier one."""
 
@@ -712,6 +725,7 @@ def test_families_of_integers_are_merged_and_covered_ones_left_out() -> None:
     assert yoshida(1) == ["L = (n^2 + n)/2 for an integer n"]
 
 
+@pytest.mark.long
 def test_a_region_inside_an_earlier_one_is_left_out() -> None:
     answer = kovacic.conditions("(A + B*x + C*x^2)/(x^2 - 1) - 3/(8*(x^2 - 1)^2)", var="x", max_degree=1)
     statements = [str(region.statement) for region in answer.regions]
@@ -720,6 +734,7 @@ def test_a_region_inside_an_earlier_one_is_left_out() -> None:
     assert answer.check(40)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "S",
     [
@@ -757,6 +772,7 @@ LITERATURE = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", LITERATURE)
 def test_families_of_the_literature_are_complete(name: str) -> None:
     answer = kovacic.conditions(LITERATURE[name], var="x", limits=Limits(seconds=60))
@@ -842,6 +858,7 @@ def test_natural_numbers_at_a_point() -> None:
     assert data["regions"][0]["determinants"][0] == "Delta_0 = a^2 - 4*c"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("S", "number", "known"),
     [
@@ -861,6 +878,7 @@ def test_determinants_of_the_literature(S: str, number: int, known: dict[str, st
     assert answer.check(30)
 
 
+@pytest.mark.long
 def test_rows_that_are_multiples_of_others_are_left_out() -> None:
     """Then one polynomial, not a system of equal ones, tells where P exists: Judd's solutions of Rabi's model."""
     S = (

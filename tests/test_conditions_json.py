@@ -57,6 +57,7 @@ def test_wrong_data_are_refused(change: dict[str, Any]) -> None:
         Conditions.from_json("{")
 
 
+@pytest.mark.long
 def test_the_root_that_is_meant_is_read_back() -> None:
     for root in ("sqrt(2)", "-sqrt(2)", "sqrt(2) + sqrt(3)", "sqrt(2) - 2*sqrt(3)"):
         answer = kovacic.conditions(f"x^2 + b + ({root})", var="x")
@@ -70,6 +71,7 @@ def test_the_root_that_is_meant_is_read_back() -> None:
             Conditions.from_json(json.dumps(data | {"constant_root": root}))
 
 
+@pytest.mark.long
 def test_several_algebraic_values_beside_an_algebraic_constant() -> None:
     answer = kovacic.conditions("(4*a^2-1)/(4*x^2) - b - sqrt(2) - sqrt(3)", var="x")
     for a, b, case in (

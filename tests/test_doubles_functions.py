@@ -562,6 +562,7 @@ def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any)
         assert np.allclose(f(points) / f(points[k]) * known[k], known, rtol=0, atol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "interval"),
     [
@@ -586,6 +587,7 @@ def test_zeros_beyond_the_range_of_doubles_are_no_error() -> None:
     assert f.measured.keeps_the_promise
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "interval", "start"),
     [
@@ -611,6 +613,7 @@ def test_states_carried_by_the_series_are_those_of_enclosures(
         assert not np.all(np.abs(table(10**6, np.inf) - enclosed) <= 1000 * sizes)
 
 
+@pytest.mark.long
 def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     """Here no state is lost: the solution oscillates."""
     asked, states = [], RationalChart.states
@@ -621,6 +624,7 @@ def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPa
     assert len(asked) < len(table.centres) / 20
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "interval", "start"),
     [

@@ -148,6 +148,7 @@ def test_other_right_hand_sides(right: sympy.Expr) -> None:
     assert undetermined(sympy.Integer(0), sympy.Integer(1), right, x) is None
 
 
+@pytest.mark.long
 def test_constants_and_variables_are_new() -> None:
     """Where the equation has a C1, the constants are C2 and C3; and no integral captures a parameter."""
     found = dsolve("y'' - C1^2*y = 0", var="x").rhs
@@ -181,6 +182,7 @@ def test_constants_with_sine_integrals_are_short() -> None:
     assert sympy.expand(found - expected) == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("right", ["sin(x)/x", "exp(x)*log(x)*sin(x)", "exp(sin(x))"])
 def test_integration_ends_in_time(right: str) -> None:
     """What isn't known is an `Integral`, at once."""
@@ -424,6 +426,7 @@ def test_normal_forms_with_constant_coefficients(text: str, values: dict) -> Non
     checked(text, solution, **values)
 
 
+@pytest.mark.long
 def test_the_right_hand_side_may_have_parameters_of_its_own() -> None:
     """The logarithmic derivative of x^(m - n) has both, that of the other factors none."""
     n, m = sympy.symbols("n m")
@@ -488,6 +491,7 @@ def test_boundary_values() -> None:
     assert dsolve("y'' = 0", ics={"y(0)": 0, "y(1)": 1, "y(2)": 2}).rhs == x
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "text",
     [
@@ -520,6 +524,7 @@ KLEIN = [
 ]
 
 
+@pytest.mark.long
 def test_initial_values_in_case_3() -> None:
     """Exact constants, values of hypergeometric functions; compared with proven enclosures."""
     S = "(-32*x^2 + 27*x - 27)/(144*x^2*(x-1)^2)"
@@ -579,6 +584,7 @@ def test_values_beside_roots_of_polynomials() -> None:
     assert abs(sympy.N(found.subs(x, 2) - sympy.cosh(2 * c), 30)) < 1e-25
 
 
+@pytest.mark.long
 def test_roots_of_parameters_and_common_factors() -> None:
     """A root of a linear expression in a parameter is taken for the parameter; what isn't rational is divided out."""
     k = sympy.Symbol("k")
@@ -648,6 +654,7 @@ def test_particular_solutions_are_real_to_the_left(right: str) -> None:
         assert abs(sympy.N(found.rhs.diff(x).subs(x, -1) - 2, 30)) < 1e-25
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ics", [{"y(2)": 2, "y(5/4)": 1}, {"y(1)": 1, "y'(1)": 0}])
 def test_values_with_integrals_that_are_left(ics: dict) -> None:
     """SymPy isn't asked for the integrals from one point to another."""
@@ -837,6 +844,7 @@ def test_wronskians_of_special_functions(text: str) -> None:
     assert all(len(i.function.atoms(*functions)) == 1 for i in found.atoms(sympy.Integral))
 
 
+@pytest.mark.long
 def test_printing_does_not_integrate_numerically() -> None:
     """SymPy orders terms by the values of their factors that are numbers, which took 130 s for integrals between two values."""
     program = """
@@ -901,6 +909,7 @@ def has_values(a: sympy.Expr, b: sympy.Expr, c: sympy.Expr, start: Any, stops: l
     return all(map(is_right, stops))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("S", [x**2, -(x**2), x**3, 9 * x**4, -(x**4), (x - 1) ** 2])
 @pytest.mark.parametrize("start", [-1, 0, 1])
 def test_bessel_functions_join_at_ordinary_points(S: sympy.Expr, start: int) -> None:
@@ -909,6 +918,7 @@ def test_bessel_functions_join_at_ordinary_points(S: sympy.Expr, start: int) -> 
     assert has_values(sympy.Integer(1), sympy.Integer(0), -S, sympy.Integer(start), stops)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("a", "c"),
     [

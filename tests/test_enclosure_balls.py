@@ -66,6 +66,7 @@ def test_every_number_in_the_balls_is_served(seed: int) -> None:
     encloses(seed)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
 def test_balls_that_are_too_narrow_are_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(start, "forcing_of", lambda problem: None)

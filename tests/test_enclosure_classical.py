@@ -97,6 +97,7 @@ def agree_on(kind: str, seed: int, count: int) -> int:
     return served
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss", "dihedral"])
 def test_both_routes_agree_on_random_legs(kind: str) -> None:
     assert agree_on(kind, 1, 60) > 15

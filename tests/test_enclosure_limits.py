@@ -180,6 +180,7 @@ def test_a_detour_around_an_irregular_singular_point_is_as_wide_as_it_can_be(sid
         assert ball_to_flint(state.y).overlaps(flint.acb(-t * (-1 / t - 1).exp()))
 
 
+@pytest.mark.long
 def test_growth_is_foreseen_for_numerators_of_any_degree() -> None:
     high = System.make((0,) * 200 + (1,), (1,))
     exact = (Fraction(3) ** 101 - Fraction(2) ** 101) / 101  # int x^100

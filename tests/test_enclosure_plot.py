@@ -96,6 +96,7 @@ def difference(random: Random) -> float:
     return float(worst)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("seed", "count"), [pytest.param(1, 12), pytest.param(2, 200, marks=pytest.mark.slow)], ids=["some", "many"]
 )
@@ -104,6 +105,7 @@ def test_the_line_is_the_solution_or_the_envelope_is_shown(seed: int, count: int
     assert max(difference(random) for _ in range(count)) < 0.02
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "stop", "periods"), [("-10000", 20, 318), ("y'' + 10000*y = 0", 7, 111), ("-400*x^2", 40, 2546)]
 )
@@ -120,6 +122,7 @@ def test_an_oscillation_that_a_page_cannot_show_is_an_envelope_and_the_legend_sa
     assert 0.9 * periods < count <= 1.01 * periods
 
 
+@pytest.mark.long
 def test_both_solutions_of_a_solved_equation_are_drawn_and_named() -> None:
     figure = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0").plot(1, 9)
     assert legend(figure) == ["y1 = cos(x)/sqrt(x)", "y2 = sin(x)/sqrt(x)"]
@@ -133,6 +136,7 @@ def test_both_solutions_of_a_solved_equation_are_drawn_and_named() -> None:
     assert 0 < decaying.get_ydata()[-1] < 1e-4
 
 
+@pytest.mark.long
 def test_a_growing_solution_leaves_the_rest_to_be_seen() -> None:
     axes = kovacic.solve("x^2 + 3").plot(-6, 6).axes[0]
     assert axes.get_yscale() == "symlog"

@@ -144,6 +144,7 @@ def check(seed: int) -> None:
             assert state.reached or expected.rel_accuracy_bits() < 4 * digits, (seed, state.note)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("block", range(6))
 def test_no_true_value_is_outside_of_its_ball(block: int) -> None:
     for seed in range(50 * block, 50 * (block + 1)):
@@ -211,6 +212,7 @@ def off_axis(rng: random.Random, count: int) -> list[complex]:
     return found
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("S", ["x^3 + x + 1", "(x + 3)/(x^2 + 1)", "1/(x - 1)^2 + 2/(x^2 + 2)", "1 + 1/(8*x + 3)^3"])
 @pytest.mark.parametrize("x0", ["1/5", 2 + 1j])
 def test_values_at_many_complex_points_are_those_at_each_alone(S: str, x0: Any) -> None:

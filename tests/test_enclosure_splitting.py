@@ -95,6 +95,7 @@ def coefficients(equation: Recurrence, start: int, count: int) -> list[ExactPoin
     return b
 
 
+@pytest.mark.long
 @given(equations(), st.integers(1, 5), st.booleans())
 def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, leaves: int, mirror: bool) -> None:
     run = make_block(equation.leaf(mirror), 2, leaves)
@@ -130,6 +131,7 @@ def sums_from_2(b: list[ExactPoint], mirror: bool) -> list[ExactPoint]:
 points = st.builds(ExactPoint, fractions(3, (1, 2, 7, 10**9)), fractions(2, (1, 3, 8)))
 
 
+@pytest.mark.long
 @settings(max_examples=8)
 @given(examples().filter(lambda example: example.size <= 5), points, points)
 def test_both_ways_agree_for_equations_of_every_case(example: Example, a: ExactPoint, b: ExactPoint) -> None:
@@ -183,6 +185,7 @@ def test_mirrored_legs_are_two_legs(disc: tuple[Frame, ExactPoint]) -> None:
         assert lost_bits(matrix, 2500) <= 8
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiny", [Fraction(1, 3**40), Fraction(1, 10**400), Fraction(3**250, 7**350)])
 def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, ExactPoint], tiny: Fraction) -> None:
     frame, target = disc
@@ -196,6 +199,7 @@ def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, ExactPoint], t
     assert bit_burst(LEGENDRE, frame, frame.centre, 2500) == []
 
 
+@pytest.mark.long
 def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
     frame, target, prec = (
         make_frame(AIRY, ExactPoint(Fraction(0)), 0),
@@ -266,6 +270,7 @@ def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
         assert carried(matrix, J, J / 2 + slope).overlaps(end.sqrt() * end.bessel_j(nu))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("x", ["1/3", "0.3141592653589793"])
 def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) -> None:
     assert is_split(LEGENDRE, 3 * DIGITS)

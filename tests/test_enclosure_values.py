@@ -130,6 +130,7 @@ def test_what_isnt_an_exact_finite_number_is_refused(bad: object) -> None:
 # --- the kernel ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @given(
     st.lists(st.integers(-50, 50), min_size=1, max_size=7),
     st.fractions(-8, 8, max_denominator=64),
@@ -486,6 +487,7 @@ def discs_stay_few(rng: random.Random, count: int) -> None:
         assert discs(pole, ends[0], ends[1]) <= 3 + 1.5 * math.log2((near + length) / near)
 
 
+@pytest.mark.long
 def test_a_path_from_close_to_a_singular_point_doesnt_stall() -> None:
     ball = evaluate("1/x", "1.000001", x0="0.000001", y0=1, dy0=0, limits=Limits(seconds=20))
     assert ball.digits >= 15
@@ -587,6 +589,7 @@ def test_numbers_may_be_constants_and_balls_of_every_library() -> None:
         assert ball_to_flint(start).overlaps((-flint.acb.pi()).exp())
 
 
+@pytest.mark.long
 @given(st.fractions(), st.fractions(), st.fractions(min_value=0, max_value=1), st.fractions(min_value=0, max_value=1))
 def test_the_arithmetic_of_balls_contains_that_of_their_numbers(
     a: Fraction, b: Fraction, r: Fraction, s: Fraction
@@ -728,6 +731,7 @@ def test_a_gauge_with_a_pole_of_high_order(order: int) -> None:
         assert float(value) > 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("digits", [5, 50, 1000])
 def test_a_ball_is_printed_with_the_digits_that_were_asked_for(digits: int) -> None:
     """y = (Bi'(0) Ai - Ai'(0) Bi)/W, by mpmath; the representation is short."""

@@ -134,6 +134,7 @@ def test_no_wrong_answer_in_the_long_run(family: str) -> None:
     run()
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(strategies.rational_pole_equations())
 def test_textbook_search_agrees_on_random_equations(S: RatFunc) -> None:
@@ -145,6 +146,7 @@ def test_textbook_search_agrees_on_random_equations(S: RatFunc) -> None:
     assert (answer.case, omega_degree(answer)) == expected
 
 
+@pytest.mark.long
 @settings(max_examples=40)
 @given(strategies.examples("case 1", "case 2", "case 3: Schwarz tetrahedral", "none", "odd"))
 def test_textbook_search_agrees_on_constructed_equations(example: Example) -> None:
@@ -162,6 +164,7 @@ def test_textbook_search_agrees_on_constructed_equations(example: Example) -> No
 # ------------------------------------------------------------------------------------------- sharp answers
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(strategies.omegas(2, 4))
 def test_unique_omega_is_found_itself(omega: RatFunc) -> None:
@@ -175,6 +178,7 @@ def test_unique_omega_is_found_itself(omega: RatFunc) -> None:
         assert difference.derivative() == -(difference * (other + omega))
 
 
+@pytest.mark.long
 @settings(max_examples=40)
 @given(strategies.products((-2, -1, 1, 2, 3), 3, 3), strategies.nonzero(30))
 def test_constants_of_the_diagonal_case(F: RatFunc, W: int) -> None:
@@ -204,6 +208,7 @@ def test_scalar_group_needs_no_constants(example: Example) -> None:
 # ---------------------------------------------------------------------------------------------- agreement
 
 
+@pytest.mark.long
 @settings(max_examples=40)
 @given(strategies.examples())
 def test_decide_agrees_and_answers_survive_pickle_and_json(example: Example) -> None:
@@ -232,6 +237,7 @@ def changed(decision: Decision, i: int, j: int, evidence: Any) -> Decision:
     )
 
 
+@pytest.mark.long
 @settings(max_examples=40)
 @given(strategies.examples("case 2", "case 3", "none", "case 1: omega"), st.integers(1, 5), st.integers(2, 50))
 def test_nullity_is_the_same_at_another_prime_and_point(example: Example, index: int, offset: int) -> None:
@@ -244,6 +250,7 @@ def test_nullity_is_the_same_at_another_prime_and_point(example: Example, index:
         assert plain_nullity(example.S, degree, evidence.degree, 10**9 + 7, offset + index) == 0
 
 
+@pytest.mark.long
 @settings(max_examples=30)
 @given(strategies.examples("case 2", "case 3", "none"), st.integers(1, 20), st.integers(60, 90))
 def test_a_proof_at_another_prime_and_point_verifies(example: Example, index: int, point: int) -> None:

@@ -130,6 +130,7 @@ def test_refusals_have_a_place(text: str, kind: type, message: str, position: in
     assert caught.value.position == position
 
 
+@pytest.mark.long
 @given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
 @settings(max_examples=40)
 def test_text_of_an_equation_reads_back(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
@@ -138,6 +139,7 @@ def test_text_of_an_equation_reads_back(a: RatFunc, b: RatFunc, c: RatFunc) -> N
     assert read_input(equation.text(caret=False)).equation == equation
 
 
+@pytest.mark.long
 @given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
 @settings(max_examples=25)
 def test_sympy_equations_read_like_text(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
@@ -259,6 +261,7 @@ def test_the_full_json_has_group_and_solutions() -> None:
     assert json.loads(kovacic.solve("x").to_json(full=True))["solutions"] is None
 
 
+@pytest.mark.long
 def test_reading_an_equation_as_text_doesn_t_import_sympy() -> None:
     code = "import sys, kovacic; kovacic.solve(\"x*y'' + y' + x*y = 0\").group; print('sympy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

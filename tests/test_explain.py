@@ -145,6 +145,7 @@ def test_the_paper_s_steps_find_what_the_engine_finds(example: strategies.Exampl
             return
 
 
+@pytest.mark.long
 def test_conjugate_poles_are_taken_one_by_one() -> None:
     """2/(x^2+1)^2: alpha = (1 +- i)/2 at both poles, and opposite signs at i and -i succeed."""
     found = searched(kovacic.solve("2/(x^2+1)^2"), 1)
@@ -222,6 +223,7 @@ def test_an_unknown_format() -> None:
         answer.citation(style="word")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
 def test_latex_compiles_without_overfull_boxes(tmp_path: Path) -> None:
     answers = [kovacic.solve(text) for text in [*EQUATIONS, *LONG]]
@@ -235,6 +237,7 @@ def test_latex_compiles_without_overfull_boxes(tmp_path: Path) -> None:
     assert b"Overfull" not in done.stdout
 
 
+@pytest.mark.long
 def test_nothing_wider_than_a_line_is_beyond_a_break() -> None:
     """What stands between two places where TeX breaks, + and = and \allowbreak outside of groups, is short."""
     for text in LONG:
@@ -249,6 +252,7 @@ def test_nothing_wider_than_a_line_is_beyond_a_break() -> None:
             assert depth == 0
 
 
+@pytest.mark.long
 @settings(max_examples=25, deadline=None)
 @given(strategies.rational_functions(max_degree=6, bound=99))
 def test_a_broken_formula_has_the_same_value(function: RatFunc) -> None:
@@ -306,6 +310,7 @@ class _Tags(HTMLParser):
             assert self.open.pop() == tag
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("text", "picture"), [(EQUATIONS[0], True), (EQUATIONS[4], True), (EQUATIONS[7], False)])
 def test_a_page_needs_nothing_from_elsewhere(text: str, picture: bool) -> None:
     page = kovacic.solve(text).explain(format="html")
@@ -321,6 +326,7 @@ def test_a_page_needs_nothing_from_elsewhere(text: str, picture: bool) -> None:
     assert "url(http" not in page
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", LONG)
 def test_long_formulas_on_a_page_are_many_short_ones(text: str) -> None:
     page = kovacic.solve(text).explain(format="html")
@@ -496,6 +502,7 @@ def test_the_command_solves_equations_in_every_view(capsys: pytest.CaptureFixtur
     assert '"group": {"name": "G_m"' in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_an_answer_in_special_functions_shows_them_in_jupyter() -> None:
     airy = kovacic.solve("x")
     assert "<mi>A</mi><mi>i</mi>" in airy._repr_html_()
@@ -503,12 +510,14 @@ def test_an_answer_in_special_functions_shows_them_in_jupyter() -> None:
     assert airy.plot(-3, 1, points=20)._repr_png_().startswith(b"\x89PNG")
 
 
+@pytest.mark.long
 def test_a_page_has_a_picture_beside_an_irregular_singular_point() -> None:
     """Kovacic's Example 1; solutions are as large as exp(1/x) at 0."""
     page = kovacic.solve("(4*x^6-8*x^5+12*x^4+4*x^3+7*x^2-20*x+4)/(4*x^4)").explain(format="html")
     assert "<svg" in page
 
 
+@pytest.mark.long
 def test_a_page_on_a_slow_machine_has_its_picture() -> None:
     seconds = count()
     with CLOCK.read_from(lambda: float(next(seconds))):

@@ -111,6 +111,7 @@ SOLUTIONS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("known", SOLUTIONS, ids=str)
 def test_the_answer_is_found_that_the_equation_was_made_from(known: Any) -> None:
     """S = y''/y for a chosen y: a solution is found, and both that are returned solve the equation in x."""
@@ -129,6 +130,7 @@ def test_the_answer_is_found_that_the_equation_was_made_from(known: Any) -> None
         assert abs(sympy.Matrix(rows).det()) < sympy.Float("1e-20")  # the chosen one is among their combinations
 
 
+@pytest.mark.long
 def test_first_derivatives_and_the_general_solution() -> None:
     solution = kovacic.dsolve("y'' + tan(x)*y' + cos(x)^2*y = 0")
     C1, C2 = sympy.symbols("C1 C2")
@@ -230,6 +232,7 @@ def mp_states(coefficient: Any, x0: Any, x: Any, right: Any = lambda x: 0) -> An
     return mpmath.odefun(lambda x, y: [y[1], coefficient(x) * y[0] + right(x)], x0, [1, 0])(x)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "x0", "x", "params", "coefficient", "right"),
     [
@@ -288,6 +291,7 @@ def test_values_from_a_frobenius_basis_are_refused() -> None:
 SECH = {"x0": 1, "y0": "1/cosh(1)", "dy0": "-sinh(1)/cosh(1)^2"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("careful", [False, True])
 def test_numpy_functions_and_pictures_are_those_of_the_users_variable(careful: bool) -> None:
     """1/cosh(x), by initial values and as the solution that the certificate has, and exp(exp(x) - x/2)."""
@@ -308,6 +312,7 @@ def test_numpy_functions_and_pictures_are_those_of_the_users_variable(careful: b
     assert min(np.ptp(np.log(y / known[1])) for y in found) < 1e-14
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "interval", "start", "second"),
     [
@@ -331,6 +336,7 @@ def test_a_table_in_the_users_variable(equation: str, interval: Any, start: Any,
                 assert table(end * share) == pytest.approx(float(own(abs(end) * share)[0]), rel=1e-14)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "interval", "message"),
     [
@@ -382,6 +388,7 @@ def test_the_first_line_is_what_the_user_asked(text: str) -> None:
     assert (again.S, again.equation) == (answer.S, answer.equation)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "second", "real"),
     [

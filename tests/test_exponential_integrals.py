@@ -21,6 +21,7 @@ polynomials = st.lists(small, min_size=1, max_size=3).map(lambda c: RatFunc(QQ.p
 ratios = st.tuples(polynomials, polynomials).filter(lambda pair: bool(pair[1])).map(lambda pair: pair[0] / pair[1])
 
 
+@pytest.mark.long
 @settings(max_examples=60, deadline=None)
 @given(ratios, ratios, st.lists(st.tuples(small, small), max_size=2))
 def test_derivatives_are_integrated(E: RatFunc, W: RatFunc, levels: list[tuple[int, int]]) -> None:
@@ -53,6 +54,7 @@ def test_what_is_left_and_why() -> None:
     assert not isinstance(integrate_exponential(1 / (X - 1) + 1 / (X + 1), X * X), str)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("integrand", "functions"),
     [

@@ -17,6 +17,7 @@ D2, D1, D0 = y(x).diff(x, 2), y(x).diff(x), y(x)
 PROBLEMS = [D2 + k**2 * D0 - g(x), D2 - 2 * D1 + D0 - exp(x) * g(x), x**2 * D2 + x * D1 - D0 - x * g(x) - x**3]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("equation", PROBLEMS)
 @pytest.mark.parametrize("func", [y(x), y])
 def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: Any) -> None:
@@ -27,6 +28,7 @@ def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: An
         assert abs(sympy.N(value, 20)) < 1e-12
 
 
+@pytest.mark.long
 def test_values() -> None:
     found = kovacic.dsolve(PROBLEMS[0], y(x), ics={y(0): 0, D1.subs(x, 0): 1}).rhs
     value = found.replace(g, lambda argument: argument).doit()

@@ -101,6 +101,7 @@ def test_the_second_solution_of_a_rational_one(omega: RatFunc, name: str) -> Non
     assert solution.verify()
 
 
+@pytest.mark.long
 @settings(max_examples=25)
 @given(strategies.distinct_irreducibles(1, 3, 3), st.data())
 def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObject) -> None:
@@ -113,6 +114,7 @@ def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObjec
     assert group.n == n
 
 
+@pytest.mark.long
 @settings(max_examples=25)
 @given(strategies.distinct_irreducibles(1, 3, 3), strategies.nonzero(5), st.data())
 def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) -> None:
@@ -121,6 +123,7 @@ def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) ->
     assert kovacic.solve(transform.from_omega(omega)).group.kind in (GroupKind.BOREL, GroupKind.MULTIPLICATIVE)
 
 
+@pytest.mark.long
 @settings(max_examples=25)
 @given(strategies.products((-2, -1, 1, 2)), strategies.nonzero(6))
 def test_a_rational_product_of_solutions_with_irrational_wronskian(F: RatFunc, w: int) -> None:
@@ -281,6 +284,7 @@ def test_an_order_that_is_a_large_prime() -> None:
     assert solution.verify()
 
 
+@pytest.mark.long
 @settings(max_examples=25)
 @given(strategies.examples("case 1", "case 2"))
 def test_local_monodromies_lie_in_the_group(example: strategies.Example) -> None:
@@ -300,6 +304,7 @@ def test_local_monodromies_lie_in_the_group(example: strategies.Example) -> None
             assert place.delta.denominator == 2 or group.n % place.delta.denominator == 0
 
 
+@pytest.mark.long
 @settings(max_examples=25)
 @given(strategies.examples("case 3"))
 def test_primitive_groups(example: strategies.Example) -> None:
@@ -667,6 +672,7 @@ def test_dimensions_of_groups(text: str, name: str, dimension: int) -> None:
     assert (group.name, group.dimension, group.finite) == (name, dimension, dimension == 0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("r", [Fraction(1, 3), Fraction(1, 6), Fraction(1, 8), Fraction(1, 10)])
 @pytest.mark.parametrize(("n", "m", "k"), [(3, 3, 1), (3, 5, 1), (4, 2, 1), (2, 5, 1), (3, 3, 2), (5, 5, 4)])
 def test_a_gauge_with_its_poles_where_the_exponents_of_a_dicyclic_group_are(

@@ -50,6 +50,7 @@ def run(example: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mo
 LONG = [pytest.param("ball", 1, 4, marks=pytest.mark.slow)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("command", "first", "last"), [*((name, 0, 1 if name == "ball" else None) for name in main.COMMANDS), *LONG]
 )
@@ -86,6 +87,7 @@ def test_the_examples_of_the_program_run(capsys: pytest.CaptureFixture[str], mon
     assert all(run(example, capsys, monkeypatch) for example in found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
 def test_files_and_pipes_are_utf_8_whatever_the_system_s_encoding_is(
     encoding: str, monkeypatch: pytest.MonkeyPatch

@@ -72,6 +72,7 @@ class Tags(HTMLParser):
 _OBEYED_BY_MARKDOWN = re.compile(r"(?<!\\)(?:\\\\)*[<\[\]`*_$|#]|\n")
 
 
+@pytest.mark.long
 @settings(max_examples=200)
 @given(_texts)
 def test_escaped_text_does_nothing(text: str) -> None:
@@ -104,6 +105,7 @@ def changed(equation: str, **changes: Any) -> dict[str, Any]:
     return {**json.loads(kovacic.solve(equation).to_json()), **changes}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", TOGETHER)
 @pytest.mark.parametrize("equation", ["x^2 + 3", "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"])
 def test_an_answer_that_was_changed_by_hand(equation: str, text: str) -> None:
@@ -122,6 +124,7 @@ def test_an_answer_that_was_changed_by_hand(equation: str, text: str) -> None:
         assert not obeyed_by_a_terminal(str(caught.value))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", TOGETHER)
 def test_an_undecided_answer_with_another_reason(text: str) -> None:
     data = json.loads(kovacic.solve("x^2 + 2000001").to_json())
@@ -155,6 +158,7 @@ def test_brackets_without_end_are_refused(text: str) -> None:
             reader(text)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments",
     [

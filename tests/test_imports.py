@@ -47,6 +47,7 @@ def test_a_function_keeps_its_name_beside_its_module() -> None:
     assert not [name for name in kovacic.__all__ if (ROOT / f"{name}.py").exists() or (ROOT / name).exists()]
 
 
+@pytest.mark.long
 def test_solving_text_imports_nothing_heavy() -> None:
     code = "import kovacic; a = kovacic.solve('x^2+3'); b = kovacic.solve(([0, 1], [1])); str(a), a.verify(), b.proof"
     assert loaded_after(code) & (HEAVY | {"click"}) == set()
@@ -68,6 +69,7 @@ def test_the_command_imports_nothing_heavy(arguments: list[str]) -> None:
     assert loaded_after(f"from kovacic.cli.main import run; run({arguments!r})") & HEAVY == set()
 
 
+@pytest.mark.long
 def test_the_command_starts_with_few_modules() -> None:
     """It takes 0.13 s with these, of which FLINT's import is a half: another third needs a reason."""
     count = "import sys; from kovacic.cli.main import run; run(['solve', '2/x^2 - 1']); print(len(sys.modules))"
@@ -138,6 +140,7 @@ def test_circles_are_found() -> None:
     assert circles(edges) == {frozenset("bc"), frozenset("def")}
 
 
+@pytest.mark.long
 def test_no_circle_of_imports() -> None:
     assert not circles(imports())
 
@@ -157,6 +160,7 @@ TEXT_FACING = (
 )
 
 
+@pytest.mark.long
 def test_nothing_executes_text() -> None:
     """No eval, exec, parse_expr, and where text from users arrives no sympify but the strict one: it would run."""
     for path in sorted(ROOT.rglob("*.py")):

@@ -248,6 +248,7 @@ def test_a_limited_call_takes_its_limits_from_the_keyword_or_the_object() -> Non
             limited(lambda *, limits: (clock.move(3), check_time()))(limits=Limits(seconds=2))
 
 
+@pytest.mark.long
 def test_factors_are_found_apart_as_here() -> None:
     """Above some degree a denominator is factored in a process that can be stopped: the same factors."""
     f = QQ.poly([-1, *[0] * 503, 1])

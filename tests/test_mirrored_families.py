@@ -29,6 +29,7 @@ def values(text: str, n: Fraction, largest: int = 40) -> bool:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("functions", "total", "expected"),
     [
@@ -57,6 +58,7 @@ def test_a_family_without_its_mirror_image_is_not_merged() -> None:
     assert text_of(alternatives(equations, Notation(letter="d"))).startswith("n = ")
 
 
+@pytest.mark.long
 def test_lame_in_n_and_its_accessory_parameter() -> None:
     r"""n (n + 1) p(x) + B is the same for n and -n - 1, and so is what is said of them."""
     numerator = "(4*n*(n+1)*x + 4*B)*(x-2)*(x-1)*(x+3) - 3*(x^4 + 14*x^2 - 48*x + 49)"
@@ -85,6 +87,7 @@ def test_regions_that_a_symmetry_exchanges_are_one_line(S: str, line: str) -> No
     assert not any(text.startswith(("l = -1", "(l")) for text in lines)
 
 
+@pytest.mark.long
 def test_blocks_that_differ_stay_apart() -> None:
     """n (n - 2) is the same for n = 0 and n = 2, but not n b."""
     text = str(kovacic.conditions("n*(n-2)/x^2 + n*b/(x-1)^2 + x^2", var="x"))

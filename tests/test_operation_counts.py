@@ -27,6 +27,7 @@ def operation_counts() -> ModuleType:
     return module
 
 
+@pytest.mark.long
 def test_the_work_is_what_was_recorded(operation_counts: ModuleType) -> None:
     changes = operation_counts.differences(operation_counts.recorded(), operation_counts.measure())
     hint = "if the change is meant: python benchmarks/operation_counts.py --accept"

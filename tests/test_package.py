@@ -47,6 +47,7 @@ def test_the_page_on_an_index_has_no_links_into_the_repository() -> None:
     assert "the map of the source" in page
 
 
+@pytest.mark.long
 def test_what_is_imported_is_declared() -> None:
     """At the head of a module only what every installation has; within functions also what an extra brings."""
     always = names(PROJECT["dependencies"]) | set(sys.stdlib_module_names) | {"kovacic"}
@@ -67,6 +68,7 @@ def test_what_is_imported_is_declared() -> None:
                 assert roots <= always | {"__future__"}, f"{path}: {roots - always} at the head"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "said"), [("x^2 + 3", "case 1"), ("x", "none"), ("x +", "the expression ends after '+'")]
 )

@@ -81,6 +81,7 @@ def test_the_lift_recovers_polynomials_from_their_values(given_polynomials: list
     raise AssertionError("the sequence of homomorphisms is infinite")
 
 
+@pytest.mark.long
 def test_large_coefficients_take_several_primes() -> None:
     f = K.poly([s * 10**40 + Fraction(1, 3**50), t / (s + 10**25)])
     lifter = Lifter(K)

@@ -45,6 +45,7 @@ def solutions_are_right(name: str, points: int) -> None:
 EACH = [pytest.param(name, marks=pytest.mark.slow if k % 12 else pytest.mark.long) for k, name in enumerate(ALL)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SOME)
 def test_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 3)
@@ -55,6 +56,7 @@ def test_all_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 20)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("S", ["1 + D/x + q/x^2 + a/x^4", "x^2 + l/x^6 - E", "x^2 + a/x^4 + b/x^3 + c/x^2 - E"])
 def test_a_root_of_a_parameter_has_the_sign_that_solves_the_equation(S: str) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=0)
@@ -106,6 +108,7 @@ EQUATIONS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EQUATIONS)
 def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
     text, equation = EQUATIONS[name]
@@ -139,6 +142,7 @@ def texts_say_what_is_meant(name: str, points: int) -> None:
     assert not wrong, wrong[:3]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SOME)
 def test_texts_say_what_is_meant(name: str) -> None:
     texts_say_what_is_meant(name, 6)
@@ -163,6 +167,7 @@ def random_quotients() -> list[RatFunc]:
     return [RatFunc(product() + random.choice((0, 1)) * product(), product()) for _ in range(120)]
 
 
+@pytest.mark.long
 def test_functions_are_read_back_as_they_are_written() -> None:
     n = sympy.Symbol("n")
     for function in random_quotients():
@@ -171,6 +176,7 @@ def test_functions_are_read_back_as_they_are_written() -> None:
         assert sympy.cancel(sympy.sympify(text.replace("^", "**")) - meant) == 0, text
 
 
+@pytest.mark.long
 def test_roots_are_read_back_as_they_are_written() -> None:
     for function in random_quotients():
         square = function.num[0]
@@ -196,6 +202,7 @@ def test_pi_is_a_number() -> None:
     assert not any(text in str(answer) for text in ("pi = 0", "pi = a"))
 
 
+@pytest.mark.long
 def test_an_invariant_of_degree_4_alone_shows_no_case_1() -> None:
     """Its exponents make y1^4 rational in case 1; in case 2, the generic one, (y1 y2)^2 is."""
     answer = kovacic.conditions(FAMILIES["lame1_k, published"], var="x", max_degree=0)

@@ -44,6 +44,7 @@ def expected(expression: Expression) -> list[Fraction] | None:
         return None
 
 
+@pytest.mark.long
 @given(expressions())
 @settings(max_examples=300)
 def test_random_expressions_have_their_exact_value(expression: Expression) -> None:
@@ -55,6 +56,7 @@ def test_random_expressions_have_their_exact_value(expression: Expression) -> No
         assert [value(read_input(expression.text).S, point) for point in POINTS] == values
 
 
+@pytest.mark.long
 @given(expressions(max_leaves=8))
 @settings(max_examples=100)
 def test_random_expressions_agree_with_sympy_and_so_do_sympys_own(expression: Expression) -> None:
@@ -70,6 +72,7 @@ def test_random_expressions_agree_with_sympy_and_so_do_sympys_own(expression: Ex
     assert from_text == from_sympy
 
 
+@pytest.mark.long
 @given(expressions())
 @settings(max_examples=100)
 def test_what_is_printed_is_read_back(expression: Expression) -> None:
@@ -90,6 +93,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.long
 @given(st.lists(st.sampled_from(PIECES), max_size=25).map("".join) | st.text(max_size=30))
 @settings(max_examples=800)
 @example("x" * 50 + "\x00")
@@ -209,6 +213,7 @@ def test_structure(text: str, structure: str) -> None:
     assert shape(text) == structure
 
 
+@pytest.mark.long
 @given(expressions())
 @settings(max_examples=300)
 def test_the_structure_doesnt_depend_on_redundant_parentheses(expression: Expression) -> None:
@@ -471,6 +476,7 @@ def test_the_wall_clock_is_checked_between_operations() -> None:
         kovacic.decide(slow, limits=Limits(seconds=0))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("opening", "closing", "depth"),
     [("(", ")", 100_000), ("-(", ")", 10_000), ("(1+", ")", 10_000), ("-", "", 100_000), ("1/(", ")", 9_999)],
@@ -535,6 +541,7 @@ def test_sympy_expressions_that_are_not_rational(expression: Any, words: str) ->
         read_input(expression)
 
 
+@pytest.mark.long
 def test_deep_sympy_expressions() -> None:
     expression = x
     for k in range(60):

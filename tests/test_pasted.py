@@ -123,6 +123,7 @@ def normal_form(parts: tuple[Any, Any, Any, Any]) -> Any:
 NAMES = {"ω_0": "omega_0", "omega0": "omega_0", "α": "alpha"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NOTATIONS)
 def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
     for parts in EQUATIONS:

@@ -76,6 +76,7 @@ def test_unknown_functions_are_not_guessed(check: ModuleType) -> None:
         check.check("x", "y", "giac", ["mystery(x)"])
 
 
+@pytest.mark.long
 def test_a_large_answer_is_checked_and_a_small_error_found(check: ModuleType) -> None:
     """An integral of forty factors, for which the second derivative as an expression takes minutes."""
     import sympy

@@ -55,6 +55,7 @@ def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values
     assert natural
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("S", "d", "values"),
     [
@@ -139,6 +140,7 @@ def test_a_region_says_why_it_has_no_solution(S: str, reasons: list[str]) -> Non
         assert bool(region.solution()) == (region.why_no_solution == "")
 
 
+@pytest.mark.long
 def test_hydrogen_has_its_wave_functions() -> None:
     region = kovacic.conditions("-2*E - 2*Z/x + l*(l+1)/x^2", var="x").regions[-1]
     E, Z, l = sympy.symbols("E Z l")  # noqa: E741

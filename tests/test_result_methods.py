@@ -57,6 +57,7 @@ def test_a_status_is_equal_to_its_string() -> None:
     assert repr(kovacic.Status.NONE_EXISTS) == "<Status.NONE_EXISTS: 'none'>"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("missing", "code", "extra"),
     [
@@ -81,6 +82,7 @@ def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: 
     assert set(shlex.split(command)) == set(project["optional-dependencies"][extra])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments", ["plot x --from 0 --to 1 -o p.png", "ball --mass 1 --radius 1 --sphere 3 --simulate"]
 )
@@ -92,6 +94,7 @@ def test_a_command_without_its_extra_says_so_in_one_line(arguments: str, tmp_pat
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("missing", ["numpy", "matplotlib"])
 def test_a_page_is_whole_without_a_picture(missing: str) -> None:
     program = (
@@ -127,6 +130,7 @@ def test_omega_in_sympy_solves_the_riccati_equation() -> None:
     assert sympy.sympify(kovacic.solve("2").omega) == sympy.Symbol("c")
 
 
+@pytest.mark.long
 def test_views_keep_the_limits_of_solve() -> None:
     """A view that would take longer says so; the limits aren't a part of the answer."""
     answer = kovacic.solve("y'' - 2*x*y' + 2400*y = 0")

@@ -44,6 +44,7 @@ def number(e: Any, at: Any = 1.25, constant: Any = 2) -> Any:
         return plain(mpmath.mpf(at), mpmath.mpf(constant), mpmath.mpf(2) / 3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: str(problem[0]))
 def test_general_solution_and_values(problem: tuple[Any, Any, Any]) -> None:
     p, q, r = coefficients(*problem)

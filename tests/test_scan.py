@@ -54,6 +54,7 @@ def test_grids() -> None:
     assert len(parse_grid("n=0:1:1/100000000")) == 10**8 + 1
 
 
+@pytest.mark.long
 def test_algebraic_values() -> None:
     assert values("n=sqrt(2),1/2, -I") == ["sqrt(2)", Fraction(1, 2), "-I"]
     grids = [parse_grid("n=sqrt(2),2^(1/3),3"), parse_grid("k=I-1,1/2")]
@@ -118,6 +119,7 @@ def test_parameters_must_differ(ranges: list[str]) -> None:
         list(scan_items("n + t", [parse_grid(text) for text in ranges], var="x"))
 
 
+@pytest.mark.long
 def test_bessel_is_solvable_at_half_odd_integers() -> None:
     records = list(scan("(4*n^2-1)/(4*x^2)-1", [parse_grid("n=0:4:1/4")], jobs=1))
     for record in records:
@@ -127,6 +129,7 @@ def test_bessel_is_solvable_at_half_odd_integers() -> None:
         assert label_of(record.data) == record.label
 
 
+@pytest.mark.long
 def test_sympy_expressions_and_points_where_s_is_not_defined() -> None:
     import sympy
 
@@ -136,6 +139,7 @@ def test_sympy_expressions_and_points_where_s_is_not_defined() -> None:
     assert label_of(records[1].data) == "bad input"
 
 
+@pytest.mark.long
 def test_the_command_writes_csv() -> None:
     ran = command("x^2 + n/m", "n=1:3", "m=0,1", "--format", "csv", "-j", "1", "-q")
     assert ran.returncode == 2
@@ -152,6 +156,7 @@ def test_the_command_writes_csv() -> None:
     assert "zero" in rows[0]["remark"]
 
 
+@pytest.mark.long
 def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path) -> None:
     output, picture = tmp_path / "scan.jsonl", tmp_path / "map.png"
     arguments = ["-n^2 + m*x", "n=0:2", "m=0:3", "-o", str(output), "--map", str(picture), "-j", "1"]
@@ -190,6 +195,7 @@ def test_every_label_has_a_colour() -> None:
     assert tuple(_COLOURS_AND_NAMES) == LABELS
 
 
+@pytest.mark.long
 def test_maps_show_each_label_in_its_place(tmp_path: Path) -> None:
     matplotlib = pytest.importorskip("matplotlib.image")
     grids = (parse_grid("a=0:1"), parse_grid("b=0:2"))

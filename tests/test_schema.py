@@ -111,6 +111,7 @@ def test_lines_of_evaluate(validator: jsonschema.Draft202012Validator, capsys: p
         validator.validate(line)
 
 
+@pytest.mark.long
 def test_lines_of_batch(
     tmp_path: Path, validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -144,6 +145,7 @@ def test_lines_of_lost_processes_and_failed_checks(
     validator.validate(record.data)
 
 
+@pytest.mark.long
 def test_lines_of_scan(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
     lines = list(printed(capsys, "scan", "x^2 + 1/n", "n=-1:1:1/2", "-q", status=2))
     assert [line["parameters"]["n"] for line in lines] == ["-1", "-1/2", "0", "1/2", "1"]
@@ -166,6 +168,7 @@ def test_conditions_that_are_not_complete(validator: jsonschema.Draft202012Valid
     validator.validate(answer.to_dict())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments",
     [["--ratio", "3/2"], ["--ratio", "1/3", "--latex"], BALL, [*BALL, "--simulate", "--time", "1"]],

@@ -127,6 +127,7 @@ CORPUS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("part", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 10))])
 def test_what_other_systems_solve(part: int) -> None:
     """The equations of SymPy's tests (Airy, Bessel, 2F1) and of Maxima's (odelin, Kamke) without Liouvillian solutions.
@@ -184,6 +185,7 @@ def test_equations_outside_of_the_classes() -> None:
     assert "Gauss" in str(heun.special)
 
 
+@pytest.mark.long
 def test_parameters_and_the_imaginary_unit() -> None:
     """SymPy's own constructor of hyper doesn't end here where evaluation is switched off."""
     answer = kovacic.solve("x*y'' + y' + (x + a)*y = 0")
@@ -197,6 +199,7 @@ def test_an_exhausted_budget_is_a_value() -> None:
     assert "time limit" in str(search.stopped)
 
 
+@pytest.mark.long
 def test_many_equal_singular_points_are_a_limit() -> None:
     points = [RatFunc(QQ.poly([-k, 1])) for k in range(10)]
     S = sum(((k + 1) / p - (k + 1) / (p - 1) - Fraction(21, 100) / (p * p) for k, p in enumerate(points[:-1])), X * 0)
@@ -264,6 +267,7 @@ POLYNOMIALS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("equation", "first"), POLYNOMIALS, ids=[row[0] for row in POLYNOMIALS])
 def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
     answer = kovacic.solve(equation)
@@ -275,6 +279,7 @@ def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
         assert solves(found, answer.S, answer.gauge, n=degree, m=1, a=mpmath.mpf(2) / 7, b=mpmath.mpf(3) / 11), degree
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "equation",
     [
@@ -370,6 +375,7 @@ def test_views_show_them() -> None:
     assert "Ai" in answer.explain(format="latex")
 
 
+@pytest.mark.long
 def test_beside_a_long_formula_there_is_a_short_one() -> None:
     """Hermite's polynomial of degree 60, and closed forms in radicals of 900 characters."""
     long = kovacic.solve("x^2 - 121")
