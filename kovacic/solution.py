@@ -583,8 +583,8 @@ def solve(
 
     >>> kovacic.solve("n*(n + 1)/x^2 - 1").status
     <Status.NONE_EXISTS: 'none'>
-    >>> kovacic.solve("n*(n + 1)/x^2 - 1", assume={"n": "integer"}).reason[:42]
-    'with n integer the equation is in case 1 ('
+    >>> kovacic.solve("n*(n + 1)/x^2 - 1", assume={"n": "integer"}).reason[:38]
+    'case 1 for all values with n integer ('
     >>> kovacic.solve("n*(n + 1)/x^2 - 1", assume={"n": 1}).case
     1
 

@@ -55,7 +55,8 @@ def test_a_misspelt_keyword_is_refused_by_the_function_that_was_called(name: str
     function(*positional, **keywords)
     for keyword, value in keywords.items():
         for other in neighbours(keyword) - {*keywords, "a", "b", "c", "f", "x"}:
-            with pytest.raises(TypeError, match=rf"\b{name}\(\) got an unexpected keyword argument '{other}'"):
+            called = name.replace("Conditions.", "(Conditions|ParametricAnswer).")  # where the data have the method
+            with pytest.raises(TypeError, match=rf"\b{called}\(\) got an unexpected keyword argument '{other}'"):
                 function(*positional, **keywords, **{other: value})
 
 

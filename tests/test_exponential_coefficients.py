@@ -196,7 +196,7 @@ def test_rates_are_parameters_and_radicals() -> None:
         ("exp(x) + exp(sqrt(2)*x)", "no rational quotient"),
         ("exp(x)*cos(x)", "no rational quotient"),
         ("exp(x^2)", "multiple of x"),
-        ("sqrt(x) + 1", "sqrt"),
+        ("sqrt(x + 1) + log(x)", "log"),
         ("sin(2^x)", "multiple of x"),
     ],
 )
@@ -208,7 +208,7 @@ def test_other_coefficients_are_refused(S: str, message: str) -> None:
 @pytest.mark.parametrize(
     ("equation", "message", "position"),
     [
-        ("y'' + exp(x)*y(2*x) = 0", "y is a function of x alone", 13),
+        ("y'' + exp(x)*y(2*x) = 0", "beside y\\(x\\)", 13),
         ("y'' + sin(x)*y^2 = 0", "a power of y", 13),
         ("y'' + exp(x)*y*y' = 0", "a product of y", 6),
         ("exp(x) + y", "the symbol y beside", 9),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import sympy
 
 import kovacic
 
@@ -35,17 +36,22 @@ def test_a_scan_keeps_the_free_particle() -> None:
     assert [record.case for record in run_items(items, Job(jobs=1))] == [1, 1, 1]
 
 
-@pytest.mark.parametrize(
-    "equation",
-    [
-        "y'' = (x^(2*g) + a/x^2)*y",
-        "y'' + y'/x + (x^(2*g-2) - n^2/x^2)*y = 0",
-        "y'' = (x^(2*g) + 1/(a*x))*y",
-        "y'' = (x^g + (a + b*x)/(x^2 + c))*y",
-        "x^(2*g)",
-    ],
-)
+@pytest.mark.parametrize("equation", ["y'' = (x^(2*g) + 1/(a*x))*y", "y'' = (x^g + (a + b*x)/(x^2 + c))*y"])
 def test_a_symbol_in_an_exponent_beside_parameters_is_refused(equation: str) -> None:
     for call in (kovacic.solve, kovacic.conditions, kovacic.dsolve):
         with pytest.raises(kovacic.InputError):
             call(equation)
+
+
+@pytest.mark.parametrize(
+    ("equation", "case"),
+    [
+        ("y'' = (x^(2*g) + a/x^2)*y", "a = (n*g + n - 1)*(n*g + n + 1)/4 for an odd integer n"),
+        ("y'' + y'/x + (x^(2*g-2) - n^2/x^2)*y = 0", "n/g - 1/2 in Z"),
+    ],
+)
+def test_a_power_with_a_symbol_is_the_variable(equation: str, case: str) -> None:
+    """Bessel's equation in x^(g + 1), Lommel's in x^g: half odd integer orders."""
+    assert case in str(kovacic.conditions(equation))
+    assert kovacic.solve(equation).status == "none"
+    assert kovacic.dsolve(equation).rhs.has(sympy.besseli, sympy.besselj)

@@ -260,10 +260,10 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
     1.172299970058
     >>> y, slope = airy("1/2", derivative=True)
     >>> print(f"{slope:.12f}")
-    0.125521375496
+    0.126044382768
     >>> mathieu = prepared("y'' + (2 + cos(x))*y = 0", x0=0, y0=1, dy0=0)
     >>> print([f"{value:.10f}" for value in mathieu([1, 20, 19])])
-    ['-0.1309461246', '-0.5693716766', '0.0697325246']
+    ['-0.1436874002', '-0.9028643947', '0.3282230186']
     """
     check_keywords("prepared", options, Options.__annotations__)
     return _prepared(equation, x0, options)

@@ -43,6 +43,7 @@ class Question:
         _check_regular(self.journey.problem, targets)
         with Budget(self.limits).watched():
             if self.method is None and self.journey.knows(targets, start_bits(self.digits)):
+                _LOG.info("route: Taylor's method, on discs that are known")
                 return raise_precision(self.journey, targets, None, self.digits, self.limits)
             closed = route_of(self.journey, targets, self.method, self.digits)
             _LOG.info("route: %s", "Taylor's method" if closed is None else closed)

@@ -146,6 +146,8 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     if first == 0 or not all((rate / first).is_Rational for rate in rates.values()):
         return None
     k, u = first * sympy.gcd_list([rate / first for rate in rates.values()]), sympy.Dummy()
+    if k.could_extract_minus_sign():  # one u for all terms, or logarithms that cancel would stay
+        k = -k
     inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
     if inner.has(x):
         return None
