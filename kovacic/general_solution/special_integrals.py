@@ -14,6 +14,8 @@ from kovacic.general_solution.integrands import integral_of_product
 
 Expr = Any  # SymPy publishes no types
 _Pair = tuple[Expr, Expr]
+#: More complex exponentials than these are harder to read than the integral.
+_MOST_EXPONENTIALS = 4
 
 
 def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
@@ -114,6 +116,8 @@ def in_complex_exponentials(term: Expr, x: Expr) -> Expr | None:
     if not term.has(sin, cos):
         return None
     parts = sympy.Add.make_args(sympy.expand(term.rewrite((sin, cos), exp), power_exp=False))
+    if len(parts) > _MOST_EXPONENTIALS:
+        return None
     found = [_of_exponential(part, x) for part in parts]
     return None if None in found else sympy.Add(*found)
 
