@@ -10,7 +10,10 @@ A test that needs more of the inside than this says so by its imports.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
+
+import pytest
 
 from kovacic import Equation
 from kovacic.algebra.extension import AlgebraicField
@@ -30,6 +33,7 @@ __all__ = [
     "RatFunc",
     "equation",
     "function",
+    "parametrize",
     "read_input",
 ]
 
@@ -44,3 +48,27 @@ def equation(text: Any, var: str | None = None) -> Equation:
     found = read_input(text, var=var).equation
     assert found is not None
     return found
+
+
+def parametrize(
+    names: str | tuple[str, ...], values: Iterable[Any], *, ordinary: int, **options: Any
+) -> pytest.MarkDecorator:
+    """`pytest.mark.parametrize` of which `ordinary` values, spread evenly, are in the ordinary suite; the others are `long`.
+
+    For properties of which every member takes a while: a few say at once that something broke, all of them run in .ci/run.
+    """
+    members = list(values)
+    kept = {index * len(members) // ordinary for index in range(ordinary)}
+    one_name = isinstance(names, str) and "," not in names
+    return pytest.mark.parametrize(
+        names,
+        [member if index in kept else _long(member, one_name) for index, member in enumerate(members)],
+        **options,
+    )
+
+
+def _long(member: Any, one_name: bool) -> Any:
+    if hasattr(member, "marks"):  # what pytest.param gives
+        return pytest.param(*member.values, marks=[*member.marks, pytest.mark.long], id=member.id)
+    parts = (member,) if one_name else member
+    return pytest.param(*parts, marks=pytest.mark.long)

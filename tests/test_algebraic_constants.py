@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 import strategies
 import sympy
-from build import QQ, AlgebraicField, Field, Poly, RatFunc
+from build import QQ, AlgebraicField, Field, Poly, RatFunc, parametrize
 from hypothesis import given, settings
 from strategies import Example
 from transform import hypergeometric
@@ -42,7 +42,7 @@ ENTRIES = [
 ]
 
 
-@pytest.mark.parametrize(("S", "case"), ENTRIES)
+@parametrize(("S", "case"), ENTRIES, ordinary=10)
 def test_decided_and_verified(S: str, case: int | None) -> None:
     answer = kovacic.solve(S, var="x")
     assert answer.case == case
@@ -132,7 +132,7 @@ SUMS_OVER_ROOTS = {
 }
 
 
-@pytest.mark.parametrize("S", SUMS_OVER_ROOTS.values(), ids=SUMS_OVER_ROOTS)
+@parametrize("S", SUMS_OVER_ROOTS.values(), ordinary=1, ids=SUMS_OVER_ROOTS)
 def test_sums_over_the_roots_of_irrational_polynomials(S: str) -> None:
     x = sympy.Symbol("x")
     for y in kovacic.solve(S.replace("a", "sqrt(2)"), var="x").solutions:
@@ -194,7 +194,7 @@ def test_primitive_elements(radicals: tuple[int, ...]) -> None:
         assert abs(complex(approximation(root)) - complex(radicand) ** 0.5) < 1e-12
 
 
-@pytest.mark.parametrize("modulus", [[-1, -1, 0, 0, 0, 1], [-1, -1, 0, 0, 0, 0, 0, 1], [1, -1, *[0] * 8, 1]])
+@parametrize("modulus", [[-1, -1, 0, 0, 0, 1], [-1, -1, 0, 0, 0, 0, 0, 1], [1, -1, *[0] * 8, 1]], ordinary=1)
 def test_fields_in_which_hardly_any_prime_splits(modulus: list[int]) -> None:
     """Groups S5, S7, S10: one prime in 120, 5040 or 3628800 splits, so elements are found by lattice reduction."""
     K = AlgebraicField(QQ, QQ.poly(modulus), "a")

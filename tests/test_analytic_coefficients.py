@@ -10,6 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 
@@ -77,7 +78,7 @@ def check(seed: int) -> float:
     return worst
 
 
-@pytest.mark.parametrize("seed", range(12))
+@parametrize("seed", range(12), ordinary=3)
 def test_the_chosen_solution_lies_in_the_ball(seed: int) -> None:
     assert check(seed) <= 1
 
@@ -93,6 +94,7 @@ def odefun(b: Any, c: Any, x0: float, place: float) -> Any:
     return mpmath.odefun(lambda t, s: [s[1], -b(t) * s[1] - c(t) * s[0]], x0, [1, 0])(place)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "x0", "place", "b", "c"),
     [
@@ -133,6 +135,7 @@ def test_what_cancels_is_no_singular_point() -> None:
     assert kovacic.evaluate("y'' + (1 - cos(x)^2)/sin(x)*y = 0", 4, **start).digits > 15
 
 
+@pytest.mark.long
 def test_a_complex_way_around_a_singular_point() -> None:
     """y = tan(x) + i has the equation y'' = 2 tan(x) y' by either side of pi/2."""
     equation = "y'' - 2*tan(x)*y' = 0"
@@ -146,7 +149,7 @@ def test_a_complex_way_around_a_singular_point() -> None:
     assert np.allclose([float(value) for value in together], np.tan([1.25, 0.75, 1]), rtol=1e-14)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "x0", "place"),
     [
         ("y'' + log(x)*y = 0", 1, -1),
@@ -157,6 +160,7 @@ def test_a_complex_way_around_a_singular_point() -> None:
         ("y'' + sqrt(x - 1)*y = exp(x)", 2, "1/2"),
         ("y'' + asin(x)*y = 0", 0, 2),
     ],
+    ordinary=4,
 )
 def test_no_singular_point_is_passed(equation: str, x0: Any, place: Any) -> None:
     with pytest.raises(kovacic.InputError, match="analytic"):
@@ -177,6 +181,7 @@ def test_parameters_constants_and_balls() -> None:
         kovacic.evaluate(equation, 1, x0=0, y0=1, dy0=0)
 
 
+@pytest.mark.long
 def test_many_digits_and_the_same_digits_by_few() -> None:
     start = {"x0": 0, "y0": 1, "dy0": 0}
     many = kovacic.evaluate("y'' + tan(x)*y' + exp(-x^2)*y = 0", 1, digits=300, **start)

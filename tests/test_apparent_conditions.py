@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from tests.clocks import controlled
@@ -27,9 +28,10 @@ def pseudo(n: int) -> Any:
     return sympy.expand(sympy.hermite(n, sympy.I * x) / sympy.I**n)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "functions",
     [(hermite(1), hermite(2)), (hermite(2), hermite(3)), (pseudo(4),), (hermite(1), hermite(2), hermite(3))],
+    ordinary=1,
 )
 def test_exceptional_hermite_potentials_are_solvable_for_odd_energies(functions: tuple[Any, ...]) -> None:
     V = exceptional(*functions)
@@ -43,6 +45,7 @@ def test_exceptional_hermite_potentials_are_solvable_for_odd_energies(functions:
     assert answer.case_at({"E": sympy.Rational(1, 3)}) is None
 
 
+@pytest.mark.long
 def test_solutions_are_carried_back() -> None:
     V = exceptional(hermite(1), hermite(2))
     region = kovacic.conditions(V - E, var="x").regions[-1]
@@ -60,6 +63,7 @@ def test_solutions_are_carried_back() -> None:
     assert found >= 3
 
 
+@pytest.mark.long
 def test_an_exceptional_laguerre_potential_with_a_parameter() -> None:
     """X1 [Quesne 2008]: E = 2 l + 3 + 4 n, as without the rational term, and its mirror images."""
     S = "x^2 + l*(l+1)/x^2 + 8/(2*x^2+2*l+1) - 16*(2*l+1)/(2*x^2+2*l+1)^2 - E"
@@ -74,6 +78,7 @@ def test_an_exceptional_laguerre_potential_with_a_parameter() -> None:
     assert "[Dar82]" in answer.theorem()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("curve", ["4*x^3 - 28*x + 24", "4*x^3 - 4*x"])
 def test_lame_with_integer_n_is_solvable_for_every_B(curve: str) -> None:
     """Darboux, Treibich & Verdier: one or two, for every accessory parameter; the engine agrees."""
@@ -91,6 +96,7 @@ def test_lame_with_integer_n_is_solvable_for_every_B(curve: str) -> None:
             assert expected in (1, 2)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["w^2", "-w^2", "w^3", "4*w^2*v^2"])
 def test_a_parameter_in_powers_is_as_good_as_its_power(name: str) -> None:
     """Regge & Wheeler's equation is decided completely in W = w^2, and so it is in w."""
@@ -115,7 +121,7 @@ def test_a_parameter_in_powers_is_as_good_as_its_power(name: str) -> None:
             assert abs(value) < sympy.Float("1e-18") * abs(y.subs(x, sympy.Rational(17, 7)).evalf(30))
 
 
-@pytest.mark.parametrize("seconds", [0.2, 0.7, 1.2])
+@parametrize("seconds", [0.2, 0.7, 1.2], ordinary=1)
 def test_a_limit_within_the_search_is_a_value(seconds: float) -> None:
     """Of powers and of transformations, too: what was found until then is the answer."""
     S = "(-w^2 + (x-1)*(l*(l+1)*x-3)/x^4)*x^2/(x-1)^2 - (4*x-3)/(4*x^2*(x-1)^2)"

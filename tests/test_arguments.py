@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic import InputError, Limits
@@ -49,7 +50,7 @@ def neighbours(word: str) -> set[str]:
 
 
 @pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
-@pytest.mark.parametrize("name", CALLS)
+@parametrize("name", CALLS, ordinary=5)
 def test_a_misspelt_keyword_is_refused_by_the_function_that_was_called(name: str) -> None:
     function, positional, keywords = CALLS[name]
     function(*positional, **keywords)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from ball_quadratures import quadratures
+from build import parametrize
 from numpy.polynomial import chebyshev
 
 from kovacic import InputError, LimitExceeded
@@ -66,7 +67,7 @@ def differences(motion, found, times):
 
 
 @pytest.mark.parametrize("place", ["outside", "inside", "plane"])
-@pytest.mark.parametrize("seed", range(20))
+@parametrize("seed", range(20), ordinary=1)
 def test_newton_and_euler_agree_on_random_bodies(seed, place):
     """u, both spins, the contact point in space and on the ball, the attitude and the normal reaction."""
     generator = np.random.default_rng([seed, len(place)])
@@ -93,7 +94,7 @@ def test_the_reference_starts_with_the_rates_that_are_meant():
 
 
 @pytest.mark.parametrize("R1", [3, "2/3", -3])
-@pytest.mark.parametrize(
+@parametrize(
     ("du", "dv", "n"),
     [
         (0.5, 0.3, 2.0),
@@ -103,6 +104,7 @@ def test_the_reference_starts_with_the_rates_that_are_meant():
         (3.5, 1e-8, 1e-8),
         (3.5, 0.0, 0.0),
     ],
+    ordinary=1,
     ids=["ordinary", "backwards", "near the poles", "nearer", "nearest", "through the poles"],
 )
 def test_newton_and_euler_agree_also_near_and_through_the_poles(R1, du, dv, n):
@@ -141,7 +143,7 @@ STARTS = {
 }
 
 
-@pytest.mark.parametrize("name", sorted(STARTS))
+@parametrize("name", sorted(STARTS), ordinary=1)
 def test_every_start_has_its_motion(name):
     a, R1, (u, du, dv, n) = STARTS[name]
     moments = {"A1": "2/5", "A3": "2/5"} if a == 0 else {"A1": "1/4", "A3": "1/3"}
@@ -245,7 +247,7 @@ def long_way(motion, sphere, count, rest):
     return reference(sphere, START, np.array([0.0, time]), slope=slope)["attitude"][-1]
 
 
-@pytest.mark.parametrize("name", sorted(BALLS))
+@parametrize("name", sorted(BALLS), ordinary=1)
 @pytest.mark.parametrize("R1", [3, "2/3", -3, None])
 def test_the_closed_form_and_the_energy_hold_along_the_motion(name, R1):
     """omega_3 and n by the theorem, on either sign of l, against the integrated motion, and along the reference."""
@@ -298,7 +300,7 @@ def pendulum(sphere, gap):
 
 
 @pytest.mark.parametrize("R1", [3, "2/3"])
-@pytest.mark.parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2])
+@parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2], ordinary=1)
 def test_near_the_separatrix(R1, gap):
     """The ball just swings back before it stands upright, or just goes over: against Newton and Euler's equations."""
     sphere = BALLS["l > 0"].on_sphere(R1)
@@ -346,7 +348,7 @@ def test_motions_that_just_turn_are_periodic():
         assert motion.period is not None
 
 
-@pytest.mark.parametrize("R1", [3, -3, "7/2", "-7/2"])
+@parametrize("R1", [3, -3, "7/2", "-7/2"], ordinary=2)
 def test_the_start_is_where_the_state_says(R1):
     """u1 and v1 are the contact point's, inside too; the ball moves there along e_u as theta says."""
     sphere = BALLS["l > 0"].on_sphere(R1)
@@ -453,7 +455,7 @@ def test_potentials_that_are_not_elementary(potential):
         potential_of(potential)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "potential",
     [
         "0",
@@ -465,6 +467,7 @@ def test_potentials_that_are_not_elementary(potential):
         "cos(40u)/9",
         sp.tanh(sp.cos(U)) / 2 + 0.25,
     ],
+    ordinary=1,
 )
 def test_motion_under_other_potentials(potential):
     """Steep ones, with a barrier that isn't reached, with many equilibria: as central forces in the reference."""

@@ -8,7 +8,7 @@ from math import prod
 import mpmath
 import pytest
 import sympy as sp
-from build import QQ, RatFunc, read_input
+from build import QQ, RatFunc, parametrize, read_input
 
 import kovacic
 from kovacic import InputError
@@ -283,7 +283,7 @@ def test_closed_form_and_group_of_every_ball(name):
             assert sp.im(form.n.subs({**at, X: x}).evalf(20)) == 0
 
 
-@pytest.mark.parametrize("name", sorted(BALLS))
+@parametrize("name", sorted(BALLS), ordinary=1)
 def test_a_wrong_ratio_in_a_closed_form_is_seen(name):
     right, wrong = ball(name).on_sphere(3), ball(name).on_sphere(4)
     assert not closed_form(wrong).solves(right)
@@ -334,14 +334,14 @@ ROOTS = (
 )
 
 
-@pytest.mark.parametrize("roots", ROOTS, ids=str)
+@parametrize("roots", ROOTS, ordinary=1, ids=str)
 def test_theorem_1_by_the_engine(roots):
     for N in range(1, 51) if roots == ROOTS[0] else (1, 2, 3, 4, 7, 11, 12):
         answer = kovacic.solve(thirteen(sp.Rational(N, 2), **roots))
         assert (answer.case, answer.riccati.degree, answer.verified, answer.group.name) == (1, 1, True, "mu_4"), N
 
 
-@pytest.mark.parametrize("roots", ROOTS, ids=str)
+@parametrize("roots", ROOTS, ordinary=2, ids=str)
 def test_theorem_2_by_the_engine(roots):
     for q in range(3, 9) if roots == ROOTS[0] else (3, 5):
         for p in range(1, 16) if roots == ROOTS[0] else (1, 4):

@@ -18,6 +18,7 @@ from types import SimpleNamespace
 
 import pytest
 import workers
+from build import parametrize
 from hypothesis import given
 from hypothesis import strategies as st
 from processes import started
@@ -364,7 +365,7 @@ def _alive(pid: int) -> bool:
         return False
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("options", "message"),
     [
         ({"jobs": 0}, "at least 1"),
@@ -373,6 +374,7 @@ def _alive(pid: int) -> bool:
         ({"scheduler": "tcp://localhost:1"}, "needs a backend"),
         ({"backend": "nonsense"}, "isn't a backend"),
     ],
+    ordinary=1,
 )
 def test_impossible_options_are_refused(options: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):

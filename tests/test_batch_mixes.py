@@ -14,6 +14,7 @@ from typing import TypeVar
 
 import pytest
 from batch_lines import KINDS, SLOW, Run, answers_of, lines_of, random_runs
+from build import parametrize
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -111,7 +112,7 @@ def test_bad_lines_without_end_keep_nobody_from_his_answer_nor_from_his_time_lim
     records.close()  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize("stream", [True, False])
+@parametrize("stream", [True, False], ordinary=1)
 def test_what_ends_an_input_too_early_is_raised_after_the_answers(pools: Pools, stream: bool) -> None:
     def torn() -> Iterator[Item]:
         yield Item(1, "x")

@@ -11,6 +11,7 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
+from build import parametrize
 from scipy.integrate import solve_ivp
 from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
@@ -182,6 +183,7 @@ INTEGRATED = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("a2", "a1", "a0", "f", "interval"), INTEGRATED, ids=str)
 def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, interval: tuple[Any, Any]) -> None:
     """Generated points and values: the conditions hold, and between them the solution is that of Dormand and Prince."""
@@ -233,7 +235,7 @@ def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
 # ---------------------------------------------------------------------------------------------------------------- limits
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("left", "ics", "expected"),
     [
         (x * D2 + D1 + x * D0, {y(0): 1, slope_at(0): 0}, sympy.besselj(0, x)),
@@ -258,6 +260,7 @@ def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
         (D2 - (x**2 - 2) * D0, {y(oo): 0, y(-oo): 0}, 0),
         (x * D2 + D1 - 1, {y(0): 0}, x),
     ],
+    ordinary=2,
     ids=str,
 )
 def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
@@ -318,7 +321,7 @@ EXPANDED = [
 ]
 
 
-@pytest.mark.parametrize(("e", "point"), EXPANDED, ids=str)
+@parametrize(("e", "point"), EXPANDED, ordinary=6, ids=str)
 def test_expansions(e: Any, point: Any) -> None:
     """Against values by mpmath, near the point."""
     place = Approach(sympy.sympify(point))
@@ -370,7 +373,7 @@ def test_when_a_constant_is_zero() -> None:
     assert not is_zero_by_size(sqrt(2) - Rational(1414213562373095048801688724209, 10**30))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@parametrize("seed", range(40), ordinary=5)
 def test_ranks(seed: int) -> None:
     """Rows made of a rank and of solutions, with numbers that aren't recognised at sight."""
     random = Random(seed)
@@ -410,7 +413,7 @@ def test_nothing_infinite_leaves() -> None:
     assert is_finite(sympy.Integral(exp(-(x**2)), (x, 0, oo)) + 1)
 
 
-@pytest.mark.parametrize("integers", [(1, 1), (1, 3), (2, 1), (3, 3), (2, 5), (5, 4)])
+@parametrize("integers", [(1, 1), (1, 3), (2, 1), (3, 3), (2, 5), (5, 4)], ordinary=1)
 def test_no_constant_dies(integers: tuple[int, int]) -> None:
     """The Wronskian of the two solutions isn't zero at admissible integers, where the order is above the degree, too."""
     i, j = integers

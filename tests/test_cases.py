@@ -7,6 +7,7 @@ from functools import cache
 import published
 import pytest
 import textbook
+from build import parametrize
 from published import Published
 
 import kovacic
@@ -29,7 +30,7 @@ def test_there_are_enough_of_every_kind() -> None:
     )
 
 
-@pytest.mark.parametrize("entry", BY_ID)
+@parametrize("entry", BY_ID, ordinary=78)
 def test_case_and_degree_are_as_published(entry: Published) -> None:
     answer = solved(entry.S)
     assert answer.case == entry.case
@@ -37,7 +38,7 @@ def test_case_and_degree_are_as_published(entry: Published) -> None:
     assert answer.verified
 
 
-@pytest.mark.parametrize("entry", [e for e in BY_ID if e.values[0].coefficients])
+@parametrize("entry", [e for e in BY_ID if e.values[0].coefficients], ordinary=3)
 def test_normal_form_of_the_given_equation(entry: Published) -> None:
     """S is the normal form of `a y'' + b y' + c y = 0`: checked with SymPy, which the engine doesn't use."""
     sympy = pytest.importorskip("sympy")
@@ -47,7 +48,7 @@ def test_normal_form_of_the_given_equation(entry: Published) -> None:
     assert sympy.cancel(sympy.diff(p, x) / 2 + p**2 / 4 - c / a - sympy.sympify(entry.S)) == 0
 
 
-@pytest.mark.parametrize("entry", [e for e in BY_ID if e.values[0].solution and e.values[0].case == 1])
+@parametrize("entry", [e for e in BY_ID if e.values[0].solution and e.values[0].case == 1], ordinary=2)
 def test_published_solution_is_one_of_ours(entry: Published) -> None:
     """Where omega is unique it's that of the published solution; that solution is checked against S first."""
     sympy = pytest.importorskip("sympy")
@@ -66,7 +67,7 @@ def test_published_solution_is_one_of_ours(entry: Published) -> None:
         assert sympy.simplify(omega - sympy.sympify(str(ours.omega))) == 0
 
 
-@pytest.mark.parametrize("entry", [e for e in BY_ID if len(e.values[0].S) < 300])
+@parametrize("entry", [e for e in BY_ID if len(e.values[0].S) < 300], ordinary=28)
 def test_textbook_search_agrees(entry: Published) -> None:
     answer = solved(entry.S)
     try:

@@ -17,7 +17,7 @@ import flint
 import pytest
 import strategies
 import transform
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from forged import forged_evidence
 from hypothesis import given, settings
 from published import Published, load
@@ -174,7 +174,7 @@ def test_it_runs_alone(tmp_path: Path) -> None:
 UNDECIDED = '{"schema": 1, "proof": {"undecided": "a\\nb", "structure": null, "excluded": []}, "status": "undecided"'
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("stdin", "status", "said"),
     [
         (kovacic.solve("2").to_json(), 0, "checked"),
@@ -188,6 +188,7 @@ UNDECIDED = '{"schema": 1, "proof": {"undecided": "a\\nb", "structure": null, "e
         ('{"schema": 1, "schema": 1}', 2, "unreadable: a key occurs twice in one object"),
         ('{"schema": 1, "seconds": NaN}', 2, "unreadable: NaN is no number"),
     ],
+    ordinary=1,
 )
 def test_the_command(stdin: str, status: int, said: str) -> None:
     done = run("-m", "kovacic", "check", "-", stdin=stdin + "\n")
@@ -223,7 +224,7 @@ def test_a_power_of_the_variable_may_be_high() -> None:
 # ------------------------------------------------------------------------------------------- right answers
 
 
-@pytest.mark.parametrize("entry", PUBLISHED, ids=lambda entry: entry.id)
+@parametrize("entry", PUBLISHED, ordinary=10, ids=lambda entry: entry.id)
 def test_published_answers_are_checked(entry: Published) -> None:
     said = checker.verdict(kovacic.solve(entry.S).to_json(full=True))
     assert said.startswith(("checked: ", *TOO_LARGE))
@@ -341,6 +342,7 @@ def test_another_group_on_a_curve_of_genus_two_is_refuted(change: dict[str, Any]
     assert checker.verdict(json.dumps(data)).startswith("refuted: ")
 
 
+@pytest.mark.long
 def test_a_power_of_the_function_doesnt_make_the_order_larger() -> None:
     """Of (y - 1)^2/x^5, and of a function in three pieces, one of them with an odd exponent and a norm that isn't constant."""
     x = RatFunc(QQ.poly([0, 1]))

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
+from build import parametrize
 from processes import started
 
 import kovacic
@@ -290,7 +291,7 @@ def test_exit_status(arguments: list[str], status: int) -> None:
 START = ["--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("command", "first"),
     [
         (["solve", "-j*x"], "y'' = -j x y"),
@@ -311,6 +312,7 @@ START = ["--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]
         (["solve", "--jsn", "x"], None),
         (["solve", "--x"], None),
     ],
+    ordinary=5,
     ids=str,
 )
 def test_what_is_not_exactly_an_option_is_an_expression(
@@ -328,7 +330,7 @@ def test_what_is_not_exactly_an_option_is_an_expression(
         assert output.startswith(first)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "command",
     [
         ["evaluate", "x", "--x0", "0", "--y0", "1", "--at", "1"],
@@ -345,6 +347,7 @@ def test_what_is_not_exactly_an_option_is_an_expression(
         ["dsolve", "t*y'' = z*y"],
         ["solve", "m*y + k"],
     ],
+    ordinary=4,
     ids=str,
 )
 def test_hints_of_commands_speak_of_their_options(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
@@ -388,6 +391,7 @@ def test_a_terminal_shows_that_work_goes_on(monkeypatch: pytest.MonkeyPatch) -> 
     assert (done.stdout, done.stderr) == ("done\n", "")
 
 
+@pytest.mark.long
 def test_a_batch_into_a_file_shows_its_progress_on_a_terminal(tmp_path: Path) -> None:
     (tmp_path / "in.txt").write_text("x\nx^2 + 3\n")
     output = tmp_path / "out.jsonl"
@@ -559,8 +563,11 @@ def test_an_output_in_a_missing_folder_is_refused_before_any_work(tmp_path: Path
     assert done.stdout == ""
 
 
-@pytest.mark.parametrize(
-    "command", [["scan", "a*x+b", "a=1:2", "b=1:2", "--map"], ["plot", "x", "--from", "0", "--to", "1", "-o"]], ids=str
+@parametrize(
+    "command",
+    [["scan", "a*x+b", "a=1:2", "b=1:2", "--map"], ["plot", "x", "--from", "0", "--to", "1", "-o"]],
+    ordinary=1,
+    ids=str,
 )
 def test_a_picture_that_cannot_be_made_is_refused_before_any_work(tmp_path: Path, command: list[str]) -> None:
     for name, message in (("missing/map.png", "there is no directory"), ("map.jpeg2", ".jpeg2 isn't one of .png")):
@@ -665,9 +672,10 @@ def test_h_is_help_everywhere(command: list[str], capsys: pytest.CaptureFixture[
     assert short.startswith("Usage: kovacic " + "".join(command))
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("words", "offered"),
     [("s", {"solve", "scan", "schema", "spectrum"}), ("solve --la", {"--latex"}), ("ds", {"dsolve"})],
+    ordinary=1,
 )
 def test_the_shell_completes(words: str, offered: set[str]) -> None:
     """By click's own mechanism."""

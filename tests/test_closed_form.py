@@ -12,7 +12,7 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from flint import acb, arb
 from hypothesis import given, settings
 from sympy.abc import x
@@ -91,7 +91,7 @@ TEXTBOOK = [
 ]
 
 
-@pytest.mark.parametrize(("equation", "first", "second"), TEXTBOOK, ids=[row[0] for row in TEXTBOOK])
+@parametrize(("equation", "first", "second"), TEXTBOOK, ordinary=25, ids=[row[0] for row in TEXTBOOK])
 def test_textbook_equations_look_like_the_textbook(equation: str, first: str, second: str) -> None:
     form = kovacic.solve(equation).closed_form
     assert form is not None
@@ -102,7 +102,7 @@ def test_textbook_equations_look_like_the_textbook(equation: str, first: str, se
     assert form.notes == ()
 
 
-@pytest.mark.parametrize("entry", [entry for entry in published.load() if entry.case], ids=lambda entry: entry.id)
+@parametrize("entry", [entry for entry in published.load() if entry.case], ordinary=8, ids=lambda entry: entry.id)
 def test_published_equations_have_two_independent_checked_solutions(entry: published.Published) -> None:
     texts = [entry.S]
     if entry.coefficients:
@@ -261,7 +261,7 @@ def _with_square(g: str, factor: str = "1", exponent: str = "1/4") -> str:
     return str(sympy.factor(sympy.simplify(y1.diff(x, 2) / y1)))
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("g", "factor", "exponent", "kinds", "at"),
     [
         ("(1 - x**2)*(4 - x**2)", "1", "1/4", "f", 0.3),
@@ -302,6 +302,7 @@ def _with_square(g: str, factor: str = "1", exponent: str = "1/4") -> str:
         ("(x**2 + 1)*(x**2 - 2*x + 2)", "1", "1/4", "f", -0.3),
         ("(x**2 + 2*x + 2)*(x**2 + 2*x + 7)", "1", "1/4", "f", 0.3),
     ],
+    ordinary=1,
 )
 def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kinds: str, at: float) -> None:
     S = _with_square(g, factor, exponent)
@@ -341,7 +342,7 @@ def test_the_angle_of_an_elliptic_integral_is_real_where_the_root_of_g_is(g: str
         assert sympy.im(integral.args[0].subs(x, point).n(20)) == 0
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("g", "factor"),
     [
         ("x**3 + k*x + 1", "1"),
@@ -354,6 +355,7 @@ def test_the_angle_of_an_elliptic_integral_is_real_where_the_root_of_g_is(g: str
         ("(x**2 - 2)*(x**2 - 8*x + 13)", "1"),
         ("(x**2 - 2)*(x**2 - 8*x + 18)", "x"),
     ],
+    ordinary=1,
 )
 def test_integrals_whose_branch_points_are_long_are_left_at_once(g: str, factor: str) -> None:
     answer = kovacic.solve(_with_square(g, factor), limits=Limits(seconds=20))
@@ -440,7 +442,7 @@ def test_cancellation_is_no_reason_to_fail() -> None:
 
 
 @pytest.mark.parametrize("third", ["1/9", "4/25", "2", "-2", "5/7"])
-@pytest.mark.parametrize(("k", "l"), [(1, 3), (3, 3), (15, 15), (41, 25), (30 + 1, 17), (101, 101)])
+@parametrize(("k", "l"), [(1, 3), (3, 3), (15, 15), (41, 25), (30 + 1, 17), (101, 101)], ordinary=1)
 def test_half_integer_exponent_differences_need_no_roots(k: int, l: int, third: str) -> None:  # noqa: E741
     """Exponent differences k/2, l/2 and a third one of the given square: a conic with (k + l)/2 - 1 zeros of y1 y2."""
     a, b, c = Fraction(k * k, 16) - Fraction(1, 4), Fraction(l * l, 16) - Fraction(1, 4), (Fraction(third) - 1) / 4

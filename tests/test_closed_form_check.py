@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import sympy
 import transform
-from build import QQ, AlgebraicField, Poly, RatFunc
+from build import QQ, AlgebraicField, Poly, RatFunc, parametrize
 from flint import acb
 from sympy.abc import x
 
@@ -164,15 +164,15 @@ def test_residuals_tell_solutions_from_other_functions() -> None:
 I_CENTRED, SHIFTED = X**2 + 1, X**2 + X + 5
 
 
-@pytest.mark.parametrize("k", range(1, 9))
+@parametrize("k", range(1, 9), ordinary=2)
 @pytest.mark.parametrize(("p", "discriminant"), [(I_CENTRED, 4), (SHIFTED, 19), (4 * X**2 - 4 * X + 5, 64)], ids=str)
 def test_a_pair_that_turns_by_half_turns(p: RatFunc, discriminant: int, k: int) -> None:
     """y1 y2 = p and the exponent difference k/2 at both roots: y+- = sqrt(p) exp(+-i (k/2) phi), phi the argument."""
     check_pair(p, Fraction(discriminant * k * k, 4), turned=True)
 
 
-@pytest.mark.parametrize(
-    ("constant", "slope"), [(Fraction(1, 2), 1), (Fraction(1, 2), Fraction(1, 2)), (Fraction(5, 4), 1)]
+@parametrize(
+    ("constant", "slope"), [(Fraction(1, 2), 1), (Fraction(1, 2), Fraction(1, 2)), (Fraction(5, 4), 1)], ordinary=1
 )
 def test_residues_at_the_roots_of_a_cubic_turn_nothing(constant: Fraction, slope: Fraction) -> None:
     """y = exp(i int r)/sqrt(r), r the sum of slope a/(x - a) over the roots of p = x^3 + x + constant: -1 is a square times
@@ -190,7 +190,7 @@ def test_residues_at_the_roots_of_a_cubic_turn_nothing(constant: Fraction, slope
 
 
 @pytest.mark.parametrize("shift", [0, 1, Fraction(-3, 2)])
-@pytest.mark.parametrize("w", [3, 6, 9, 12, 18, 30])
+@parametrize("w", [3, 6, 9, 12, 18, 30], ordinary=1)
 def test_two_factors_that_turn_in_opposite_directions(w: int, shift: Fraction) -> None:
     """F = (x^2 + 1)(x^2 + 4): exponent differences w/6 at i and -w/12 at 2i."""
     F = ((X + shift) ** 2 + 1) * ((X + shift) ** 2 + 4)
@@ -198,9 +198,9 @@ def test_two_factors_that_turn_in_opposite_directions(w: int, shift: Fraction) -
 
 
 @pytest.mark.parametrize("k", [1, 2, 3, 4])
-@pytest.mark.parametrize(
+@parametrize(
     "F",
-    [X * (X**2 + X + 5), (X**2 + 1) ** 2, (X**2 + 1) / (X - 3), (X**2 + 1) * (X**2 + 3), 1 / (X**2 + 2 * X + 3)],
+    [X * (X**2 + X + 5), (X**2 + 1) ** 2, (X**2 + 1) / (X - 3), (X**2 + 1) * (X**2 + 3), 1 / (X**2 + 2 * X + 3)], ordinary=1,
     ids=str,
 )  # fmt: skip
 def test_pairs_with_other_phases(F: RatFunc, k: int) -> None:

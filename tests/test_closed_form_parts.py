@@ -9,7 +9,7 @@ import flint
 import pytest
 import strategies
 import sympy
-from build import QQ, Poly, RatFunc, read_input
+from build import QQ, Poly, RatFunc, parametrize, read_input
 from flint import acb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -227,7 +227,7 @@ def test_reduction_at_a_pole(r: RatFunc, p: Poly, order: int, alpha: Fraction, n
     assert rest.den.remove(p)[1] <= 1
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("omega", "kind", "notes"),
     [
         # The integrand has (x + 15)^-600639: written out it took all memory.
@@ -238,6 +238,7 @@ def test_reduction_at_a_pole(r: RatFunc, p: Poly, order: int, alpha: Fraction, n
         ("-300*x/(x^2 + 1) + x", ExponentialPrimitive, 0),
         ("3000/(x + 15)+ 2/(x - 1)", OpenPrimitive, 1),
     ],
+    ordinary=1,
 )
 def test_large_powers(omega: str, kind: type, notes: int) -> None:
     w = read_input(omega).S

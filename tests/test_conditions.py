@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, FunctionField
+from build import QQ, FunctionField, parametrize
 from clocks import controlled
 from flint import fmpz_mat
 from hypothesis import given, settings
@@ -40,7 +40,7 @@ def answers() -> dict[str, Conditions]:
     return {family.name: kovacic.conditions(family.S, var="x") for family in FAMILIES}
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@parametrize("family", FAMILIES, ordinary=8, ids=lambda family: family.name)
 def test_known_conditions_are_found_and_proven_complete(family: Family, answers: dict[str, Conditions]) -> None:
     answer = answers[family.name]
     assert answer.complete is True
@@ -185,7 +185,7 @@ def test_polynomial_potentials_have_one_statement_with_a_natural_number(
     assert report.open == 0
 
 
-@pytest.mark.parametrize("number", range(5))
+@parametrize("number", range(5), ordinary=1)
 def test_the_determinant_of_the_quartic_is_that_of_the_banded_system(number: int) -> None:
     """P'' + (2 x^2 + a) P' + (x - a^2/4 ... ) P: the matrix for y = P exp(x^3/3 + a x/2), written down independently."""
     a, c = sympy.symbols("a c")
@@ -323,7 +323,7 @@ def test_the_coordinate_of_the_theorem_is_the_users() -> None:
     assert "Whittaker's equation in (z + a)^2" in answer.theory
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "assume", "always", "statements"),
     [
         ("(4*n^2-1)/(4*x^2) - 1", "integer", None, []),
@@ -338,6 +338,7 @@ def test_the_coordinate_of_the_theorem_is_the_users() -> None:
         ("n*x^5 + x", "nonzero", None, []),
         ("x^2 + n^2 - n", "integer", None, []),  # n^2 - n is even, and that isn't noticed
     ],
+    ordinary=5,
 )
 def test_assumptions_leave_out_what_cannot_happen(
     S: str, assume: str, always: int | None, statements: list[str]
@@ -414,7 +415,7 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
     assert latex.startswith(r"\mu = ")
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "curve", "points"),
     [
         # The anharmonic oscillator: P of degree 1 exists on a curve of genus 1 that no parameter can be eliminated from.
@@ -423,6 +424,7 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
         ("(n^2-2)*x^4 + m*x", "n^2 = 2", [("sqrt(2)", 1), ("sqrt(2)", 0), (1, 1), (1, 2)]),
         ("(n^2-m^3-1)*x^4 + n*x + m", "m^3 = (n - 1)*(n + 1)", [(1, 0), (3, 2), (8, 4)]),
     ],
+    ordinary=1,
 )
 def test_hypersurfaces_from_which_no_parameter_is_eliminated(
     S: str, curve: str, points: list[tuple[object, ...]]
@@ -486,6 +488,7 @@ def test_constant_pivots_lower_the_rank_by_one_each(matrices: int) -> None:
         assert rank([[column[i] for column in columns] for i in range(5)]) == rank(rows) + eliminated
 
 
+@pytest.mark.long
 def test_an_incomplete_answer_is_for_generic_values() -> None:
     heun = "a/x^2 + b/(x-1)^2 + c/(x-t)^2 + (e*x+q)/(x*(x-1)*(x-t))"
     answer = kovacic.conditions(heun, var="x", limits=Limits(seconds=0.5))
@@ -524,6 +527,7 @@ def test_a_map_of_two_parameters(answers: dict[str, Conditions]) -> None:
         answers["bessel"].plot(parameters=("m",))
 
 
+@pytest.mark.long
 def test_wrong_input_and_limits() -> None:
     with pytest.raises(kovacic.InputError, match="no parameters"):
         kovacic.conditions("x^2 + 3")
@@ -575,7 +579,7 @@ MORE = [
 ]
 
 
-@pytest.mark.parametrize("S", MORE)
+@parametrize("S", MORE, ordinary=2)
 def test_other_families_agree_with_the_engine(S: str) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=2)
     report = answer.check(40)
@@ -583,7 +587,7 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
     assert answer.complete is True or "not proven" in str(answer.complete)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "points"),
     [
         # a b = c d is solved for one of them where its coefficient isn't zero; at these points it is.
@@ -596,6 +600,7 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
         ("(a*b-c*a-d)*x^2 + c*x + b", [(0, 1, 2, 0), (0, 1, 0, 0), (3, 1, 1, 0), (3, 0, 0, 0)]),
         ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
     ],
+    ordinary=1,
 )
 def test_values_at_which_a_parameter_cannot_be_eliminated(S: str, points: list[tuple[Fraction | int, ...]]) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=1)
@@ -647,7 +652,7 @@ def test_an_equation_in_place_of_S() -> None:
     assert [str(region.statement) for region in answer.regions] == ["n in Z"]
 
 
-@pytest.mark.parametrize("exponents", [(2, 3, 3), (2, 3, 4), (2, 3, 5), (2, 2, 7), (3, 5, 7)])
+@parametrize("exponents", [(2, 3, 3), (2, 3, 4), (2, 3, 5), (2, 2, 7), (3, 5, 7)], ordinary=3)
 def test_a_pole_as_parameter_with_constant_exponents(exponents: tuple[int, int, int]) -> None:
     """Three points are as good as any others: the same case for every pole, and no impossible region."""
     p, q, r = (F(1, n * n) for n in exponents)

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic.parameters import Conditions
@@ -27,7 +28,7 @@ EQUATIONS = {
 }
 
 
-@pytest.mark.parametrize("name", EQUATIONS)
+@parametrize("name", EQUATIONS, ordinary=2)
 def test_conditions_are_read_back(name: str) -> None:
     answer = kovacic.conditions(EQUATIONS[name], var="x", max_degree=0)
     again = Conditions.from_json(answer.to_json())

@@ -9,6 +9,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from build import parametrize
 from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
 
 import kovacic
@@ -19,7 +20,7 @@ SESSIONS = sessions(*PAGES)
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
 
-@pytest.mark.parametrize(("page", "command", "output"), SESSIONS, ids=[f"{p}: {command}" for p, command, _ in SESSIONS])
+@parametrize(("page", "command", "output"), SESSIONS, ordinary=2, ids=[f"{p}: {command}" for p, command, _ in SESSIONS])
 def test_shell_sessions(page: str, command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
     check_command(command, output, capsys)
 

@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 import scipy.special
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from published import load
 
 import kovacic
@@ -154,7 +154,7 @@ PROMISES: list[tuple[Any, Any, type]] = [
 ]
 
 
-@pytest.mark.parametrize(("S", "interval", "kind"), PROMISES)
+@parametrize(("S", "interval", "kind"), PROMISES, ordinary=4)
 def test_the_measured_error_keeps_the_promise(S: Any, interval: Any, kind: type) -> None:
     solution = kovacic.solve(S)
     function = lambdify(solution, interval=interval)  # warnings are errors here
@@ -198,7 +198,7 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
         assert y.rel_accuracy_bits() > 166
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "interval", "careful"),
     [
         ("x^2 - 11", (-5, 5), False),
@@ -208,6 +208,7 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
         ("(10^6/x - 10^6/(x+1))^2 - 10^6/x^2 + 10^6/(x+1)^2", (10**4, 10**7), True),  # (x/(x + 1))^(10^6)
         ("1/4 - 150/x", (0, 2000), True),  # right at 24 points: the exponential underflows beside others
     ],
+    ordinary=2,
 )
 def test_the_measured_error_chooses_the_arithmetic(S: str, interval: Any, careful: bool) -> None:
     solution = kovacic.solve(S)
@@ -349,7 +350,7 @@ def test_functions_take_scalars_lists_and_arrays_of_every_shape() -> None:
 # --- tables ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("size", [BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5])
+@parametrize("size", [BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5], ordinary=2)
 def test_long_arrays_have_the_values_of_their_points(size: int) -> None:
     functions = [
         lambdify(kovacic.solve("x^2 - 11"), interval=(-3, 3), check=False),
@@ -535,7 +536,7 @@ def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
     assert measure(Shifted(), "x", even, start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "interval"),
     [
         ("(1-x^2)*y'' - 2*x*y' + 150*151*y = 0", (-1, 1)),  # Legendre
@@ -543,6 +544,7 @@ def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
         ("x*y'' + (1-x)*y' + 120*y = 0", (0, 400)),  # Laguerre
         ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (0, 600)),  # spherical Hankel: the zeros are complex
     ],
+    ordinary=1,
 )
 def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
     """Up to singular points, too; at 300 points against the certificate in balls, and the known functions."""

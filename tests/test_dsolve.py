@@ -17,6 +17,7 @@ import flint
 import mpmath
 import pytest
 import sympy
+from build import parametrize
 from clocks import controlled
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -64,7 +65,7 @@ EQUATIONS = [
 ]
 
 
-@pytest.mark.parametrize("left", EQUATIONS, ids=str)
+@parametrize("left", EQUATIONS, ordinary=4, ids=str)
 def test_general_solutions(left: sympy.Expr) -> None:
     solution = dsolve(left)
     assert solution.lhs == y(x)
@@ -73,7 +74,7 @@ def test_general_solutions(left: sympy.Expr) -> None:
     assert residual(left, solution) < 1e-20
 
 
-@pytest.mark.parametrize("left", EQUATIONS[:3] + EQUATIONS[6:10], ids=str)
+@parametrize("left", EQUATIONS[:3] + EQUATIONS[6:10], ordinary=2, ids=str)
 def test_checkodesol_agrees(left: sympy.Expr) -> None:
     assert sympy.checkodesol(left, dsolve(sympy.Eq(left, 0)), y(x)) == (True, 0)
 
@@ -356,7 +357,7 @@ def test_roots_of_parameters() -> None:
 n = sympy.Symbol("n", integer=True, positive=True)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "left",
     [
         y(x).diff(x, 2) - 2 * x * y(x).diff(x) + 2 * n * y(x),
@@ -364,6 +365,7 @@ n = sympy.Symbol("n", integer=True, positive=True)
         x**2 * y(x).diff(x, 2) + x * y(x).diff(x) + (x**2 - (n + Rational(1, 2)) ** 2) * y(x),
         x**2 * y(x).diff(x, 2) + 2 * x * y(x).diff(x) + (x**2 - n * (n + 1)) * y(x),
     ],
+    ordinary=1,
     ids=["Hermite", "Legendre", "Bessel", "spherical Bessel"],
 )
 def test_assumptions_are_part_of_what_is_proven(left: sympy.Expr) -> None:
@@ -404,7 +406,7 @@ def test_floats_are_decimals(value: object) -> None:
     assert dsolve(y(x).diff(x, 2) + y(x), ics={y(0): value, y(x).diff(x).subs(x, 0): 1}).rhs == expected
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("text", "values"),
     [
         ("x^2*y'' + x*y' + y = log(x)", {}),
@@ -418,6 +420,7 @@ def test_floats_are_decimals(value: object) -> None:
         ("y'' + pi^2*y = sin(pi*x)", {}),
         ("e*y'' - y = exp(exp(-1/2)*x)", {}),
     ],
+    ordinary=2,
 )
 def test_normal_forms_with_constant_coefficients(text: str, values: dict) -> None:
     """Undetermined coefficients for u with y = G u, and for Euler's equations: no integration."""
@@ -449,7 +452,7 @@ def step(side: int, argument: sympy.Expr, *_: Any) -> sympy.Integer:
 
 
 @pytest.mark.parametrize("left", ["y'' + y", "y'' + 3*y' + 2*y", "x^2*y'' - 2*y"])
-@pytest.mark.parametrize("right", JUMPS)
+@parametrize("right", JUMPS, ordinary=1)
 def test_steps_and_impulses(left: str, right: str) -> None:
     """The equation holds on both sides of the jump at 1; y is continuous, and y' jumps by the impulse."""
     if left.startswith("x") and ("sin" in right or "exp" in right):
@@ -559,7 +562,7 @@ def test_one_exponential() -> None:
         assert sum(isinstance(factor, exp) for factor in product.args) < 2
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "text",
     [
         "y'' = (x+1)^2*exp(4/(3*(x+1)))/(4*x+1)^5",
@@ -567,6 +570,7 @@ def test_one_exponential() -> None:
         "y'' - 2*y' + y = exp(x)/(x^2-1)^2",
         "x^2*y'' + x*y' - y = 1/(x+1)^3",
     ],
+    ordinary=1,
 )
 def test_rational_factors_are_one_fraction(text: str) -> None:
     """Before each function of a particular solution stands one fraction."""
@@ -622,7 +626,7 @@ def test_sympy_s_own_equations() -> None:
         assert abs(sympy.N(rest.subs(x, Rational(37, 100)), 30)) < 1e-15, text
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("text", "functions"),
     [
         ("x^2*y'' - 2*y = exp(x)", {sympy.Ei(x)}),
@@ -635,6 +639,7 @@ def test_sympy_s_own_equations() -> None:
         ("x^2*y'' + x*y' - (x^2+1/4)*y = x^2*exp(-3*x/2)", {sympy.erf(sqrt(10 * x) / 2), sympy.erf(sqrt(2 * x) / 2)}),
         ("2*x^2*y'' + 3*x*y' - y = 1/(x-1)", None),
     ],
+    ordinary=1,
 )
 def test_variation_of_products(text: str, functions: set | None) -> None:
     """Own integrals, without SymPy's; no multiple of a solution of the homogeneous equation is added."""
@@ -645,7 +650,7 @@ def test_variation_of_products(text: str, functions: set | None) -> None:
         assert part.atoms(sympy.Ei, sympy.erf, sympy.erfi, sympy.atan, sympy.log) == functions
 
 
-@pytest.mark.parametrize("right", ["x^2", "x", "log(-x)", "1/x"])
+@parametrize("right", ["x^2", "x", "log(-x)", "1/x"], ordinary=1)
 def test_particular_solutions_are_real_to_the_left(right: str) -> None:
     for left in ("x^2*y'' - x*y' + y", "4*x^2*y'' + y", "x*y'' + y'"):
         found = dsolve(f"{left} = {right}", ics={"y(-1)": 1, "y'(-1)": 2})
@@ -675,7 +680,7 @@ def test_a_singular_point_between() -> None:
     assert dsolve("x^2*y'' - 2*x*y' + 2*y = 0", ics={"y(-1)": 0, "y(1)": 2}).rhs == x**2 + x
 
 
-@pytest.mark.parametrize("seed", range(30))
+@parametrize("seed", range(30), ordinary=1)
 def test_constants_keep_the_limit(seed: int) -> None:
     """Initial and boundary values within a second more than the limit; what isn't found in time is an `Integral`, or said."""
     random = Random(seed)
@@ -697,7 +702,7 @@ def test_special_functions_where_nothing_is_proven() -> None:
     assert residual(y(x).diff(x, 2) - (x**2 + 5) * y(x), found) < 1e-20
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("integrand", "functions"),
     [
         (sympy.sec(x), {sympy.log}),
@@ -741,6 +746,7 @@ def test_special_functions_where_nothing_is_proven() -> None:
         (x**sympy.pi * exp(-(x**2)), {sympy.uppergamma}),
         (2 * exp(sympy.I * x) / ((exp(2 * sympy.I * x) + 4 * exp(sympy.I * x) + 1) * cos(x)), {sympy.log, sympy.atan}),
     ],
+    ordinary=5,
 )
 def test_integrals_known_at_once(integrand: sympy.Expr, functions: set) -> None:
     found = antiderivative(integrand, x)
@@ -985,7 +991,7 @@ def test_resonance_at_any_two_points(frequency: Any, start: Any) -> None:
     assert abs(sympy.N(family.subs({x: start, C1: 3}) - 1)) < 1e-12
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "integrals"),
     [
         ("y'' + y = x*tan(x)", {"x/cos(x)"}),
@@ -997,6 +1003,7 @@ def test_resonance_at_any_two_points(frequency: Any, start: Any) -> None:
         ("y'' + y = tan(x)", set()),
         ("y'' + y = sec(x)", set()),
     ],
+    ordinary=1,
 )
 def test_beside_tangents_only_what_is_not_elementary_stays(equation: str, integrals: set[str]) -> None:
     """And it is a solution, by SymPy's derivatives."""
@@ -1007,7 +1014,7 @@ def test_beside_tangents_only_what_is_not_elementary_stays(equation: str, integr
     assert sympy.simplify(rest.rewrite(sympy.cos)) == 0
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("right", "functions"),
     [
         (1 / log(x), {log, sympy.Ei}),
@@ -1017,6 +1024,7 @@ def test_beside_tangents_only_what_is_not_elementary_stays(equation: str, integr
         (exp(sqrt(x)), {exp}),
         (x * sin(x ** Rational(1, 3)), {sin, cos}),
     ],
+    ordinary=3,
 )
 def test_integrals_after_a_change_of_variable(right: sympy.Expr, functions: set) -> None:
     """In log(x), in roots, in an exponential: no integral stays, and SymPy's derivatives give the right-hand side back."""
@@ -1041,7 +1049,7 @@ FACTORS = """
 """.replace("^", "**").split()
 
 
-@pytest.mark.parametrize("seed", range(80))
+@parametrize("seed", range(80), ordinary=2)
 def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
     """For sums of products of functions that were drawn by lot: the derivative at three points, in x alone; or None."""
     rng = random.Random(seed)
@@ -1062,8 +1070,8 @@ def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
             assert abs(value) < 1e-9 * (1 + abs(size))
 
 
-@pytest.mark.parametrize(
-    "right", ["tan(sqrt(x))", "exp(sqrt(x))/cos(x)", "(x^(1/3)/2 - atan(x))*log(x)", "tan(log(x))*log(x)/x"]
+@parametrize(
+    "right", ["tan(sqrt(x))", "exp(sqrt(x))/cos(x)", "(x^(1/3)/2 - atan(x))*log(x)", "tan(log(x))*log(x)/x"], ordinary=1
 )
 def test_integrals_that_stay_are_in_the_variable(right: str) -> None:
     found = kovacic.dsolve(f"y'' = {right}").rhs
@@ -1078,6 +1086,7 @@ def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
     assert abs(sympy.N(found.subs(x, sympy.Rational(5, 4))) - steps(mpmath.mpf("1.25"))[0]) < 1e-12
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("equation", "integrals"),
     [

@@ -9,6 +9,7 @@ from typing import Any
 
 import flint
 import pytest
+from build import parametrize
 from flint import arb, fmpq
 
 from kovacic import evaluate
@@ -60,7 +61,7 @@ def encloses(seed: int) -> None:
                 assert ball_to_flint(wide).overlaps(ball_to_flint(sharp)), (equation, balls, inside)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@parametrize("seed", range(60), ordinary=4)
 @pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
 def test_every_number_in_the_balls_is_served(seed: int) -> None:
     encloses(seed)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from flint import acb, ctx, fmpq
 
 from kovacic import AccuracyWarning, InputError, LimitExceeded, Limits, evaluate
@@ -148,7 +148,7 @@ FAULTS = [
 ]
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"{fault[0]}, {fault[4]}")
+@parametrize("fault", FAULTS, ordinary=1, ids=lambda fault: f"{fault[0]}, {fault[4]}")
 def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     _, module, name, wrong, kind = fault
     monkeypatch.setattr(module, name, wrong)
@@ -156,7 +156,7 @@ def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) ->
         agree_on(kind, 0, 300)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "x0", "x"),
     [
         ("x", 0, 2),
@@ -178,6 +178,7 @@ def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) ->
         ("x^2 - 201", 0, 8),  # two solutions that are nearly the same at 8
         ("-1 + 160400/x^2", 402, 800),
     ],
+    ordinary=3,
 )
 @pytest.mark.parametrize("digits", [5, 15, 60, 300])
 def test_the_rule_takes_flints_functions_and_both_agree(equation: str, x0: Any, x: Any, digits: int) -> None:

@@ -10,6 +10,7 @@ import flint
 import mpmath
 import pytest
 import sympy
+from build import parametrize
 from flint import acb, arb, fmpq
 
 import kovacic
@@ -64,7 +65,7 @@ def forced(seed: int) -> None:
     assert found[0].digits >= digits or found[0].contains_zero()
 
 
-@pytest.mark.parametrize("seed", range(40))
+@parametrize("seed", range(40), ordinary=1)
 def test_a_chosen_solution_of_an_equation_with_constants_and_a_right_hand_side(seed: int) -> None:
     forced(seed)
 
@@ -75,7 +76,7 @@ def airy_basis(root: acb, x: acb) -> list[acb]:
     return [ai, bi, root * dai, root * dbi]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@parametrize("seed", range(12), ordinary=4)
 @pytest.mark.parametrize("digits", [5, 30, 200])
 def test_airy_with_complex_constants(seed: int, digits: int) -> None:
     rng = random.Random(seed)
@@ -100,7 +101,7 @@ def test_airy_with_complex_constants(seed: int, digits: int) -> None:
                 assert ball_to_flint(ball).contains(value / over)
 
 
-@pytest.mark.parametrize(("c", "m"), [("I", 2), ("sqrt(3)*I", -1), ("1 + I", 3), ("-sqrt(2) + I", -3)])
+@parametrize(("c", "m"), [("I", 2), ("sqrt(3)*I", -1), ("1 + I", 3), ("-sqrt(2) + I", -3)], ordinary=1)
 def test_complex_poles(c: str, m: int) -> None:
     # y = (x - c)^m; the conjugate of c is an ordinary point
     solution = (X - sympified(c)) ** m

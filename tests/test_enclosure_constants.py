@@ -6,6 +6,7 @@ from typing import Any
 
 import flint
 import pytest
+from build import parametrize
 from flint import acb, arb
 
 import kovacic
@@ -31,7 +32,7 @@ CONSTANTS = {
 }
 
 
-@pytest.mark.parametrize("text", CONSTANTS)
+@parametrize("text", CONSTANTS, ordinary=3)
 @pytest.mark.parametrize("digits", [5, 40, 300])
 def test_airy_with_a_constant_in_the_equation_or_as_a_parameter(text: str, digits: int) -> None:
     with flint.ctx.workprec(2000):

@@ -11,6 +11,7 @@ from typing import Any
 
 import flint
 import pytest
+from build import parametrize
 from clocks import controlled
 
 import kovacic
@@ -43,9 +44,10 @@ def test_a_number_beyond_all_doubles_is_named() -> None:
     assert str(ExactPoint(Fraction(7**1000, 3))) == "4.17752213321906e+844"
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "x", "x0"),
     [("x", 10**6, 0), ("-1-1/x^2", 10**9, 1), ("10^20", 1, 0), ("10^20", 1j, 0), ("1/x^6", "1e-8", 1)],
+    ordinary=2,
 )
 def test_growth_beyond_all_steps_is_said_at_once(S: str, x: object, x0: object) -> None:
     """The number of steps is the reason, which is known before the first one, and not the time."""
@@ -130,7 +132,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
 
 @pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
 @pytest.mark.parametrize("looks", [3, 60])
-@pytest.mark.parametrize("name", CALLS)
+@parametrize("name", CALLS, ordinary=1)
 def test_every_call_ends_once_its_time_is_over(name: str, looks: int) -> None:
     hermite()
     limit = "seconds"

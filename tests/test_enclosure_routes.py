@@ -11,7 +11,7 @@ from typing import Any
 import flint
 import pytest
 import second_opinion
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from published import load
 from transform import from_omega, from_squared_difference
 
@@ -98,22 +98,23 @@ def test_case_2(S: str) -> None:
     agree(S, x=Fraction(3, 7), x0=Fraction(1, 7))
 
 
-@pytest.mark.parametrize("name", sorted(PRIMITIVE))
+@parametrize("name", sorted(PRIMITIVE), ordinary=1)
 def test_case_3(name: str) -> None:
     agree(PRIMITIVE[name], x=Fraction(19, 7), x0=Fraction(3, 7), path=[1 + 1j])
     agree(PRIMITIVE[name], x=Fraction(1, 2), x0=2, path=[1 - 1j], digits=60)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "S",
     ["-(10100*(1-x^2) + 1)/(1-x^2)^2", "-(250500*(1-x^2) + 1)/(1-x^2)^2", "x^2 - 101", "x^2 - 1001"],
+    ordinary=1,
     ids=["Legendre, 100", "Legendre, 500", "Hermite, 50", "Hermite, 500"],
 )
 def test_polynomials_of_high_degree_on_an_interval_with_their_zeros(S: str) -> None:
     agree(S, x="9/10", x0="-1/3", digits=15)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@parametrize("seed", range(6), ordinary=1)
 def test_case_3_along_random_paths(seed: int) -> None:
     rng = random.Random(seed)
     name = rng.choice(sorted(PRIMITIVE))
@@ -168,7 +169,7 @@ def routes_agree_on(seed: int) -> None:
         agree(S, x=x, x0=x0, path=path, digits=12)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@parametrize("seed", range(12), ordinary=3)
 def test_the_routes_agree_on_random_problems(seed: int) -> None:
     routes_agree_on(seed)
 
@@ -218,8 +219,8 @@ def test_the_closed_form_stops_at_the_time_limit() -> None:
 # --- monodromy -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("name", "orders"), [("tetrahedral", {4, 6}), ("octahedral", {4, 6, 8}), ("icosahedral", {4, 6, 10})]
+@parametrize(
+    ("name", "orders"), [("tetrahedral", {4, 6}), ("octahedral", {4, 6, 8}), ("icosahedral", {4, 6, 10})], ordinary=1
 )
 def test_finite_groups_have_monodromy_of_finite_order(name: str, orders: set[int]) -> None:
     for local in monodromy(PRIMITIVE[name]):
@@ -229,8 +230,8 @@ def test_finite_groups_have_monodromy_of_finite_order(name: str, orders: set[int
         assert not local.is_identity_to_the_power(order + 1) or order == 1
 
 
-@pytest.mark.parametrize(
-    "S", ["1/(x^2+1)^2 + x", "x/(x^3-x-1)^2 + 1/(x+2)", "1/x^3 + 1/(x-1)", "(3/4)/x^2 + 1", "-1/(4*x^2)"]
+@parametrize(
+    "S", ["1/(x^2+1)^2 + x", "x/(x^3-x-1)^2 + 1/(x+2)", "1/x^3 + 1/(x-1)", "(3/4)/x^2 + 1", "-1/(4*x^2)"], ordinary=1
 )
 def test_traces_come_out_of_the_exponents(S: str) -> None:
     found = monodromy(S)
@@ -240,13 +241,14 @@ def test_traces_come_out_of_the_exponents(S: str) -> None:
         assert (local.trace is None) == (local.multiplicity > 2)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "params"),
     [
         ("sqrt(2)/(x^2*(x-1))", None),
         ("-3/(16*(x-sqrt(2))^2) - 3/(16*(x-1)^2) + sqrt(2)/((x-sqrt(2))*(x-1))", None),
         ("n/x^2 + 1/(x-m)^2", {"n": "sqrt(3)", "m": "pi"}),
     ],
+    ordinary=1,
 )
 def test_monodromy_where_constants_are_irrational(S: str, params: Any) -> None:
     found = monodromy(S, params=params)
@@ -268,8 +270,8 @@ def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> N
     assert monodromy("x^2 + 1") == ()
 
 
-@pytest.mark.parametrize(
-    "S", [*PRIMITIVE.values(), "(x^2+3)/(x^3-x-1)^2", "1/(4*x^2*(x-1)^2) + 1/(x*(x-1))", "1/(x^2+1)^2"]
+@parametrize(
+    "S", [*PRIMITIVE.values(), "(x^2+3)/(x^3-x-1)^2", "1/(4*x^2*(x-1)^2) + 1/(x*(x-1))", "1/(x^2+1)^2"], ordinary=1
 )
 def test_the_product_of_all_loops_is_the_loop_around_infinity(S: str) -> None:
     with flint.ctx.workprec(300):
@@ -302,7 +304,7 @@ GROUPS = {
 }
 
 
-@pytest.mark.parametrize("name", sorted(GROUPS))
+@parametrize("name", sorted(GROUPS), ordinary=1)
 def test_the_monodromy_of_published_equations_agrees_with_their_groups(name: str) -> None:
     solution = kovacic.solve(published_S(GROUPS[name]))
     assert str(solution.group) == name
@@ -319,7 +321,7 @@ FINITE += [claimed(GroupKind.DICYCLIC, n) for n in (2, 3, 6)]
 FINITE += [claimed(kind) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRAL, GroupKind.ICOSAHEDRAL)]
 
 
-@pytest.mark.parametrize("name", sorted(GROUPS))
+@parametrize("name", sorted(GROUPS), ordinary=1)
 def test_a_wrong_finite_group_is_disproved(name: str) -> None:
     S = published_S(GROUPS[name])
     matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S))
@@ -328,7 +330,7 @@ def test_a_wrong_finite_group_is_disproved(name: str) -> None:
             assert compare(matrices, group, fuchsian).verdict is False, str(group)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("id", "wrong"),
     [
         (
@@ -347,6 +349,7 @@ def test_a_wrong_finite_group_is_disproved(name: str) -> None:
         ("legendre-1", [claimed(GroupKind.ADDITIVE, n) for n in (1, 4, 6)]),
         ("kovacic-c2-1", [claimed(GroupKind.CYCLIC, 4), claimed(GroupKind.TETRAHEDRAL)]),
     ],
+    ordinary=1,
 )
 def test_a_wrong_infinite_group_is_disproved(id: str, wrong: list[Group]) -> None:
     solution = kovacic.solve(published_S(id))
@@ -362,7 +365,7 @@ def test_matrices_that_cannot_tell_say_so() -> None:
     assert larger.verdict is None
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "larger"),
     [
         ("-3/(16*x^2)", claimed(GroupKind.MULTIPLICATIVE)),  # mu_4
@@ -373,6 +376,7 @@ def test_matrices_that_cannot_tell_say_so() -> None:
         (published_S("kimura-red-2"), claimed(GroupKind.BOREL)),  # G_a extended by mu_15
         (published_S("lame-half-B0"), claimed(GroupKind.INFINITE_DIHEDRAL)),  # dicyclic of order 8
     ],
+    ordinary=2,
 )
 def test_a_group_that_is_larger_than_the_monodromy_is_not_confirmed(S: str, larger: Group) -> None:
     found = agrees_with_group(kovacic.solve(S), larger)
@@ -415,6 +419,7 @@ def test_a_target_where_two_discs_meet_needs_no_way_of_its_own(caplog: pytest.Lo
     assert all(abs(float(v) - math.sin(100 * float(x))) < 1e-12 for x, v in zip(targets, values, strict=True))
 
 
+@pytest.mark.long
 def test_a_first_ball_that_contains_zero_doubles_the_precision_only() -> None:
     S = "x/2+x^2-x^3-x^4+5/3*x^5-5/3*x^6"
     value = evaluate(S, "5+8*I", x0=-1, y0="-11/4", dy0="4/3", digits=5, path=["1/3+2*I"])

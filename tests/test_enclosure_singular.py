@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 from flint import acb, arb, ctx, fmpq
 
 import kovacic
@@ -107,7 +108,7 @@ def gauss(a: str, b: str, c: str) -> str:
     return f"x*(1-x)*y'' + ({c} - ({a}+{b}+1)*x)*y' - ({a})*({b})*y = 0"
 
 
-@pytest.mark.parametrize(("a", "b", "c"), HYPERGEOMETRIC)
+@parametrize(("a", "b", "c"), HYPERGEOMETRIC, ordinary=3)
 @pytest.mark.parametrize("x", [Fraction(1, 2), Fraction(9, 10), -7, 2 + 1j, -1 - 3j])
 def test_gauss_from_zero_and_from_infinity(a: str, b: str, c: str, x: Any) -> None:
     p, q, r = (Fraction(v) for v in (a, b, c))
@@ -271,7 +272,7 @@ def test_the_tail_is_below_its_bound(seed: int, monkeypatch: pytest.MonkeyPatch)
         )
 
 
-@pytest.mark.parametrize("x", [2, -3, Fraction(1, 3), 30, 1 + 1j])
+@parametrize("x", [2, -3, Fraction(1, 3), 30, 1 + 1j], ordinary=1)
 @pytest.mark.parametrize("digits", [10, 40])
 def test_decaying_solutions(x: Any, digits: int) -> None:
     """Ai, K_nu, the complementary error function, and Whittaker's W: each over its value at 1."""

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from build import parametrize
 from flint import acb, arb, ctx, fmpq
 
 from kovacic import InputError, connection_matrix, evaluate
@@ -158,7 +159,7 @@ def test_no_true_value_is_outside_of_its_ball_thousands(block: int) -> None:
         check(seed)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@parametrize("seed", range(30), ordinary=8)
 def test_a_frobenius_basis_goes_on_as_taylor_expansions_do(seed: int) -> None:
     """From c to x2 at once, and through x1: the exponents were put in, with integer differences and double ones among them."""
     rng = random.Random(seed)
@@ -184,7 +185,7 @@ def test_a_frobenius_basis_goes_on_as_taylor_expansions_do(seed: int) -> None:
     assert beyond.dy.overlaps(onward.dy)
 
 
-@pytest.mark.parametrize("seed", range(25))
+@parametrize("seed", range(25), ordinary=11)
 def test_connection_matrices_turn_coordinates(seed: int) -> None:
     """The solution with coordinates c at one point has the coordinates C c at the other: both say the same in between."""
     rng = random.Random(seed)

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import flint
 import pytest
+from build import parametrize
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -145,7 +146,7 @@ def random_system(rng: random.Random) -> System:
     return System.make(tuple(rng.choice([-9, -1, 0, 1, 4, 99]) for _ in range(rng.randint(0, 3))), tuple(den))
 
 
-@pytest.mark.parametrize("seed", range(10))
+@parametrize("seed", range(10), ordinary=1)
 def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed: int) -> None:
     """Short ends (mirrored legs), decimal ones, and ones of a thousand digits; real and complex."""
     rng = random.Random(seed)

@@ -14,6 +14,7 @@ from typing import Any
 import flint
 import mpmath
 import pytest
+from build import parametrize
 from flint import acb, acb_poly, fmpq_poly
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
@@ -302,7 +303,7 @@ def random_system(rng: random.Random) -> System:
     return System.make(tuple(num), tuple(den))
 
 
-@pytest.mark.parametrize("seed", range(60))
+@parametrize("seed", range(60), ordinary=2)
 def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> None:
     rng = random.Random(seed)
     system = random_system(rng)
@@ -416,7 +417,7 @@ def test_many_points_come_back_in_the_order_asked_for() -> None:
     assert all(a.overlaps(b) for a, b in zip(chain, alone, strict=True))
 
 
-@pytest.mark.parametrize("S", ["3/16/x^2", "1/(x^2 + 2*x)", "x + 1/x"])
+@parametrize("S", ["3/16/x^2", "1/(x^2 + 2*x)", "x + 1/x"], ordinary=1)
 @pytest.mark.parametrize("solve", [str, kovacic.solve])
 def test_a_chain_visits_its_points_one_after_the_other(S: str, solve: Any) -> None:
     points = [1j, "-3/4", "-5/4", -1 - 1j, "-1/2", -1j, 1, 1j]  # back and forth, and once around 0
@@ -654,7 +655,7 @@ RIGHT_HAND_SIDES: list[tuple[str, str, Any, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("equation", "solution", "x0", "x"), RIGHT_HAND_SIDES)
+@parametrize(("equation", "solution", "x0", "x"), RIGHT_HAND_SIDES, ordinary=4)
 def test_equations_with_a_right_hand_side(equation: str, solution: str, x0: Any, x: Any) -> None:
     """The answer first: y is known, and f is what makes it a solution."""
     import sympy

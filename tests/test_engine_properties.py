@@ -18,7 +18,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Poly, RatFunc
+from build import QQ, AlgebraicField, Poly, RatFunc, parametrize
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -113,7 +113,7 @@ def check(example: Example) -> Solution:
 # ----------------------------------------------------------------------------------------- right answers
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@parametrize("family", FAMILIES, ordinary=1)
 def test_case_and_degree_are_right(family: str) -> None:
     @settings(max_examples=12)
     @given(strategies.examples(family))

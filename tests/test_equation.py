@@ -15,7 +15,7 @@ import jsonschema
 import pytest
 import strategies
 import sympy
-from build import QQ, Equation, RatFunc, read_input
+from build import QQ, Equation, RatFunc, parametrize, read_input
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -303,7 +303,7 @@ CONSTANTS = [
 ]
 
 
-@pytest.mark.parametrize(("constant", "number"), CONSTANTS)
+@parametrize(("constant", "number"), CONSTANTS, ordinary=3)
 def test_constants_are_letters(constant: str, number: int) -> None:
     """The letters stand for what was given, and there are no more than needed."""
     x, y = sympy.Symbol("x"), sympy.Function("y")

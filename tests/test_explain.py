@@ -15,7 +15,7 @@ import published
 import pytest
 import strategies
 import sympy
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from hypothesis import given, settings
 
 import kovacic
@@ -200,7 +200,7 @@ def test_an_undecided_answer_says_why() -> None:
     assert "undecided" in answer._repr_latex_()
 
 
-@pytest.mark.parametrize("text", EQUATIONS)
+@parametrize("text", EQUATIONS, ordinary=1)
 @pytest.mark.parametrize("form", ["text", "markdown", "latex", "html"])
 def test_every_format_of_every_kind(text: str, form: str) -> None:
     explained = kovacic.solve(text).explain(format=form)
@@ -461,7 +461,7 @@ def test_the_command_explains(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["explain", "x^2 +"]) == 2
 
 
-@pytest.mark.parametrize("row", [row for row in published.load() if row.case is not None][::9], ids=lambda row: row.id)
+@parametrize("row", [row for row in published.load() if row.case is not None][::9], ordinary=3, ids=lambda row: row.id)
 def test_published_equations_are_explained_without_closed_forms(row: published.Published) -> None:
     answer = kovacic.solve(row.S)
     text = answer.explain(solutions=False)
@@ -536,7 +536,7 @@ def test_families_with_parameters() -> None:
     assert "d is a natural number in 1 of them for generic parameters" in answer.explain(solutions=False)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("text", "tried"),
     [
         ("n/x^2", True),  # alpha has sqrt(4n + 1)
@@ -553,6 +553,7 @@ def test_families_with_parameters() -> None:
         ("1/(x^2 - n)^2", True),  # sqrt(n) and sqrt(n^2 + n)
         ("1/(x^2 - n)^2 + (x + sqrt(2))/(x^2 + n^2 + 1)", False),
     ],
+    ordinary=2,
 )
 def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bool) -> None:
     """The first degree with a solution is that of omega, and omega = theta + P'/P solves the Riccati equation."""
@@ -607,6 +608,7 @@ def test_nested_square_roots_that_cancel_are_an_integer() -> None:
     assert not is_natural(multiple - nested)
 
 
+@pytest.mark.long
 def test_a_page_begins_with_the_answer_and_its_links_lead_somewhere() -> None:
     """Headings with apostrophes and signs, too; nothing is loaded, and the styles don't reach beyond the page's own part."""
     for S in ("1/x - 3/(16*x^2)", "x"):
@@ -625,6 +627,7 @@ def test_a_page_begins_with_the_answer_and_its_links_lead_somewhere() -> None:
         assert page.isascii()
 
 
+@pytest.mark.long
 def test_an_explanation_in_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The suffix says which format."""
     for suffix, form in ((".html", "html"), (".md", "markdown"), (".tex", "latex"), (".txt", "text")):

@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from build import read_input
+from build import parametrize, read_input
 
 import kovacic
 from kovacic.cli import main
@@ -75,7 +75,7 @@ POTENTIALS = {
 }
 
 
-@pytest.mark.parametrize("name", POTENTIALS)
+@parametrize("name", POTENTIALS, ordinary=1)
 def test_shape_invariant_potentials_have_their_spectra(name: str) -> None:
     """Cooper, Khare & Sukhatme 1995, table 4.1: complete, as printed there, and solvable exactly there."""
     S, printed, eigenvalue = POTENTIALS[name]
@@ -259,6 +259,7 @@ def test_values_in_the_users_variable(
                 assert abs(ball.to_mpmath() - value) < mpmath.mpf(10) ** -18 * (1 + abs(value))
 
 
+@pytest.mark.long
 def test_values_of_a_closed_form_with_constants_as_initial_values() -> None:
     answer = kovacic.solve("-2/cosh(x)^2 + 1")
     found = answer.at([2, 3, -1], x0=1, y0="1/cosh(1)", dy0="-sinh(1)/cosh(1)^2", digits=30)
@@ -267,7 +268,7 @@ def test_values_of_a_closed_form_with_constants_as_initial_values() -> None:
             assert abs(ball.to_mpmath() - mpmath.sech(x)) < mpmath.mpf(10) ** -29
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "x0", "x", "message"),
     [
         ("y'' + coth(x)*y' - (6 + cosh(x))*y = 0", -1, 1, "analytic near"),
@@ -275,6 +276,7 @@ def test_values_of_a_closed_form_with_constants_as_initial_values() -> None:
         ("y'' + coth(x)*y' - (6 + cosh(x))*y = 0", 0, 1, "at the start 0"),
         ("y'' + y/(exp(x) - 1) = 0", 1, 0, "at the end 0"),
     ],
+    ordinary=1,
 )
 def test_singular_points_on_the_way_are_refused(equation: str, x0: Any, x: Any, message: str) -> None:
     with pytest.raises(kovacic.InputError, match=message):
@@ -426,13 +428,14 @@ def test_the_shell_and_none_as_an_option(capsys: pytest.CaptureFixture[str]) -> 
             kovacic.evaluate("exp(x)", 1, **start, **option)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "second"),
     [
         ("cos(x)*y'' + sin(x)*y' = 0", sympy.sin),
         ("sin(x)*y'' - cos(x)*y' = 0", sympy.cos),
         ("cosh(x)*y'' - sinh(x)*y' = 0", sympy.sinh),
     ],
+    ordinary=1,
 )
 def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str, second: Any) -> None:
     """sin(x) isn't sqrt(cos(2 x) - 1), whose slope jumps at the ordinary point 0; 1 and `second` are solutions."""
@@ -443,6 +446,7 @@ def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str,
         assert abs(sympy.N((found - expected).subs(x, sympy.Rational(point)), 20)) < 1e-15
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "right",
     [

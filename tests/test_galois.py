@@ -12,7 +12,7 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, AlgebraicField, Equation, Field, RatFunc
+from build import QQ, AlgebraicField, Equation, Field, RatFunc, parametrize
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -56,7 +56,7 @@ def published_name(group: str) -> str:
 PUBLISHED = [pytest.param(row.S, published_name(row.group), id=row.id) for row in published.load() if row.group]
 
 
-@pytest.mark.parametrize(("S", "name"), PUBLISHED)
+@parametrize(("S", "name"), PUBLISHED, ordinary=43)
 def test_published_groups(S: str, name: str) -> None:
     assert kovacic.solve(S).group.name == name
 
@@ -163,13 +163,14 @@ def _only_powers(problem: Problem, k: int) -> bool:
     return isinstance(space, NoInvariant) or (k % 2 == 0 and len(space) == 1)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "f",
     [
         (X**2 + 3 * X + 5) / (X + 1),
         (3 * X**2 + X - 7) / (2 * X**2 - 5 * X + 1),
         (X**4 + 3 * X**3 + X - 7) / (2 * X**3 - 5 * X + 1),
     ],
+    ordinary=1,
     ids=["genus 1", "genus 1, no rational pole", "genus 3"],
 )
 @pytest.mark.parametrize(("difference", "n"), [((1, 1000), 1000), ((5, 2), 2), ((3001, 1000), 1000)])
@@ -210,6 +211,7 @@ def pell(genus: int, field: Field, rest: int, multiple: Fraction) -> RatFunc:
 NUMBER_FIELDS = [QQ, AlgebraicField(QQ, QQ.poly([-2, 0, 1]), "sqrt(2)"), AlgebraicField(QQ, QQ.poly([1, 0, 1]), "I")]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("multiple", [Fraction(1, 1000), Fraction(4001, 1000)], ids=str)
 @pytest.mark.parametrize("field", NUMBER_FIELDS, ids=str)
 @pytest.mark.parametrize("genus", [1, 2, 3])
@@ -234,8 +236,8 @@ def test_a_unit_beside_a_differential_of_the_first_kind(genus: int, field: Field
 
 
 @pytest.mark.parametrize("multiple", [Fraction(401), Fraction(4001, 1000)], ids=str)
-@pytest.mark.parametrize(
-    "h", [X**3 - X + 4, X**5 - X + 4, X**6 + X**5 + X + 4], ids=["genus 1", "genus 2", "genus 2, even"]
+@parametrize(
+    "h", [X**3 - X + 4, X**5 - X + 4, X**6 + X**5 + X + 4], ordinary=1, ids=["genus 1", "genus 2", "genus 2, even"]
 )
 def test_large_multiples_of_a_divisor_of_infinite_order(h: RatFunc, multiple: Fraction) -> None:
     """eta = multiple * 2 dx/(x y) has the poles (0, 2) and (0, -2), and infinity stays an ordinary point or a branch point."""
@@ -588,7 +590,7 @@ def test_orders_without_small_primes() -> None:
         assert (group.kind, group.n, group.ground) == (GroupKind.DICYCLIC, n, Ground.FUNCTION)
 
 
-@pytest.mark.parametrize("shift", range(7))
+@parametrize("shift", range(7), ordinary=4)
 @pytest.mark.parametrize("n", [5, 7])
 def test_the_order_doesnt_depend_on_the_coordinate(n: int, shift: int) -> None:
     """Singular points at the residues that the computation modulo 5, 7, 11 begins with, and an order that 5 or 7 divides."""

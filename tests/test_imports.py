@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from build import parametrize
 
 import kovacic
 
@@ -53,7 +54,7 @@ def test_solving_text_imports_nothing_heavy() -> None:
     assert loaded_after(code) & (HEAVY | {"click"}) == set()
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "arguments",
     [
         ["solve", "x^2*y'' + x*y' + (x^2 - 9/4)*y = 0"],
@@ -63,6 +64,7 @@ def test_solving_text_imports_nothing_heavy() -> None:
         ["--help"],
         ["solve", "--help"],
     ],
+    ordinary=1,
     ids=str,
 )
 def test_the_command_imports_nothing_heavy(arguments: list[str]) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 from sympy import DiracDelta, Heaviside, Piecewise
 
 import kovacic
@@ -40,7 +41,7 @@ def agree(found: Any, wanted: Any, points: Any) -> None:
         assert abs(there - wanted.subs(x, point).evalf(20)) < 1e-12 * (1 + abs(there))
 
 
-@pytest.mark.parametrize("seed", range(20))
+@parametrize("seed", range(20), ordinary=1)
 def test_steps_and_impulses_in_any_form(seed: int) -> None:
     """y = p + H(x - a) q is the solution for L p + H L q + q(a) delta' + (q'(a) + b(a) q(a)) delta."""
     b, c = (sympy.sympify(part) for part in EQUATIONS[seed % len(EQUATIONS)])
@@ -68,6 +69,7 @@ def test_impulses_of_higher_order() -> None:
     agree((found - DiracDelta(x - 1)).subs(Heaviside(x - 1), 1), u, [sympy.Rational(5, 4), 3])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "f",
     [

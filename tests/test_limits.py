@@ -10,7 +10,7 @@ from functools import cache
 import pytest
 import sympy
 import transform
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from clocks import controlled
 from sympy.abc import n, x
 
@@ -110,7 +110,7 @@ WHOLE = ("verify", "closed_form", "solutions", "from_json")
 
 
 @pytest.mark.parametrize("looks", [3, 60])
-@pytest.mark.parametrize("name", CALLS)
+@parametrize("name", CALLS, ordinary=1)
 def test_every_call_ends_once_its_time_is_over(name: str, looks: int) -> None:
     """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason."""
     if not name.startswith(("solve", "dsolve", "decide")):
@@ -129,7 +129,7 @@ def test_every_call_ends_once_its_time_is_over(name: str, looks: int) -> None:
     assert limit == "seconds" or (name.startswith("dsolve") and "time limit" in limit)
 
 
-@pytest.mark.parametrize("format", ["text", "markdown", "latex", "html"])
+@parametrize("format", ["text", "markdown", "latex", "html"], ordinary=1)
 def test_an_explanation_says_what_it_leaves_out(format: str) -> None:
     """Formulas of degree 2000 aren't printed; what takes longer than the limits allow is left out, and the rest is there."""
     with controlled():
@@ -264,6 +264,7 @@ def test_factors_are_found_apart_as_here() -> None:
         QQ.factor(QQ.poly([-3, *[0] * 1259, 1, 7]))
 
 
+@pytest.mark.long
 def test_what_a_process_has_not_factored_is_not_factored_without_end() -> None:
     """The process is stopped by the time on the wall, while the clock of the call stands still."""
     with (

@@ -54,6 +54,7 @@ def test_the_group_of_a_root_of_high_order() -> None:
     assert checker.verdict(json.dumps(data)).startswith("refuted")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "call",
     [

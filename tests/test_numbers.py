@@ -13,6 +13,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
+from build import parametrize
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -172,7 +173,7 @@ PLACES: dict[str, Callable[[Any], object]] = {
 
 
 @pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
-@pytest.mark.parametrize("place", PLACES)
+@parametrize("place", PLACES, ordinary=1)
 def test_every_kind_of_number_is_a_value_or_refused(place: str) -> None:
     other = {}
     for kind, value in KINDS.items():

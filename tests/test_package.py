@@ -115,6 +115,7 @@ POSIX_NAMES = {
 }
 
 
+@pytest.mark.long
 def test_what_windows_lacks_is_used_where_it_is_there() -> None:
     """No module imports it, and a name of `os` or `signal` stands behind a `hasattr`, or where one of the same block is."""
     for path in sorted((ROOT / "kovacic").rglob("*.py")):

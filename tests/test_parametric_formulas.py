@@ -8,6 +8,7 @@ from random import Random
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -119,7 +120,7 @@ def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
     assert Conditions.from_json(answer.to_json()) == answer
 
 
-@pytest.mark.parametrize("name", SOME)
+@parametrize("name", SOME, ordinary=2)
 def test_answers_are_read_back(name: str) -> None:
     answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
     assert Conditions.from_json(answer.to_json()) == answer

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, RatFunc, read_input
+from build import QQ, RatFunc, parametrize, read_input
 from expressions import Expression, expressions
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -775,7 +775,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize("text", WRONG)
+@parametrize("text", WRONG, ordinary=67)
 def test_every_wrong_text_is_told_where_and_what_to_write(text: str) -> None:
     with pytest.raises(InputError) as caught:
         read_input(text, exponentials=True)

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic.reading.notation import plain
@@ -190,8 +191,10 @@ def test_what_is_not_read_is_refused_with_a_hint_that_works(text: str, hint: str
     assert hint in str(caught.value.hint)
 
 
-@pytest.mark.parametrize(
-    "piece", ["d/dx(", r"\frac{", "d^2y/dx^2 + ", "x$", "y(x).diff(x)", "D(", "'", "a", " ", "[", "{", "d", "_{"]
+@parametrize(
+    "piece",
+    ["d/dx(", r"\frac{", "d^2y/dx^2 + ", "x$", "y(x).diff(x)", "D(", "'", "a", " ", "[", "{", "d", "_{"],
+    ordinary=1,
 )
 def test_rewriting_takes_linear_time(piece: str) -> None:
     """Counted in characters of the result, and by ending at all: each piece 20,000 times in a row."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from build import parametrize
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 
@@ -22,7 +23,7 @@ def check() -> ModuleType:
         sys.path.remove(str(BENCHMARKS))
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "form", "syntax", "expressions", "verdict"),
     [
         ("x^2+3", "y", "python", ["x*exp(x**2/2)"], "right"),
@@ -57,6 +58,7 @@ def check() -> ModuleType:
         # On the left half-plane sqrt(x^2) is -x.
         ("x^2+1", "y", "python", ["exp(x*sqrt(x**2)/2)"], "right on a branch"),
     ],
+    ordinary=17,
 )
 def test_answers(check: ModuleType, S: str, form: str, syntax: str, expressions: list[str], verdict: str) -> None:
     assert check.check(S, form, syntax, expressions) == verdict
@@ -128,7 +130,7 @@ for k, line in enumerate(sys.stdin, 1):
 """
 
 
-@pytest.mark.parametrize("end", ["marker", "prompt"])
+@parametrize("end", ["marker", "prompt"], ordinary=1)
 def test_each_question_gets_its_own_answer(check: ModuleType, end: str) -> None:
     process = importlib.import_module("peer_systems.process")
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 from sympy import Rational
 
 import kovacic
@@ -27,7 +28,7 @@ def is_solution(u: Any, found: Any) -> bool:
     return bool(abs(matrix.det()) < 1e-20 and abs(matrix[:2, :2].det()) > 1e-9)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("alpha", "beta", "gamma", "nu"),
     [
         (Rational(1, 2), 2 * a / (n + 2), n / 2 + 1, 1 / (n + 2)),
@@ -38,6 +39,7 @@ def is_solution(u: Any, found: Any) -> bool:
         (0, sympy.I * a, n, p),
         (Rational(1, 3), 1, sympy.pi, Rational(1, 4)),
     ],
+    ordinary=1,
 )
 def test_bessel_functions_of_powers(alpha: Any, beta: Any, gamma: Any, nu: Any) -> None:
     """x^alpha J_nu(beta x^gamma) is a solution [DLMF 10.13.4]."""
@@ -46,7 +48,7 @@ def test_bessel_functions_of_powers(alpha: Any, beta: Any, gamma: Any, nu: Any) 
     assert is_solution(x**alpha * sympy.besselj(nu, beta * x**gamma), found)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("left", "solution"),
     [
         (D2 - (x ** (2 * n) + n * x ** (n - 1)) * D0, sympy.exp(x ** (n + 1) / (n + 1))),
@@ -54,6 +56,7 @@ def test_bessel_functions_of_powers(alpha: Any, beta: Any, gamma: Any, nu: Any) 
         (4 * x * D2 + 2 * D1 + sympy.exp(2 * sympy.sqrt(x)) * D0, sympy.besselj(0, sympy.exp(sympy.sqrt(x)))),
         (x**2 * D2 + sympy.sqrt(x) * D1 - D0 / 4 * (1 / sympy.sqrt(x) + 0), 0),
     ],
+    ordinary=1,
 )
 def test_other_solutions(left: Any, solution: Any) -> None:
     found = kovacic.dsolve(left).rhs
@@ -63,6 +66,7 @@ def test_other_solutions(left: Any, solution: Any) -> None:
         assert is_solution(solution, found)
 
 
+@pytest.mark.long
 def test_values_and_right_hand_sides() -> None:
     solution = kovacic.dsolve(D2 + x**p * D0, ics={y(1): 2, D1.subs(x, 1): 3}).rhs.subs(VALUES)
     assert abs(solution.subs(x, 1).evalf(20) - 2) < 1e-15
@@ -73,6 +77,7 @@ def test_values_and_right_hand_sides() -> None:
         kovacic.dsolve(D2 + sympy.sqrt(x) * D0, ics={y(-1): 0, y(1): 1})
 
 
+@pytest.mark.long
 def test_values_at_the_origin() -> None:
     """y'' + a x^p y = 0 with p > 0 has solutions with any values at 0."""
     for value in (0, 2):

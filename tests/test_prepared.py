@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from build import parametrize
 from flint import acb, arb, arb_poly, fmpq
 
 import kovacic
@@ -32,7 +33,7 @@ EQUATIONS: list[tuple[str, dict[str, Any]]] = [
 ]
 
 
-@pytest.mark.parametrize(("equation", "start"), EQUATIONS)
+@parametrize(("equation", "start"), EQUATIONS, ordinary=1)
 def test_values_in_any_order_are_those_of_single_calls(equation: str, start: dict[str, Any]) -> None:
     rng = random.Random(equation)
     solution = kovacic.prepared(equation, **start, digits=20)
@@ -86,6 +87,7 @@ def straight(a: ExactPoint, b: ExactPoint) -> Iterator[StraightStep]:
         a = a + ExactPoint(1)
 
 
+@pytest.mark.long
 def test_a_way_that_forgets_its_first_discs_goes_on() -> None:
     """y = 3 + 2x, over more discs than are kept; what was forgotten isn't there any more, and the rest is right."""
     way = Way(ExactPoint(0), straight, (acb(3), acb(2)), MatrixProduct())

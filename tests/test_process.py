@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from build import parametrize
 
 from kovacic.process import Channel, Process, last_of
 
@@ -26,7 +27,7 @@ def talks(channel: Channel) -> None:
     raise ArithmeticError("after that")
 
 
-@pytest.mark.parametrize("how", ["to the end", "for ever", "an exception"])
+@parametrize("how", ["to the end", "for ever", "an exception"], ordinary=1)
 @pytest.mark.parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))])
 def test_the_last_value_before_the_end(how: str, found: tuple[Any, ...]) -> None:
     assert last_of(values, how, *found, seconds=2 if how == "for ever" else 60) == (found[-1] if found else None)

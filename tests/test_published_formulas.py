@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from build import parametrize
 
 import kovacic
 from tests.parametric_cases import hypergeometric, with_squares
@@ -216,7 +217,7 @@ TABLE = [
 ]
 
 
-@pytest.mark.parametrize("entry", TABLE, ids=lambda entry: entry.name)
+@parametrize("entry", TABLE, ordinary=4, ids=lambda entry: entry.name)
 def test_conditions_are_printed_as_in_the_literature(entry: Published) -> None:
     answer = kovacic.conditions(entry.S, var="x")
     assert answer.complete is True

@@ -181,6 +181,7 @@ def described(function: Any) -> set[str]:
     return {name for line in lines for name in line.partition(" :")[0].split(", ")}
 
 
+@pytest.mark.long
 def test_every_parameter_is_described() -> None:
     """One by one in the docstring's list of parameters."""
     missing = []

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic.cli.main import main
@@ -36,7 +37,7 @@ CASES: list[tuple[str, dict[str, Any]]] = [
 ]
 
 
-@pytest.mark.parametrize(("S", "values"), CASES)
+@parametrize(("S", "values"), CASES, ordinary=1)
 def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values: dict[str, Any]) -> None:
     answer = kovacic.conditions(S, var="x")
     region = answer.region_at(values)
@@ -101,7 +102,7 @@ def test_the_quartic_has_the_solutions_of_its_paper() -> None:
     assert {solution.where for solution in region.solution(0)} == {"b = -2, a^2 - 4*c = 0", "b = 2, a^2 - 4*c = 0"}
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "values"),
     [
         (pulled_back(2, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
@@ -119,6 +120,7 @@ def test_the_quartic_has_the_solutions_of_its_paper() -> None:
             {"l": R(1, 3), "m": R(1, 5), "n": R(53, 15)},
         ),
     ],
+    ordinary=1,
 )
 def test_quotients_and_conjugate_poles_have_solutions(S: str | Callable[[], str], values: dict[str, Any]) -> None:
     test_every_solution_with_a_natural_degree_solves_the_equation(S if isinstance(S, str) else S(), values)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from build import read_input
+from build import parametrize, read_input
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -175,7 +175,7 @@ def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path) -> None:
     assert picture.read_bytes() == whole_map
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "arguments",
     [
         ["x^2+n", "n=1", "--map", "map.png"],
@@ -184,6 +184,7 @@ def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path) -> None:
         ["x^2+n", "n=1", "--nonsense"],
         ["x^2+n"],
     ],
+    ordinary=1,
 )
 def test_wrong_usage(arguments: list[str]) -> None:
     ran = command(*arguments)

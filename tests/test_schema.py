@@ -12,6 +12,7 @@ from typing import Any
 
 import jsonschema
 import pytest
+from build import parametrize
 
 import kovacic
 from kovacic import Limits
@@ -153,7 +154,7 @@ def test_lines_of_scan(validator: jsonschema.Draft202012Validator, capsys: pytes
         validator.validate(line)
 
 
-@pytest.mark.parametrize("S", ["(4*n^2-1)/(4*x^2) - 1", "x^4 + mu*x", "x^2 + n", "1/(n*x)", "x^6 + a*x^2 + b"])
+@parametrize("S", ["(4*n^2-1)/(4*x^2) - 1", "x^4 + mu*x", "x^2 + n", "1/(n*x)", "x^6 + a*x^2 + b"], ordinary=1)
 def test_lines_of_conditions(
     S: str, validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -161,6 +162,7 @@ def test_lines_of_conditions(
     validator.validate(line)
 
 
+@pytest.mark.long
 def test_conditions_that_are_not_complete(validator: jsonschema.Draft202012Validator) -> None:
     heun = "a/x^2 + b/(x-1)^2 + c/(x-t)^2 + (e*x+q)/(x*(x-1)*(x-t))"
     answer = kovacic.conditions(heun, var="x", limits=kovacic.Limits(seconds=0.5))
@@ -181,9 +183,10 @@ def test_lines_of_ball(
     validator.validate(line)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "line",
     [{}, {"line": 1}, {"line": 1, "schema": 1, "input": "x", "status": "error"}, {"S": "x", "variable": "x"}, [], "x"],
+    ordinary=1,
     ids=str,
 )
 def test_other_lines_are_refused(line: object, validator: jsonschema.Draft202012Validator) -> None:

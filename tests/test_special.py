@@ -13,7 +13,7 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
-from build import QQ, RatFunc, read_input
+from build import QQ, RatFunc, parametrize, read_input
 
 import kovacic
 import kovacic.errors
@@ -68,7 +68,7 @@ def special(S: RatFunc) -> Any:
     return special_functions(S, S * 0, "x", Budget())
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@parametrize("kind", KINDS, ordinary=4)
 def test_generated_pull_backs_are_found(kind: str) -> None:
     for case in pull_backs(4, kinds=(kind,), seed=7):
         found = find(case.S, Budget()).pullback
@@ -77,8 +77,11 @@ def test_generated_pull_backs_are_found(kind: str) -> None:
         assert pull_back(found.equation.S, found.f) == case.S
 
 
-@pytest.mark.parametrize(
-    "case", list(pull_backs(1, degrees=range(1, 4, 2), seed=11)), ids=lambda case: f"{case.kind} {case.degree}"
+@parametrize(
+    "case",
+    list(pull_backs(1, degrees=range(1, 4, 2), seed=11)),
+    ordinary=1,
+    ids=lambda case: f"{case.kind} {case.degree}",
 )
 def test_solutions_of_generated_pull_backs_are_right_to_30_digits(case: Case) -> None:
     assert solves(special(case.S), case.S)
@@ -112,7 +115,7 @@ BOOKS = [
 ]
 
 
-@pytest.mark.parametrize(("equation", "first", "second"), BOOKS, ids=[row[0] for row in BOOKS])
+@parametrize(("equation", "first", "second"), BOOKS, ordinary=1, ids=[row[0] for row in BOOKS])
 def test_equations_of_the_books(equation: str, first: str, second: str) -> None:
     answer = kovacic.solve(equation)
     assert answer.status is kovacic.Status.NONE_EXISTS
@@ -332,7 +335,7 @@ def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) ->
             assert abs(ball.to_mpmath() - end.real) < mpmath.mpf(10) ** -20 * (1 + abs(end))
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "equation",
     [
         "y'' = (2*x + 3)*y",
@@ -342,6 +345,7 @@ def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) ->
         "x^2*y'' + 2*x*y' + (x^2 - n*(n + 1))*y = 0",
         "y'' + 3*y' - (x/7)*y = 0",
     ],
+    ordinary=3,
 )
 def test_wronskians(equation: str) -> None:
     """Against derivatives by mpmath; and one minus sign is noticed."""
@@ -442,7 +446,7 @@ def test_assumptions_that_exclude_each_other() -> None:
         _ = answer.special
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("text", "names"),
     [
         ("x*(1-x)*y'' + (1-2*x)*y' - y/4 = 0", ("elliptic_k(x)", "elliptic_k(1 - x)")),
@@ -450,6 +454,7 @@ def test_assumptions_that_exclude_each_other() -> None:
         ("(1-x^2)*y'' - 2*x*y' + 3/4*y = 0", ("legendre(1/2, x)", "legendre(1/2, -x)")),
         ("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", ("legendre(n, x)", "hyper((-n, n + 1), (1,), x/2 + 1/2)")),
     ],
+    ordinary=1,
 )
 def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> None:
     """DLMF 19.4.8 (K), 19.4.9 (E), 14.2.1; substituted by mpmath's numbers."""
@@ -467,7 +472,7 @@ def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> N
 # ------------------------------------------------------------------------------------------------ Mathieu's functions
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("coefficient", "damping", "expected"),
     [
         ("a - 2*q*cos(2*x)", "0", ("a", "q", "x")),
@@ -482,6 +487,7 @@ def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> N
         ("1 + cos(x)", "2", ("0", "-2", "x/2")),
         ("2 + cos(3*x)", "2*sin(3*x)", None),
     ],
+    ordinary=1,
 )
 def test_mathieus_functions(coefficient: str, damping: str, expected: tuple[str, str, str] | None) -> None:
     """The equation itself, by SymPy's derivatives; and the parameters where they are known."""

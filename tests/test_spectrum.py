@@ -7,6 +7,7 @@ from math import inf
 
 import pytest
 import sympy
+from build import parametrize
 from potentials import MORE, QUASI, TABLE, Solvable
 from scipy.integrate import quad
 from shooting import is_level, zeros
@@ -70,6 +71,7 @@ def check(row: Solvable) -> None:
             assert abs(integral / complex(sympy.N(levels.norm.subs({**at, n: state.number}))) - 1) < 1e-9
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("row", [row for row in TABLE + MORE if row.name in QUICK], ids=lambda row: row.name)
 def test_levels_of_the_literature(row: Solvable) -> None:
     check(row)
@@ -108,6 +110,7 @@ def test_levels_by_degree(V: str, domain: tuple[object, object], degree: int, pr
     assert len(one.states) == sympy.degree(one.polynomial, sympy.Symbol("E"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("V", "domain", "number"),
     [
@@ -138,6 +141,7 @@ def test_values_that_are_refused() -> None:
         coulomb.states()
 
 
+@pytest.mark.long
 def test_levels_by_degree_with_parameters() -> None:
     """Razavy's and Turbiner's determinants; an exponent that isn't square integrable at the end is no level."""
     M, z, E, a, m, l = sympy.symbols("M z E a m l")  # noqa: E741
@@ -151,6 +155,7 @@ def test_levels_by_degree_with_parameters() -> None:
     assert [*map(str, radial.algebraic[0].conditions)] == ["m >= 7"]
 
 
+@pytest.mark.long
 def test_every_l_of_coulomb_has_its_limit_circle() -> None:
     found = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=HALF, assume={"l": ">=0", "Z": "positive"})
     assert str(found.levels[0].energy) == "-Z**2/(4*(l + n + 1)**2)"
@@ -195,7 +200,7 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
     assert not found.levels
 
 
-@pytest.mark.parametrize("V", ["x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)", "cosh(x)", "sin(x)"])
+@parametrize("V", ["x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)", "cosh(x)", "sin(x)"], ordinary=1)
 def test_what_is_not_covered_is_undecided(V: str) -> None:
     found = kovacic.spectrum(V)
     assert not found.complete
@@ -203,7 +208,7 @@ def test_what_is_not_covered_is_undecided(V: str) -> None:
     assert found.reason.startswith("undecided: ")
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("V", "domain"),
     [
         ("-6*sech(x)^2", (1, "oo")),
@@ -212,6 +217,7 @@ def test_what_is_not_covered_is_undecided(V: str) -> None:
         ("exp(-2*x) - 9*exp(-x)", HALF),
         ("0", (0, 1)),
     ],
+    ordinary=1,
 )
 def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, object]) -> None:
     """The condition there is transcendental in E."""
@@ -239,6 +245,7 @@ def test_wrong_questions(V: str, options: dict[str, object]) -> None:
         kovacic.spectrum(V, **options)  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 def test_names_of_parameters_and_variables_are_free() -> None:
     """Letters that the program uses itself: z, s, t, w, n, rho."""
     plain = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=HALF, assume={"l": ">=1", "Z": "positive"}).levels[0]
@@ -251,6 +258,7 @@ def test_names_of_parameters_and_variables_are_free() -> None:
         assert sympy.simplify(found.wave - plain.wave.subs(names, simultaneous=True)) == 0
 
 
+@pytest.mark.long
 def test_a_sympy_expression_and_values() -> None:
     b = sympy.Symbol("b", positive=True)
     found = kovacic.spectrum(sympy.exp(-2 * x) - 2 * b * sympy.exp(-x))
@@ -274,6 +282,7 @@ def test_a_root_that_may_vanish_is_positive() -> None:
     assert [*map(str, only_one.excluded)] == ["B < 3/4"]
 
 
+@pytest.mark.long
 def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     arguments = [
         "spectrum",

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 from sympy.solvers import ode
 from sympy.solvers.ode.single import solver_map
 
@@ -49,7 +50,7 @@ BASES = [(x * sympy.exp(x**2 / 2), sympy.exp(x**3)), ((x + 1) / (x**2 + 2), x**3
 
 
 @pytest.mark.usefixtures("registered")
-@pytest.mark.parametrize("basis", BASES)
+@parametrize("basis", BASES, ordinary=1)
 def test_sympy_finds_what_was_built(basis: tuple[Any, Any]) -> None:
     equation = equation_of(*basis)
     for found in (sympy.dsolve(equation), sympy.dsolve(equation, y(x), "kovacic")):
@@ -73,6 +74,7 @@ def test_assumptions_of_symbols_count() -> None:
     assert found.rhs == constant * sympy.sin(n * x)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("registered")
 def test_all_hints() -> None:
     equation = sympy.Eq(y(x).diff(x, 2), 6 * y(x) / x**2)
@@ -81,6 +83,7 @@ def test_all_hints() -> None:
     assert found["kovacic"] == sympy.dsolve(equation)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("registered")
 def test_other_equations_are_left_to_sympy() -> None:
     """Not linear, of another order, and without a solution that is known here."""
@@ -92,6 +95,7 @@ def test_other_equations_are_left_to_sympy() -> None:
     assert sympy.dsolve(y(x).diff(x) - y(x)).rhs == C1 * sympy.exp(x)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("registered")
 def test_integrals_stay_as_they_are() -> None:
     right = 1 / (sympy.log(x) + x)

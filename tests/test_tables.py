@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from build import parametrize
 
 import kovacic
 
@@ -34,9 +35,10 @@ def test_a_singular_end_stays_outside() -> None:
 
 
 @pytest.mark.parametrize("careful", [True, False])
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "interval"),
     [("-1", (0, 100)), ("x", (-20, 300)), ("y'' + (2 + cos(x))*y = 0", (-3, 9)), ("I*x + 1", None)],
+    ordinary=1,
 )
 def test_a_number_has_the_value_that_it_has_in_an_array(equation: str, interval: Any, careful: bool) -> None:
     if interval is None:  # a complex solution of a real equation
@@ -54,6 +56,7 @@ def test_a_number_has_the_value_that_it_has_in_an_array(equation: str, interval:
         assert (same | (size > 2.0**960)).all() if not careful else same.all()
 
 
+@pytest.mark.long
 def test_derivatives_are_those_of_evaluate() -> None:
     start = {"x0": 0, "y0": 1, "dy0": "-1/2"}
     equation = "y'' + tan(x/9)*y' + x*y = cos(x)"

@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic.cli.main import run
@@ -53,7 +54,7 @@ def conditions(name: str, k: str = "") -> kovacic.Conditions:
     return kovacic.conditions(FAMILIES[name], var="x", assume={"k": k} if k else None)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@parametrize("name", FAMILIES, ordinary=1)
 def test_the_cases_say_what_the_regions_say(name: str) -> None:
     """Solvable exactly where one of the cases holds, in the case of the first one."""
     answer = conditions(name)
@@ -71,13 +72,14 @@ def test_the_cases_say_what_the_regions_say(name: str) -> None:
         assert (first or answer.generic).case == verdict.case, str(point)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "last", "exceptions"),
     [
         # What isn't solvable is said where a later case would hold there, and only then.
         ("a + D/x + q/x^2 + a/x^4", "a = D^2/(4*(d + 1)^2)", []),
         (BLACK_HOLE, "s = +-(d + 3)/2", ["s != 0", "s != 1/2", "s != -1/2"]),
     ],
+    ordinary=1,
 )
 def test_exceptions_are_named_where_they_matter(S: str, last: str, exceptions: list[str]) -> None:
     text = kovacic.conditions(S, var="x").theorem()
@@ -104,6 +106,7 @@ def table_of_morales_and_ramis(k: int, p: int) -> Iterator[Fraction]:
             yield start + factor * (residue + step * p) ** 2
 
 
+@pytest.mark.long
 def test_the_table_of_morales_and_ramis() -> None:
     """For an integer k: solvable at every value of the table, and at no other one between them."""
     answer = conditions("homogeneous", "integer")
@@ -121,6 +124,7 @@ def test_the_table_of_morales_and_ramis() -> None:
     assert "Schwarz" not in theorem
 
 
+@pytest.mark.long
 def test_an_integer_parameter_has_few_values_where_a_quotient_is_a_fraction_of_the_table() -> None:
     """2/(2k+1) in place of 1/k; what is outside of the assumptions isn't named."""
     S = hypergeometric(("2/(2*k+1)", "1/2", "l"))
@@ -138,6 +142,7 @@ def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
             yield from schwarz_parts(part)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(2, 5), Fraction(7, 4)])
 def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fraction) -> None:
     answer = kovacic.conditions(hypergeometric(("l", "m", str(third))), var="x")
@@ -190,7 +195,7 @@ def printed_solutions(answer: kovacic.Conditions) -> Iterator[tuple[str, str, li
                 yield block.math.text.removeprefix("y = "), degree, signs
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("name", "S", "values"),
     [
         ("whittaker", "1/4 - k/x + (4*m^2-1)/(4*x^2)", {"k": R(10, 3), "m": R(5, 6)}),
@@ -200,6 +205,7 @@ def printed_solutions(answer: kovacic.Conditions) -> Iterator[tuple[str, str, li
         ("morse", FAMILIES["morse"], {"A": R(2, 3), "b": R(7, 2), "E": -4}),
         ("coulomb", FAMILIES["coulomb"], {"l": 1, "Z": 3, "b": 1}),
     ],
+    ordinary=1,
 )
 def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[str, Any]) -> None:
     """For every choice of the signs for which the printed degree is natural, by derivatives to 30 digits."""
@@ -218,6 +224,7 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
     assert natural
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "values"),
     [
@@ -257,7 +264,7 @@ def test_polynomials_are_printed_in_factors() -> None:
     assert "s = -l*(l - 1)*(l + 1)*(l + 2)/6 or l*(l - 1)*(l + 1)*(l + 2)/6" in str(conditions("black hole"))
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@parametrize("name", FAMILIES, ordinary=3)
 def test_words_and_formulas_are_kept_apart(name: str) -> None:
     """No formula stands among the words, where LaTeX would print it raw."""
     for block in blocks(conditions(name)):
@@ -285,6 +292,7 @@ def test_other_formats(form: str) -> None:
         conditions("riemann").theorem(format="word")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
 def test_latex_compiles_with_lines_that_fit_a_page(tmp_path: Path) -> None:
     body = "\n\\clearpage\n".join(conditions(name).theorem(format="latex") for name in FAMILIES)

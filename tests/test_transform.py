@@ -67,6 +67,7 @@ def test_pull_back_of_a_solution(omega: RatFunc, f: RatFunc) -> None:
     assert solves_riccati(pulled, transform.pull_back(transform.from_omega(omega), f))
 
 
+@pytest.mark.long
 @given(omegas.map(transform.from_omega), small_functions, small_functions)
 @settings(max_examples=30)
 def test_pull_backs_compose(S: RatFunc, f: RatFunc, g: RatFunc) -> None:
@@ -90,6 +91,7 @@ def test_translation_and_scaling(S: RatFunc, shift: Fraction, factor: Fraction) 
     assert transform.scaling(S, factor) == S(factor * X) * factor**2
 
 
+@pytest.mark.long
 @given(omegas, small_functions, strategies.polynomials(0, 1, 3))
 @settings(max_examples=50)
 def test_gauge_of_a_solution(omega: RatFunc, a: RatFunc, b: Poly) -> None:

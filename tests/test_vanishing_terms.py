@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 
@@ -11,7 +12,7 @@ FUNCTIONS = ["exp(x)", "sech(x)^2", "sin(2*x)", "tanh(x)^3", "exp(-x)/(1 + exp(x
 RATIONAL = ["-1", "x", "x^2 + 3", "a/x^2 + 1"]
 
 
-@pytest.mark.parametrize("f", FUNCTIONS)
+@parametrize("f", FUNCTIONS, ordinary=2)
 @pytest.mark.parametrize("rational", RATIONAL)
 def test_what_is_left_is_solved(f: str, rational: str) -> None:
     plain = kovacic.solve(rational)
@@ -28,6 +29,7 @@ def test_what_is_left_is_solved(f: str, rational: str) -> None:
         assert found.equation == plain.equation
 
 
+@pytest.mark.long
 def test_a_scan_keeps_the_free_particle() -> None:
     from kovacic.batch import Job, run_items
     from kovacic.batch.scan import parse_grid, scan_items

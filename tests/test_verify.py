@@ -47,6 +47,7 @@ PRIMES = [101, 10007, (1 << 61) - 1]
 # ------------------------------------------------------------------------------------------- series
 
 
+@pytest.mark.long
 @given(
     st.integers(1, 900), st.integers(0, 900), st.sampled_from(PRIMES), st.randoms(use_true_random=False), st.booleans()
 )
@@ -112,6 +113,7 @@ def test_exponents_of_the_search_with_long_numerators(p: Any, nu: int, M: Any) -
     assert irregular_difference_squared(place) == 4 * _residue(M, p, nu) ** 2 % p
 
 
+@pytest.mark.long
 @settings(max_examples=80)
 @given(st.one_of(strategies.omegas(), strategies.case_1_orthogonal()))
 @example((X + 1) / (X**2 - 2))
@@ -216,6 +218,7 @@ def test_the_group_is_the_named_one_and_no_other(text: str) -> None:
             assert bool(verification) is ((other, k) == (family, n)), (other, k)
 
 
+@pytest.mark.long
 @settings(max_examples=150)
 @given(strategies.examples(), st.sampled_from(FAMILIES), st.sampled_from([None, 1, 2, 3, 4, 5, 6]))
 def test_every_group_is_confirmed_and_a_random_other_one_refuted(
@@ -360,6 +363,7 @@ def paths(data: Any, prefix: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 WRONG = [None, True, 3, -1, 0.5, "7", "x", "", [], {}, ["x"], 10**30, "1/0", "y'' + (", "infinity"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", ["2", "x", "x^2 + 3", "1/x - 3/(16*x^2)", "sqrt(2)/x^2", "x^4 + 6*x"])
 def test_a_field_of_another_type_or_value_fails_or_is_refused_or_says_the_same(text: str) -> None:
     """Another point, or a multiple of a form, may be right as well."""

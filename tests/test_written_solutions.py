@@ -32,6 +32,7 @@ def vanishes(expression: sympy.Expr) -> bool:
     return abs(sympy.N(expression.subs(x, sympy.Rational(137, 101)), 30, maxn=200)) < 1e-20
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("equations", [CASES, [text for text, _ in EQUATIONS]], ids=["published", "textbooks"])
 def test_the_text_is_that_of_the_closed_form(equations: list[str]) -> None:
     seen = 0
@@ -49,6 +50,7 @@ def test_the_text_is_that_of_the_closed_form(equations: list[str]) -> None:
 EXPONENTS = st.fractions(min_value=-2, max_value=2, max_denominator=3)
 
 
+@pytest.mark.long
 @settings(max_examples=25, deadline=None)
 @given(
     st.tuples(EXPONENTS, EXPONENTS),
