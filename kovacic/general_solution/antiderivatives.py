@@ -13,6 +13,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import lcm
 from typing import Any
 
@@ -46,18 +47,27 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     functions = _functions(integrand)
     if not functions <= _SIMPLE | set(_BY_PARTS):
         return None
-    if functions <= {exp} and (whole := integral_of_product(integrand, x)) is not None:
-        return whole
+    if functions <= {exp}:
+        whole = integral_of_product(integrand, x)
+        if whole is not None:
+            return whole
     parts = []
     for inverse, terms in _by_inverse_functions(integrand, x).items():
         check_time()
-        found = [_of_term(term, x) for term in terms]
-        if None in found:
-            found = [_by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)]
-        if None in found:
+        found = _of_terms(inverse, terms, x)
+        if found is None:
             return None
-        parts += found
+        parts.append(found)
     return sympy.Add(*parts)
+
+
+def _of_terms(inverse: Expr, terms: list[Expr], x: Expr) -> Expr | None:
+    """One after the other; or, where one isn't known, their sum by parts."""
+    found = [_of_term(term, x) for term in terms]
+    if None not in found:
+        return sympy.Add(*found)
+    beside = sympy.Add(*(term / inverse for term in terms))
+    return _by_parts(inverse, beside, x)
 
 
 def _functions(expression: Expr) -> set[Any]:
@@ -91,7 +101,11 @@ def _of_term(term: Expr, x: Expr) -> Expr | None:
         in_complex_exponentials,
         incomplete_gamma,
     )
-    return next((found for rule in rules if (found := rule(term, x)) is not None), None)
+    for rule in rules:
+        found = rule(term, x)
+        if found is not None:
+            return found
+    return None
 
 
 def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
@@ -107,27 +121,46 @@ def _by_coefficients(term: Expr, x: Expr) -> Expr | None:
 
 def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
     """In t = log(x)."""
+    if not term.has(log(x)):
+        return None
     t = sympy.Dummy(real=True)
-    inner = prepared(term.subs(x, exp(t)) * exp(t)) if term.has(log(x)) else term
-    found = None if inner.has(log) or inner.has(x) else _known(inner, t)
+    inner = prepared(term.subs(x, exp(t)) * exp(t))
+    if inner.has(log) or inner.has(x):
+        return None
+    found = _known(inner, t)
     return None if found is None else in_powers(found, t, x)
 
 
 def _in_roots(term: Expr, x: Expr) -> Expr | None:
-    """In the root of x that stands within functions."""
-    arguments = [term] if term.has(sin, cos) else [f.args[0] for f in term.atoms(sympy.Function)]
-    q = lcm(*(int(p.exp.q) for u in arguments for p in u.atoms(sympy.Pow) if p.base == x and p.exp.is_Rational))
+    """In t with x = t^q, for the root of x that stands within functions."""
+    q = _index_of_root(term, x)
+    if q == 1:
+        return None
     t = sympy.Dummy(positive=True)
-    found = None if q == 1 else _known(term.subs(x, t**q) * q * t ** (q - 1), t)
+    found = _known(term.subs(x, t**q) * q * t ** (q - 1), t)
     return None if found is None else found.subs(t, sympy.root(x, q))
+
+
+def _index_of_root(term: Expr, x: Expr) -> int:
+    """q, where x^(1/q) is the root of which all powers of x in arguments, or beside waves, are powers."""
+    arguments = [f.args[0] for f in term.atoms(sympy.Function)]
+    if term.has(sin, cos):
+        arguments = [term]
+    q = 1
+    for argument in arguments:
+        powers = [power for power in argument.atoms(sympy.Pow) if power.base == x and power.exp.is_Rational]
+        q = lcm(q, *(int(power.exp.q) for power in powers))
+    return q
 
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
     """In an argument u of a function, beside whose slope the term is one of u."""
-    u, arguments = sympy.Dummy(), {f.args[0] for f in term.atoms(sympy.Function)}
+    u = sympy.Dummy()
+    arguments = {f.args[0] for f in term.atoms(sympy.Function)}
     for argument in sorted((a for a in arguments if a.has(x) and a.has(exp, sin, cos, log)), key=str):
         inner = (term / argument.diff(x)).subs(argument, u)
-        if not inner.has(x) and (found := _known(inner, u)) is not None:
+        found = None if inner.has(x) else _known(inner, u)
+        if found is not None:
             return found.subs(u, argument)
     return None
 
@@ -142,59 +175,109 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     """In u = exp(k x), for which x is written."""
     term = sympy.expand(term)
     rates = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
-    first = next(iter(rates.values()), sympy.Integer(0))
-    if first == 0 or not all((rate / first).is_Rational for rate in rates.values()):
+    k = _common_rate(list(rates.values()))
+    if k is None:
         return None
-    k, u = first * sympy.gcd_list([rate / first for rate in rates.values()]), sympy.Dummy()
-    if k.could_extract_minus_sign():  # one u for all terms, or logarithms that cancel would stay
-        k = -k
+    u = sympy.Dummy()
     inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
     if inner.has(x):
         return None
     inner = sympy.expand(inner.xreplace({u: x}))
     found = integral_of_fraction(inner, x)
-    found = _by_coefficients(inner, x) if found is None else found
+    if found is None:
+        found = _by_coefficients(inner, x)
     return None if found is None else found.subs(x, exp(k * x))
 
 
-def _in_waves(term: Expr, x: Expr) -> Expr | None:
-    """In c, s or a tangent, for which x is written."""
-    waves = sorted(term.atoms(sin, cos), key=str)
-    ratios = [sympy.cancel(wave.args[0] / waves[0].args[0]) for wave in waves]
-    if not waves or not all(ratio.is_Rational for ratio in ratios):
+def _common_rate(rates: list[Expr]) -> Expr | None:
+    """k, of which all rates are integer multiples; None where there is none."""
+    if not rates or rates[0] == 0:
         return None
-    unit, s, c = sympy.gcd_list(ratios), sympy.Dummy(), sympy.Dummy()
-    theta, multiples = waves[0].args[0] * unit, {}
-    for wave, n in zip(waves, (int(ratio / unit) for ratio in ratios), strict=True):
-        sine = sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
-        multiples[wave] = sine if wave.func is sin else sympy.chebyshevt(abs(n), c)
-    R, slope = term.xreplace(multiples), theta.diff(x)
+    ratios = [rate / rates[0] for rate in rates]
+    if not all(ratio.is_Rational for ratio in ratios):
+        return None
+    k = rates[0] * sympy.gcd_list(ratios)
+    # One u for all terms, or logarithms that cancel would stay.
+    return -k if k.could_extract_minus_sign() else k
+
+
+@dataclass(frozen=True)
+class _Change:
+    """To a function u of theta: the integrand times dtheta/du, and s and c in u, for which x is written."""
+
+    integrand: Expr
+    waves: dict[Expr, Expr]
+    u: Expr
+
+    def integral(self, slope: Expr, x: Expr) -> Expr | None:
+        """In theta, whose derivative is `slope`; None where it isn't rational in u."""
+        found = integral_of_fraction(sympy.cancel(self.integrand.subs(self.waves) / slope), x)
+        if found is None:
+            return None
+        if self.u.func is not tan:
+            return TR2i(found.xreplace({x: self.u}))
+        angle, u = self.u.args[0], sympy.Dummy()
+        known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
+        return TR2i(found.xreplace({x: u}).xreplace(known).xreplace({u: sin(angle) / cos(angle)}))
+
+
+def _in_waves(term: Expr, x: Expr) -> Expr | None:
+    """In c, s or a tangent."""
+    waves = sorted(term.atoms(sin, cos), key=str)
+    theta = _common_angle(waves)
+    if theta is None:
+        return None
+    s, c = sympy.Dummy(), sympy.Dummy()
+    R = term.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
+    slope = theta.diff(x)
     if R.has(x) or slope.has(x) or slope == 0:
         return None
-    root, square, changes = sympy.sqrt(1 - x**2), 1 + x**2, []
+    found = [change.integral(slope, x) for change in _changes(R, s, c, theta, x)]
+    return min((done for done in found if done is not None), key=size, default=None)
+
+
+def _common_angle(waves: list[Expr]) -> Expr | None:
+    """theta, of which the arguments of all waves are integer multiples; None where there is none."""
+    if not waves:
+        return None
+    first = waves[0].args[0]
+    ratios = [sympy.cancel(wave.args[0] / first) for wave in waves]
+    if not all(ratio.is_Rational for ratio in ratios):
+        return None
+    return first * sympy.gcd_list(ratios)
+
+
+def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
+    """sin(n theta) or cos(n theta) in s = sin(theta) and c = cos(theta)."""
+    n = int(sympy.cancel(wave.args[0] / theta))
+    if wave.func is cos:
+        return sympy.chebyshevt(abs(n), c)
+    return sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
+
+
+def _changes(R: Expr, s: Expr, c: Expr, theta: Expr, x: Expr) -> list[_Change]:
+    """The changes of variable that make R, a function of s and c, a rational function; u is x."""
+    root = sympy.sqrt(1 - x**2)
+    square = 1 + x**2
+    found = []
     if sympy.cancel(R + R.xreplace({s: -s})) == 0:
-        changes.append((-R / s, {s: root, c: x}, cos(theta)))
+        found.append(_Change(-R / s, {s: root, c: x}, cos(theta)))
     if sympy.cancel(R + R.xreplace({c: -c})) == 0:
-        changes.append((R / c, {c: root, s: x}, sin(theta)))
-    if not changes and sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0:
-        changes.append((R / square, {s: x / sympy.sqrt(square), c: 1 / sympy.sqrt(square)}, tan(theta)))
-    if not changes:
-        changes.append((2 * R / square, {s: 2 * x / square, c: (1 - x**2) / square}, tan(theta / 2)))
-    done = []
-    for inner, values, back in changes:
-        found = integral_of_fraction(sympy.cancel(inner.subs(values) / slope), x)
-        if found is not None:
-            angle, u = back.args[0], sympy.Dummy()
-            known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
-            found = found.xreplace({x: u}).xreplace(known if back.func is tan else {})
-            done.append(TR2i(found.xreplace({u: sin(angle) / cos(angle) if back.func is tan else back})))
-    return min(done, key=size, default=None)
+        found.append(_Change(R / c, {c: root, s: x}, sin(theta)))
+    if found:
+        return found
+    if sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0:
+        return [_Change(R / square, {s: x / sympy.sqrt(square), c: 1 / sympy.sqrt(square)}, tan(theta))]
+    return [_Change(2 * R / square, {s: 2 * x / square, c: (1 - x**2) / square}, tan(theta / 2))]
 
 
 def _with_real_arguments(term: Expr, x: Expr) -> Expr | None:
     """exp(i w x) as cos(w x) + i sin(w x), beside waves."""
-    imaginary = {e: sympy.expand(e.args[0] / sympy.I) for e in term.atoms(exp) if e.args[0].has(sympy.I)}
-    waves = {e: cos(angle) + sympy.I * sin(angle) for e, angle in imaginary.items() if not angle.has(sympy.I)}
+    waves = {}
+    for e in term.atoms(exp):
+        angle = sympy.expand(e.args[0] / sympy.I)
+        if e.args[0].has(sympy.I) and not angle.has(sympy.I):
+            waves[e] = cos(angle) + sympy.I * sin(angle)
     return _in_waves(term.xreplace(waves), x) if waves else None
 
 
@@ -205,7 +288,8 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         return None
     if len(powers) == 1:
         function, m = powers[0]
-        if (found := _of_one_function(function, m, g, x)) is not None:
+        found = _of_one_function(function, m, g, x)
+        if found is not None:
             return found
     G = antiderivative(g, x)
     if G is None or not _functions(G) <= _SIMPLE:
@@ -243,24 +327,60 @@ def _powers_beside_waves(term: Expr, x: Expr) -> Expr | None:
 
 
 def _beside_waves(term: Expr, x: Expr) -> Expr | None:
-    """int cos(w x + b)/(x - c)^k dx by sine and cosine integrals, after partial fractions."""
+    """int R cos(w x + b) dx for rational R, after partial fractions, by sine and cosine integrals."""
     if not term.has(sin, cos) or term.has(exp, log, atan):
         return None
     parts = []
     for single in sympy.Add.make_args(sympy.expand(TR8(term))):
         waves = single.atoms(sin, cos)
-        R, wave = (single / next(iter(waves)), next(iter(waves))) if waves else (single, sympy.Integer(1))
-        slope = wave.args[0].diff(x) if waves else sympy.Integer(1)
-        if len(waves) > 1 or not R.is_rational_function(x) or R.has(sin, cos) or slope.has(x):
+        if len(waves) > 1:
+            return None
+        wave = next(iter(waves), sympy.Integer(1))
+        R = single / wave
+        if not R.is_rational_function(x) or R.has(sin, cos):
             return None
         for fraction in sympy.Add.make_args(sympy.apart(R, x)):
-            done = undetermined(sympy.Integer(0), sympy.Integer(0), fraction * wave, x)
-            parts.append(integral_of_product(fraction, x) if not waves else done and sympy.expand(done.diff(x)))
-            if parts[-1] is None:
-                parts[-1] = _at_a_pole(fraction, wave, slope, x)
-            if parts[-1] is None:
+            found = _beside_one_wave(fraction, wave, x) if waves else integral_of_product(fraction, x)
+            if found is None:
                 return None
+            parts.append(found)
     return sympy.Add(*parts)
+
+
+def _beside_one_wave(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
+    """The integral of a polynomial, or of a single pole, times a wave."""
+    slope = wave.args[0].diff(x)
+    if slope.has(x):
+        return None
+    found = _by_coefficients(fraction * wave, x)
+    return _at_a_pole(fraction, wave, slope, x) if found is None else found
+
+
+def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
+    """int f g/(x - c)^k dx for a constant f and a wave g: by parts down to k = 1, which is Si and Ci."""
+    base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
+    if not exponent.is_Integer or exponent >= 0 or base.diff(x).has(x):
+        return None
+    c = sympy.expand(x - base / base.diff(x))
+    k = -int(exponent)
+    factor = sympy.cancel(fraction * (x - c) ** k)
+    total = sympy.Integer(0)
+    while k > 1:
+        total -= factor * wave / ((k - 1) * (x - c) ** (k - 1))
+        factor = factor / (k - 1)
+        wave = wave.diff(x)
+        k -= 1
+    number, wave = wave.as_independent(x, as_Add=False)
+    return total + factor * number * _over_a_line(wave, c, slope, x)
+
+
+def _over_a_line(wave: Expr, c: Expr, slope: Expr, x: Expr) -> Expr:
+    """int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = slope (x - c), and p + pi/2 for the cosine."""
+    u = slope * (x - c)
+    phase = sympy.expand(wave.args[0].subs(x, c))
+    if wave.func is sin:
+        return cos(phase) * sympy.Si(u) + sin(phase) * sympy.Ci(u)
+    return -sin(phase) * sympy.Si(u) + cos(phase) * sympy.Ci(u)
 
 
 def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
@@ -281,15 +401,19 @@ def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
 
 def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
-    below = [f.base for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
-    if len(below) != 1:
+    reciprocals = [f for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
+    if len(reciprocals) != 1:
         return None
-    c, s = below[0], (cos if below[0].func is sin else sin)(below[0].args[0])
+    c = reciprocals[0].base
+    s = cos(c.args[0]) if c.func is sin else sin(c.args[0])
     if not (term * c).is_polynomial(s, c):
         return None
     (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
-    values = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
-    if rest.has(log, atan) or not all(value.has(x) and not value.has(sin, cos) for value in values):
+    if rest.has(log, atan):
         return None
+    for sign in (1, -1):
+        residue = rest.xreplace({s: sympy.Integer(sign)})
+        if residue.has(sin, cos) or not residue.has(x):
+            return None
     found = antiderivative(q, x)
     return None if found is None else found + sympy.Integral(rest / c, x)
