@@ -383,22 +383,6 @@ def _over_a_line(wave: Expr, c: Expr, slope: Expr, x: Expr) -> Expr:
     return -sin(phase) * sympy.Si(u) + cos(phase) * sympy.Ci(u)
 
 
-def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
-    base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
-    if not exponent.is_Integer or exponent >= 0 or base.diff(x).has(x):
-        return None
-    c, k = sympy.expand(x - base / base.diff(x)), -int(exponent)
-    total, factor = sympy.Integer(0), sympy.cancel(fraction * (x - c) ** k)
-    while k > 1:
-        total -= factor * wave / ((k - 1) * (x - c) ** (k - 1))
-        factor, wave, k = factor / (k - 1), wave.diff(x), k - 1
-    number, wave = wave.as_independent(x, as_Add=False)
-    u, phase = slope * (x - c), sympy.expand(wave.args[0].subs(x, c))
-    # sin(u + p) = cos(p) sin(u) + sin(p) cos(u), and p + pi/2 for the cosine.
-    a, b = (cos(phase), sin(phase)) if wave.func is sin else (-sin(phase), cos(phase))
-    return total + factor * number * (a * sympy.Si(u) + b * sympy.Ci(u))
-
-
 def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
     reciprocals = [f for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
