@@ -23,11 +23,11 @@ from kovacic.algebra.rationals import to_fmpq
 from kovacic.ball import RollingBall as Body
 from kovacic.exact import exact
 
-NUMPY = {scalar for scalar in np.sctypeDict.values() if issubclass(scalar, np.number | np.bool_)}
+NUMPY = {scalar for scalar in np.sctypeDict.values() if issubclass(scalar, np.number | np.bool_)} - {np.timedelta64}
 KINDS: dict[str, Any] = {
     **{scalar.__name__: scalar(3) for scalar in sorted(NUMPY, key=str)},
     "datetime64": np.datetime64(3, "s"),
-    "timedelta64": np.timedelta64(3),
+    "timedelta64": np.timedelta64(3, "s"),
     "str_": np.str_("3"),
     "bytes_": np.bytes_(b"3"),
     "void": np.void(b"3"),

@@ -13,6 +13,7 @@ from enum import Enum
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 from documents import ROOT
@@ -203,3 +204,38 @@ def test_types_of_answers_show_themselves() -> None:
             assert " at 0x" not in shown, way
             assert kind.__name__ in shown or shown.startswith("y"), way
             assert len(shown) < 2000, way
+
+
+SHOWN_IN_NOTEBOOKS = {
+    "Ball",
+    "BallOnSphere",
+    "Conditions",
+    "Group",
+    "LocalMonodromy",
+    "ParameterRegion",
+    "ProductForm",
+    "RatFunc",
+    "Record",
+    "RiccatiSolutions",
+    "Solution",
+    "SpecialFunctions",
+    "TabulatedFunction",
+    "Verification",
+}
+
+
+@pytest.mark.long
+def test_types_of_answers_have_views_for_notebooks() -> None:
+    """LaTeX between dollar signs with balanced braces, or HTML in which every element ends."""
+    views = {kind.__name__: thing for kind, (_, thing) in reached().items()}
+    for name in SHOWN_IN_NOTEBOOKS & set(views):
+        thing = views[name]
+        if hasattr(thing, "_repr_latex_"):
+            shown = thing._repr_latex_()
+            assert shown[0] == shown[-1] == "$", name
+            assert shown.count("{") == shown.count("}"), name
+            assert shown.count(r"\begin") == shown.count(r"\end"), name
+        else:
+            page = ElementTree.fromstring(f"<div>{thing._repr_html_()}</div>")
+            assert "".join(page.itertext()).strip(), name
+    assert len(SHOWN_IN_NOTEBOOKS & set(views)) >= len(SHOWN_IN_NOTEBOOKS) - 2  # the functions need NumPy

@@ -293,6 +293,9 @@ class BallOnSphere(Rolling):
     ball: RollingBall
     R1: sp.Expr
 
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle y'' = {sp.latex(self.S)}\, y$"
+
     @property
     def kind(self) -> str:
         """Which ball this is, in words; undecided symbolic parameters count as generic."""

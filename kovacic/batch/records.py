@@ -19,6 +19,7 @@ from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of, seconds_of
 from kovacic.shown import json_line
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict
+from kovacic.writing.document import FORMATS, Table
 
 # What a record says about its equation in one word; the degree of omega is added in case 3.
 NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
@@ -92,6 +93,10 @@ class Record:
 
     def __repr__(self) -> str:
         return f"<Record {self.number}: {self.label}>"
+
+    def _repr_html_(self) -> str:
+        first = FORMATS["html"].render([Table((), [(f"equation {self.number}", self.error or self.label)])]).rstrip()
+        return first if self.error is not None else first + self.solution._repr_html_()
 
     @property
     def data(self) -> dict[str, Any]:

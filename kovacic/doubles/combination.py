@@ -20,7 +20,7 @@ from flint import acb
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import RationalChart
 from kovacic.doubles.product_form import ProductForm
-from kovacic.doubles.region import Measured, Region
+from kovacic.doubles.region import Measured, Region, facts
 from kovacic.enclosure.closed_form import closed_form_of, decided, omega
 from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.limits import Limits
@@ -66,6 +66,9 @@ class Combination:
 
     def __repr__(self) -> str:
         return f"<Combination on {self.region}>"
+
+    def _repr_html_(self) -> str:
+        return facts("a combination of closed forms", self.region, self.measured, values="real")
 
     @property
     def interval(self) -> tuple[float, float]:

@@ -44,7 +44,7 @@ from kovacic.doubles.double_double import (
     split,
     square_root,
 )
-from kovacic.doubles.region import Measured, Region, in_blocks
+from kovacic.doubles.region import Measured, Region, facts, in_blocks
 from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.points import ExactPoint
 
@@ -182,6 +182,9 @@ class ProductForm:
 
     def __repr__(self) -> str:
         return f"<ProductForm on {self.region}, {'real' if self.is_real else 'complex'}>"
+
+    def _repr_html_(self) -> str:
+        return facts("the closed form", self.region, self.measured, values="real" if self.is_real else "complex")
 
     @property
     def interval(self) -> tuple[float, float]:

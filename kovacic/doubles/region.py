@@ -14,6 +14,7 @@ from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_preci
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import name_of
 from kovacic.errors import InputError
+from kovacic.writing.document import FORMATS, Table
 
 _PREC = 240
 
@@ -46,6 +47,13 @@ class Measured(NamedTuple):
 
     def __str__(self) -> str:
         return f"median {self.median:.3g}, worst {self.worst:.3g} of {self.points} points"
+
+
+def facts(kind: str, region: Region, measured: Measured | None, **more: str) -> str:
+    """What a notebook shows of a function: where it is defined, and its error in units in the last place."""
+    error = "not measured" if measured is None else f"{measured}, in units in the last place"
+    rows = [("function", kind), ("defined on", str(region)), *more.items(), ("error", error)]
+    return FORMATS["html"].render([Table((), rows)]).rstrip()
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,7 @@ from numpy.polynomial import chebyshev
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
-from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
+from kovacic.doubles.region import BLOCK, Measured, Region, facts, in_blocks
 from kovacic.enclosure.evaluate import StartOptions
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
@@ -178,6 +178,9 @@ class TabulatedFunction:
 
     def __repr__(self) -> str:
         return f"<TabulatedFunction on {self.region}, {self.centres.size} pieces>"
+
+    def _repr_html_(self) -> str:
+        return facts("polynomials, piece by piece", self.region, self.measured, pieces=str(self.centres.size))
 
     @property
     def interval(self) -> tuple[float, float]:

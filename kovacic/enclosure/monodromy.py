@@ -72,6 +72,12 @@ class LocalMonodromy:
     def __repr__(self) -> str:
         return f"<LocalMonodromy around {self.point}>"
 
+    def _repr_latex_(self) -> str:
+        rows = [" & ".join(entry._repr_latex_().strip("$") for entry in row) for row in self.matrix]
+        around = self.point._repr_latex_().strip("$")
+        matrix = r" \\ ".join(rows)
+        return rf"$\text{{around }} {around}\colon\ \begin{{pmatrix}} {matrix} \end{{pmatrix}}$"
+
     def acb_mat(self) -> acb_mat:
         """The matrix as python-flint's, at the working precision in force."""
         return acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix])

@@ -216,6 +216,9 @@ class ParameterRegion:
     def __repr__(self) -> str:
         return f"<ParameterRegion {self.statement.text()}: {self.verdict if self.defined else self.group}>"
 
+    def _repr_latex_(self) -> str:
+        return rf"${self.statement.latex()}\colon\ \text{{{self.verdict if self.defined else self.group}}}$"
+
     def __str__(self) -> str:
         known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
         first = f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
