@@ -9,7 +9,7 @@ Reference: DLMF 6.6, 6.12 (Ei, Si, Ci), 7.12 (erf), 9.7 (Airy), 10.2, 10.8, 10.2
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -147,32 +147,46 @@ class _Expander:
         return self(last)
 
     def _by_rule(self, e: Expr, inner: Expansion) -> Expansion:
-        z = sympy.Dummy("z", positive=True)
-        large, constant, _ = inner.parts
-        *parameters, _ = e.args
-        rules = _AT_ZERO
-        if constant == 0 and not large and e.func in _BELOW_ZERO and inner.leading()[1].is_negative:
-            rules = _BELOW_ZERO
-        if large:
-            m, c, _ = inner.leading()
-            if m.growth or m.k or not c.is_real:
-                raise UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
-            rules = _AT_INFINITY if c.is_positive else _AT_MINUS_INFINITY
-            inner = inner if c.is_positive else inner.times(-_ONE)
-        elif constant == 1 and isinstance(e, sympy.hyper):
-            rules = _AT_ONE
-            inner = Expansion.constant(_ONE) + inner.times(-_ONE)
-        elif constant != 0:
-            raise UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
+        rules = _rules_near(e, inner)
         rule = rules.get(e.func)
         if rule is None:
-            raise UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
+            raise _unknown(e)
+        if rules is _AT_MINUS_INFINITY:
+            inner = inner.times(-_ONE)
+        elif rules is _AT_ONE:
+            inner = Expansion.constant(_ONE) + inner.times(-_ONE)
+        z = sympy.Dummy("z", positive=True)
+        *parameters, _ = e.args
         main, errors = rule(parameters, z, self.depth)
         self.known[z] = inner
         self.variables.add(z)
         total = self(main)
-        beside = [self(error) for error in errors]
-        return total + Expansion({}, [m for error in beside for m in (*error.terms, *error.errors)])
+        rest: list[Monomial] = []
+        for error in errors:
+            beside = self(error)
+            rest += [*beside.terms, *beside.errors]
+        return total + Expansion({}, rest)
+
+
+def _rules_near(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:
+    """The table for the point to which the argument of a function tends, and for the side."""
+    large, constant, _ = inner.parts
+    if large:
+        m, c, _ = inner.leading()
+        if m.growth or m.k or not c.is_real:
+            raise _unknown(e)
+        return _AT_INFINITY if c.is_positive else _AT_MINUS_INFINITY
+    if constant == 1 and isinstance(e, sympy.hyper):
+        return _AT_ONE
+    if constant != 0:
+        raise _unknown(e)
+    if e.func in _BELOW_ZERO and inner.leading()[1].is_negative:
+        return _BELOW_ZERO
+    return _AT_ZERO
+
+
+def _unknown(e: Expr) -> UnknownBehaviour:
+    return UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
 
 
 def _as_quotient(e: Expr) -> Expr:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from itertools import islice, pairwise
 from typing import Any
 
@@ -90,29 +91,54 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
     return False
 
 
+@dataclass(frozen=True)
+class _Pieces:
+    """y and the coefficients of a y'' + b y' + c y = f; the breaks, and a rational point on each piece between them."""
+
+    x: Expr
+    y: Expr
+    coefficients: tuple[Expr, Expr, Expr, Expr]
+    breaks: Sequence[Expr]
+    points: Sequence[Expr]
+
+    def is_wrong_at(self, point: Expr) -> bool:
+        """Is the residual not zero on the piece with this point?"""
+        piece = on_piece(_antiderivatives(self.y, self.x), self.x, point)
+        at = acb(fmpq(int(point.p), int(point.q)))
+        coefficients = [jet(on_piece(part, self.x, point), self.x, at)[0] for part in self.coefficients]
+        return _is_large(coefficients, jet(piece, self.x, at))
+
+    def is_wrong_across(self, k: int) -> bool:
+        """Have y and y' a wrong jump at the k-th break?"""
+        a, b, _, f = self.coefficients
+        point = self.breaks[k]
+        here = _antiderivatives(self.y, self.x, point)
+        left = on_piece(here, self.x, self.points[k])
+        right = on_piece(here, self.x, self.points[k + 1])
+        return _has_wrong_jump(left, right, (b / a, f / a), self.x, point)
+
+
 def _is_wrong_in_pieces(question: Question, value: Expr) -> bool:
     """Is the residual seen not to be zero on a piece of the line, or do y and y' have wrong jumps?"""
+    pieces = _in_pieces(question, value)
+    with ctx.workdps(DIGITS), suppress(*_NOT_EVALUATED):
+        if any(pieces.is_wrong_at(point) for point in pieces.points):
+            return True
+        return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
+    return False
+
+
+def _in_pieces(question: Question, value: Expr) -> _Pieces:
+    """At values of the parameters, and with functions for those that are given by their names."""
     x = question.x
     whole = [value, *(question.own(part) for part in _coefficients(question))]
-    symbols = {s for e in whole for s in e.free_symbols if s != x}
+    symbols = set().union(*(e.free_symbols for e in whole)) - {x}
     sample = next(islice(samples(symbols), 1, None))
     y, a, b, c, f = (_concrete(e.xreplace(sample), x) for e in whole)
-    real = [point for e in (y, f) for point in break_points(e, x) if point.is_number and point.is_real]
+    places = [*break_points(y, x), *break_points(f, x)]
+    real = [point for point in places if point.is_number and point.is_real]
     breaks = sorted(dict.fromkeys(real), key=lambda point: float(point.evalf()))
-    points = _between(breaks)
-    pieces = [on_piece(_antiderivatives(y, x), x, point) for point in points]
-    with ctx.workdps(DIGITS), suppress(*_NOT_EVALUATED):
-        for point, piece in zip(points, pieces, strict=True):
-            at = acb(fmpq(int(point.p), int(point.q)))
-            coefficients = [jet(on_piece(part, x, point), x, at)[0] for part in (a, b, c, f)]
-            if _is_large(coefficients, jet(piece, x, at)):
-                return True
-        for k, point in enumerate(breaks):
-            here = _antiderivatives(y, x, point)
-            left, right = (on_piece(here, x, side) for side in points[k : k + 2])
-            if _has_wrong_jump(left, right, (b / a, f / a), x, point):
-                return True
-    return False
+    return _Pieces(x, y, (a, b, c, f), breaks, _between(breaks))
 
 
 def _between(breaks: Sequence[Expr]) -> list[Expr]:

@@ -16,7 +16,9 @@ where b delta^(n) is the sum of (-1)^k C(n, k) b^(k)(a) delta^(n-k).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from math import comb
 from typing import Any
 
@@ -50,7 +52,7 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
     right = _right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
-    solved = basis.with_integrals if basis.equation.change is not None else _solver(basis)
+    solved = basis.with_integrals if basis.equation.change is not None else partial(_solved, basis)
     if right.has(DiracDelta, Heaviside):
         apart = taken_apart(right, basis.x)
         found = None if apart is None else _response(apart, basis, start, solved)
@@ -71,35 +73,50 @@ def _right_hand_side(equation: Equation) -> Expr:
     return in_x(equation, rational) + h
 
 
-def _solver(basis: Basis) -> Callable[[Expr, Expr | None], Expr]:
+def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     """A solution for a right-hand side without jumps, by the cheapest way, and integrals from a point on where they stay."""
+    found = None
+    with suppress(LimitExceeded):
+        found = _at_once(basis, right)
+    if found is not None:
+        return found
+    terms = sympy.Add.make_args(prepared(right))
+    known = _known_terms(basis, terms)
+    if not known:
+        return basis.with_integrals(right, start)
+    rest = sympy.Add(*(term for term in terms if term not in known))
+    integrals = sympy.Integer(0) if rest == 0 else basis.with_integrals(rest, start)
+    return sympy.Add(integrals, *known.values())
+
+
+def _known_terms(basis: Basis, terms: Sequence[Expr]) -> dict[Expr, Expr]:
+    """The terms of a sum, unless there are too many, for which a solution is known at once; and these."""
+    if not 1 < len(terms) <= _LARGEST_SUM:
+        return {}
+    found = {term: _at_once(basis, term) for term in terms}
+    return {term: part for term, part in found.items() if part is not None}
+
+
+def _at_once(basis: Basis, right: Expr) -> Expr | None:
+    """A polynomial, a solution with undetermined coefficients, or one by integrals that are known; None without."""
     equation, x = basis.equation, basis.x
+    polynomial = _polynomial_for(equation, ratfunc(right, x))
+    if polynomial is not None:
+        return Atoms(x).poly(polynomial).xreplace(NUMBERS)
+    found = _by_coefficients(equation, right, x)
+    return basis.at_once(right) if found is None else found
 
-    def at_once(right: Expr) -> Expr:
-        f, field = ratfunc(right, x), equation.a.field
-        if f is not None and f.field != field:
-            f = RatFunc(f.num.over(field), f.den.over(field), reduced=True) if field.extends(f.field) else None
-        polynomial = None if f is None else _polynomial_solution(equation, f * equation.a)
-        if polynomial is not None:
-            return Atoms(x).poly(polynomial).xreplace(NUMBERS)
-        found = _by_coefficients(equation, right, x)
-        return basis.at_once(right) if found is None else found
 
-    def solved(right: Expr, start: Expr | None) -> Expr:
-        try:
-            found = at_once(right)
-        except LimitExceeded:
-            found = None
-        if found is not None:
-            return found
-        terms = sympy.Add.make_args(prepared(right))
-        parts = {term: at_once(term) for term in terms} if 1 < len(terms) <= _LARGEST_SUM else {}
-        known = {term: part for term, part in parts.items() if part is not None}
-        rest = sympy.Add(*(term for term in terms if term not in known)) if known else right
-        integrals = basis.with_integrals(rest, start) if rest != 0 else 0
-        return sympy.Add(integrals, *known.values())
-
-    return solved
+def _polynomial_for(equation: Equation, right: RatFunc | None) -> Poly | None:
+    """A polynomial y with y'' + (b/a) y' + (c/a) y = right; None where there is none, or `right` isn't known as a fraction."""
+    field = equation.a.field
+    if right is None:
+        return None
+    if right.field != field:
+        if not field.extends(right.field):
+            return None
+        right = RatFunc(right.num.over(field), right.den.over(field), reduced=True)
+    return _polynomial_solution(equation, right * equation.a)
 
 
 def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:

@@ -65,7 +65,7 @@ def jump_points(question: Question) -> list[Expr]:
     if h is None:
         return []
     places = [place_of(jump, question.x) for jump in sorted(h.atoms(sympy.Heaviside, sympy.DiracDelta), key=str)]
-    return [*dict.fromkeys(place[0] for place in places if place is not None)]
+    return [*dict.fromkeys(place.a for place in places if place is not None)]
 
 
 def is_singular(question: Question, point: Expr) -> bool:

@@ -142,23 +142,31 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read
     if func is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
     if isinstance(eq, Equation):
-        return _Read(eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable)))
+        return _Read(eq, applied or _function(name, eq.unknown, eq.variable))
     unknown: Any = None if func is None else str(name)
     if isinstance(eq, str):
         var = var if applied is None else str(applied.args[0])
     elif not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
     else:
-        if func is not None and applied is None:
-            applied = _applied_in(eq, func)
-        unknown = applied = _only_function(eq) if applied is None else applied
+        applied = applied or _unknown_in(eq, name)
+        unknown = applied
     parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True)
     equation = parsed.equation
     assert equation is not None
     variable = equation.variable if equation.change is None else equation.change.variable
-    return _Read(
-        equation, applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable)), parsed.letters
-    )
+    return _Read(equation, applied or _function(name, equation.unknown, variable), parsed.letters)
+
+
+def _function(name: Any, unknown: str, variable: str) -> Expr:
+    """y(x), where y may be given by the user."""
+    function = sympy.Function(unknown) if name is None else name
+    return function(sympy.Symbol(variable))
+
+
+def _unknown_in(eq: Any, name: Any) -> Expr:
+    """y(x) in a SymPy equation, where y may be given."""
+    return _only_function(eq) if name is None else _applied_in(eq, name)
 
 
 def _with_steps(equation: Equation, x: Expr) -> Equation:

@@ -33,14 +33,15 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
         return y1, y2
     found: list[Expr] = []
     for y in (y1, y2):
-        negative = negative_arguments(y, x, point)
-        turned = y.xreplace({e: _turned(e) for e, u in negative.items()})
+        turned = _all_turned(y, x, point)
         if is_numerical_solution(turned, x, solution.S, solution.gauge):
             found.append(turned)
         else:
             found += _parts(y, point, x)
-    second = next((k for k in range(1, len(found)) if are_independent(found[0], found[k], x)), None)
-    return (y1, y2) if second is None else (found[0], found[second])
+    for second in found[1:]:
+        if are_independent(found[0], second, x):
+            return found[0], second
+    return y1, y2
 
 
 def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
@@ -53,19 +54,25 @@ def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
 
 def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
     """A solution of the inhomogeneous equation that is real at the point, if one is found; else the given one."""
-    negative = negative_arguments(y, x, point) if point.is_real else {}
-    if not negative or y.has(sympy.Integral, sympy.Heaviside):
+    if not point.is_real or y.has(sympy.Integral, sympy.Heaviside) or not negative_arguments(y, x, point):
         return y
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
     coefficients = rates(equation, x)
-    candidates = [y.xreplace({e: _turned(e) for e, u in negative.items()}), *_parts(y, point, x)[:1]]
-    return next((found for found in candidates if is_solution(found, coefficients, right, x)), y)
+    for found in [_all_turned(y, x, point), *_parts(y, point, x)[:1]]:
+        if is_solution(found, coefficients, right, x):
+            return found
+    return y
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
     """The logarithms, roots and Bessel's functions in an expression, and their arguments."""
     candidates = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase)}
     return candidates | {e: e.base for e in y.atoms(sympy.Pow) if not e.exp.is_Integer and e.base.has(x)}
+
+
+def _all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
+    """With log(-u), (-u)^e for arguments u that are negative at the point."""
+    return y.xreplace({e: _turned(e) for e in negative_arguments(y, x, point)})
 
 
 def _turned(e: Expr) -> Expr:
@@ -80,33 +87,47 @@ def negative_arguments(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
 
 
 def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
-    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long.
-
-    A number a + i b with a constant modulus m becomes m exp(i acos(a/m)).
-    """
+    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long."""
     if y.has(sympy.RootSum, BesselBase):
         return [y]
-    t, turn = sympy.Dummy(real=True), sympy.I * sympy.pi
-    back: dict[Expr, Expr] = {t: x}
+    back: dict[Expr, Expr] = {}
+    exact = y.xreplace(_with_positive_arguments(y, point, x, back))
+    t = sympy.Dummy(real=True)
+    back[t] = x
+    exact = exact.subs(x, t)
+    for power in exact.atoms(sympy.Pow):
+        polar = _polar(power, x, back)
+        if polar is not None:
+            exact = exact.xreplace({power: polar})
+    whole = sympy.expand(exact, complex=True).as_real_imag()
+    parts = [part.xreplace(back).as_independent(x, as_Add=False)[1] for part in whole if part != 0]
+    short = all(size(part) <= _LARGEST * (size(y) + 5) and not part.has(*_COMPLEX) for part in parts)
+    return parts if short else [y]
+
+
+def _with_positive_arguments(y: Expr, point: Expr, x: Expr, back: dict[Expr, Expr]) -> dict[Expr, Expr]:
+    """Logarithms and roots of p, or of -p = p exp(i pi), for a positive symbol p; `back` says what it is."""
     real: dict[Expr, Expr] = {}
     for e, u in _arguments(y, x).items():
         value = u.subs(x, point)
-        if value.is_negative or (value.is_positive and not u.has(*real)):
-            p = next((p for p, known in back.items() if known in (u, -u) and p is not t), sympy.Dummy(positive=True))
-            back[p], phase = (-u, turn) if value.is_negative else (u, 0)
-            real[e] = sympy.log(p) + phase if e.func is sympy.log else p**e.exp * sympy.exp(phase * e.exp)
-    exact = y.xreplace(real).subs(x, t)
-    for power in exact.atoms(sympy.Pow):
-        a, b = power.base.as_real_imag()
-        square = sympy.expand((a**2 + b**2).xreplace(back))
-        if b != 0 and not power.exp.is_Integer and not square.has(x):
-            angle, m = sympy.Dummy(real=True), sympy.sqrt(square)
-            back[angle] = sympy.acos(a.xreplace(back) / m) * (-1 if b.could_extract_minus_sign() else 1)
-            exact = exact.xreplace({power: m**power.exp * sympy.exp(sympy.I * power.exp * angle)})
-    parts = [
-        part.xreplace(back).as_independent(x, as_Add=False)[1]
-        for part in sympy.expand(exact, complex=True).as_real_imag()
-        if part != 0
-    ]
-    short = all(size(part) <= _LARGEST * (size(y) + 5) and not part.has(*_COMPLEX) for part in parts)
-    return parts if short else [y]
+        is_new = value.is_positive and not u.has(*real)
+        if not value.is_negative and not is_new:
+            continue
+        p = next((p for p, known in back.items() if known in (u, -u)), sympy.Dummy(positive=True))
+        back[p] = -u if value.is_negative else u
+        phase = sympy.I * sympy.pi if value.is_negative else sympy.Integer(0)
+        real[e] = sympy.log(p) + phase if e.func is sympy.log else p**e.exp * sympy.exp(phase * e.exp)
+    return real
+
+
+def _polar(power: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr | None:
+    """(a + i b)^e with a constant modulus m as m^e exp(i e phi), where `back` says what phi is; None for another power."""
+    a, b = power.base.as_real_imag()
+    square = sympy.expand((a**2 + b**2).xreplace(back))
+    if b == 0 or power.exp.is_Integer or square.has(x):
+        return None
+    m = sympy.sqrt(square)
+    angle = sympy.acos(a.xreplace(back) / m)
+    phi = sympy.Dummy(real=True)
+    back[phi] = -angle if b.could_extract_minus_sign() else angle
+    return m**power.exp * sympy.exp(sympy.I * power.exp * phi)

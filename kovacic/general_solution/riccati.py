@@ -102,48 +102,64 @@ def solve_riccati(
     >>> solve_riccati("w' = x^2 + 3 - w^2").rational
     ((x**2 + 1)/x,)
     """
+    given = _read_coefficients(p, q, r, var, limits)
+    R, Q, P = given.a, given.b, given.c
+    unit = R / R
+    linear = Equation(unit, -(Q + R.derivative() / R), P * R, R - R, None, given.variable, "u")
+    solution = solve(linear, limits=limits)
+    group = solution.group
+    if solution.case is None:
+        return RiccatiSolutions((), None, None, None if group is None else False, solution)
+    all_algebraic = None if group is None else group.finite
+    atoms = Atoms(sympy.Symbol(solution.variable))
+    gauge = atoms.ratio(linear.gauge)
+    factor = atoms.ratio(R)
+    if solution.case != 1:
+        polynomial = _polynomial(solution, gauge, factor, atoms)
+        return RiccatiSolutions((), None, polynomial, all_algebraic, solution)
+    family = _family(solution, factor, atoms.x) if all_algebraic else None
+    if group is not None and group.order in (1, 2):  # infinitely many are rational
+        return RiccatiSolutions((), family, None, all_algebraic, solution)
+    rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
+    return RiccatiSolutions(rational, family, None, all_algebraic, solution)
+
+
+def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) -> Equation:
+    """r, q and p as the coefficients a, b and c of an equation; `p` alone may be Riccati's equation."""
     from kovacic.reading.read import read_coefficients
 
     if q is None and r is None:
         equation = read_riccati(p, None, var, limits)
         if equation is None:
             raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
-        p, q, r, var = equation.p, equation.q, equation.r, equation.x.name
+        p, q, r = equation.p, equation.q, equation.r
+        var = equation.x.name
     elif q is None or r is None:
         raise InputError("one of p, q, r is missing", hint="give all three, or an equation")
     if plain_text(r).strip() in ("0", "0.0"):
         raise InputError("r is zero: the equation is linear of first order")
     given = read_coefficients(r, q, p, 0, var=var, limits=limits).equation
     assert given is not None
-    R, Q, P = given.a, given.b, given.c
-    unit = R / R
-    linear = Equation(unit, -(Q + R.derivative() / R), P * R, R - R, None, given.variable, "u")
-    solution = solve(linear, limits=limits)
-    group = solution.group
-    x = sympy.Symbol(solution.variable)
-    atoms = Atoms(x)
-    gauge, factor = atoms.ratio(linear.gauge), atoms.ratio(R)
-    if solution.case is None:
-        return RiccatiSolutions((), None, None, None if group is None else False, solution)
-    finite = None if group is None else group.finite
+    return given
+
+
+def _family(solution: Solution, factor: Any, x: Any) -> Any:
+    """w for u = y1 + C1 y2."""
+    y1, y2 = solution.solutions
+    u = y1 + sympy.Symbol("C1") * y2
+    return sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(x) / (factor * u))))
+
+
+def _polynomial(solution: Solution, gauge: Any, factor: Any, atoms: Atoms) -> Any:
+    """The polynomial for omega = -r w - gauge; None where that for omega isn't known."""
+    if solution.riccati is None:
+        return None
     w = sympy.Symbol("w")
-    family = None
-    if finite and solution.case == 1:
-        y1, y2 = solution.solutions
-        u = y1 + sympy.Symbol("C1") * y2
-        family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(x) / (factor * u))))
-    rational: tuple[Any, ...] = ()
-    polynomial = None
-    if solution.case == 1 and (group is None or group.order is None or group.order > 2):
-        omegas = _rational_omegas(solution, atoms)
-        rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in omegas)
-    if solution.case != 1 and solution.riccati is not None:
-        omega = -factor * w - gauge
-        coefficients = [atoms.ratio(c) for c in solution.riccati.coefficients]
-        value = sum(c * omega**k for k, c in enumerate(coefficients))
-        degrees = sum(c.num.degree + c.den.degree for c in solution.riccati.coefficients)
-        polynomial = _cleared(value, w) if degrees < _LONG_POLYNOMIAL else _cleared_apart(value, w)
-    return RiccatiSolutions(rational, family, polynomial, finite, solution)
+    omega = -factor * w - gauge
+    coefficients = solution.riccati.coefficients
+    value = sum(atoms.ratio(c) * omega**k for k, c in enumerate(coefficients))
+    degrees = sum(c.num.degree + c.den.degree for c in coefficients)
+    return _cleared(value, w) if degrees < _LONG_POLYNOMIAL else _cleared_apart(value, w)
 
 
 def _cleared(value: Any, w: Any) -> Any:

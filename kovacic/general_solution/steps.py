@@ -69,13 +69,21 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     return sympy.expand(found).replace(_is_power_of_step, lambda power: power.base)
 
 
-def place_of(jump: Expr, x: Expr) -> tuple[Expr, Expr] | None:
-    """(a, s) for a step or an impulse of s (x - a) with constants s and a, s real; None for another."""
+@dataclass(frozen=True)
+class Place:
+    """Where s (x - a) is zero: a, and the slope s."""
+
+    a: Expr
+    slope: Expr
+
+
+def place_of(jump: Expr, x: Expr) -> Place | None:
+    """That of a step or an impulse of s (x - a) with constants s and a, s real; None for another."""
     inner = jump.args[0]
     slope = inner.diff(x)
     if slope.has(x) or not slope.is_real or slope.is_zero is not False:
         return None
-    return sympy.expand(x - inner / slope), slope
+    return Place(sympy.expand(x - inner / slope), slope)
 
 
 def taken_apart(right: Expr, x: Expr) -> Apart | None:
@@ -83,44 +91,58 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
     terms = sympy.Add.make_args(sympy.expand(right))
     if len(terms) > _MOST_TERMS:
         return None
-    plain, impulses = [], []
+    plain: list[Expr] = []
     steps: dict[Expr, Expr] = {}
+    impulses: list[Impulse] = []
     for term in terms:
-        term = term.replace(_is_power_of_step, lambda power: power.base)
-        jumps = [f for f in sympy.Mul.make_args(term) if f.has(*JUMPING) and f.has(x)]
-        if not jumps:
-            plain.append(term)
-            continue
-        places = [place_of(f, x) if isinstance(f, Heaviside | DiracDelta) else None for f in jumps]
-        if None in places:
+        found = _term_apart(term, x)
+        if found is None:
             return None
-        g = term / sympy.Mul(*jumps)
-        deltas = [f for f in jumps if isinstance(f, DiracDelta)]
-        a = _last([place[0] for place in places if place is not None])
-        if len(deltas) > 1 or a is None:
-            return None
-        if not deltas:
-            steps[a] = steps.get(a, sympy.Integer(0)) + g
-            continue
-        place = place_of(deltas[0], x)
-        assert place is not None
-        if len(jumps) > 1:
-            is_on = _are_on([f for f in jumps if f is not deltas[0]], x, place[0])
-            if is_on is None:
-                return None
-            g = g if is_on else sympy.Integer(0)
-        impulses += _impulses(g, deltas[0], place, x)
-    found = tuple(Step(a, g) for a, g in steps.items() if g != 0)
-    return Apart(sympy.Add(*plain), found, tuple(impulses))
+        plain.append(found.plain)
+        impulses += found.impulses
+        for step in found.steps:
+            steps[step.a] = steps.get(step.a, sympy.Integer(0)) + step.g
+    nonzero = tuple(Step(a, g) for a, g in steps.items() if g != 0)
+    return Apart(sympy.Add(*plain), nonzero, tuple(impulses))
 
 
-def _impulses(g: Expr, delta: Expr, place: tuple[Expr, Expr], x: Expr) -> list[Impulse]:
+def _term_apart(term: Expr, x: Expr) -> Apart | None:
+    """The same for a product: without jumps; g H H ... H, which begins with the last step; or g delta^(n) H ... H."""
+    nothing = sympy.Integer(0)
+    term = term.replace(_is_power_of_step, lambda power: power.base)
+    jumps = [f for f in sympy.Mul.make_args(term) if f.has(*JUMPING) and f.has(x)]
+    if not jumps:
+        return Apart(term, (), ())
+    if not all(isinstance(f, Heaviside | DiracDelta) for f in jumps):
+        return None
+    places = [place_of(f, x) for f in jumps]
+    last = _last([place.a for place in places if place is not None])
+    deltas = [f for f in jumps if isinstance(f, DiracDelta)]
+    if None in places or last is None or len(deltas) > 1:
+        return None
+    g = term / sympy.Mul(*jumps)
+    if not deltas:
+        return Apart(nothing, (Step(last, g),), ())
+    (delta,) = deltas
+    place = place_of(delta, x)
+    assert place is not None
+    is_on = _are_on([f for f in jumps if f is not delta], x, place.a)
+    if is_on is None:
+        return None
+    return Apart(nothing, (), tuple(_impulses(g, delta, place, x)) if is_on else ())
+
+
+def _impulses(g: Expr, delta: Expr, place: Place, x: Expr) -> list[Impulse]:
     """g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n)."""
-    a, slope = place
+    a = place.a
     n = int(delta.args[1]) if len(delta.args) > 1 else 0
-    scale = abs(slope) * slope**n
-    strengths = [(-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / scale for k in range(n + 1)]
-    return [Impulse(a, n - k, strength) for k, strength in enumerate(strengths) if strength != 0]
+    scale = abs(place.slope) * place.slope**n
+    found = []
+    for k in range(n + 1):
+        strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / scale
+        if strength != 0:
+            found.append(Impulse(a, n - k, strength))
+    return found
 
 
 def _last(places: Sequence[Expr]) -> Expr | None:
@@ -197,12 +219,7 @@ def _indicator(condition: Expr, x: Expr) -> Expr | None:
     if condition in (True, False):
         return sympy.Integer(1 if condition else 0)
     if isinstance(condition, And | Or):
-        parts: list[Any] = [_indicator(part, x) for part in condition.args]
-        if None in parts:
-            return None
-        if isinstance(condition, And):
-            return sympy.Mul(*parts)
-        return 1 - sympy.Mul(*(1 - part for part in parts))
+        return _joint_indicator(condition, x)
     if isinstance(condition, sympy.Eq | sympy.Ne) and condition.has(x):
         return sympy.Integer(1 if isinstance(condition, sympy.Ne) else 0)
     if isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
@@ -210,6 +227,16 @@ def _indicator(condition: Expr, x: Expr) -> Expr | None:
     if isinstance(condition, sympy.StrictLessThan | sympy.LessThan):
         return above(condition.rhs - condition.lhs, x)
     return None
+
+
+def _joint_indicator(condition: Expr, x: Expr) -> Expr | None:
+    """Where all of the parts hold, or any."""
+    parts: list[Any] = [_indicator(part, x) for part in condition.args]
+    if None in parts:
+        return None
+    if isinstance(condition, And):
+        return sympy.Mul(*parts)
+    return 1 - sympy.Mul(*(1 - part for part in parts))
 
 
 def above(u: Expr, x: Expr) -> Expr | None:
@@ -224,44 +251,51 @@ def above(u: Expr, x: Expr) -> Expr | None:
     if steps:
         return _above_in_pieces(u, steps, x)
     slope = u.diff(x)
-    if not slope.has(x) and (slope.is_positive or slope.is_negative):
-        on = Heaviside(x - sympy.expand(x - u / slope))
-        return on if slope.is_positive else 1 - on
+    is_line = not slope.has(x)
+    if is_line and slope.is_positive:
+        return Heaviside(x - sympy.expand(x - u / slope))
+    if is_line and slope.is_negative:
+        return 1 - Heaviside(x - sympy.expand(x - u / slope))
     if not u.is_polynomial(x) or u.free_symbols != {x}:
         return None
-    polynomial = sympy.Poly(u, x)
-    is_rational = polynomial.domain.is_QQ or polynomial.domain.is_ZZ
-    if not is_rational or polynomial.degree() > _LARGEST_DEGREE:
+    return _above_polynomial(sympy.Poly(u, x), x)
+
+
+def _above_polynomial(u: Any, x: Expr) -> Expr | None:
+    """For a polynomial over Q: a step at each zero of odd order."""
+    is_rational = u.domain.is_QQ or u.domain.is_ZZ
+    if not is_rational or u.degree() > _LARGEST_DEGREE:
         return None
-    roots = sympy.real_roots(polynomial, multiple=True)
-    changes = [root for root in dict.fromkeys(roots) if roots.count(root) % 2]
-    is_positive = polynomial.LC() * (-1) ** polynomial.degree() > 0  # far to the left
+    roots = sympy.real_roots(u, multiple=True)
+    is_positive = u.LC() * (-1) ** u.degree() > 0  # far to the left
     total = sympy.Integer(1 if is_positive else 0)
-    for root in changes:
-        total += Heaviside(x - root) * (-1 if is_positive else 1)
-        is_positive = not is_positive
+    for root in dict.fromkeys(roots):
+        if roots.count(root) % 2:
+            step = Heaviside(x - root)
+            total += -step if is_positive else step
+            is_positive = not is_positive
     return total
 
 
 def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
     """For u with steps at numbers: on each piece in turn."""
-    places = [place_of(step, x) for step in steps]
-    if any(place is None or not place[0].is_number for place in places):
-        return None
-    breaks = sorted({place[0] for place in places if place is not None}, key=lambda point: float(point.evalf()))
+    places: dict[Expr, Expr] = {}
+    for step in steps:
+        place = place_of(step, x)
+        if place is None or not place.a.is_number:
+            return None
+        places[step] = place.a
+    breaks = sorted(set(places.values()), key=lambda point: float(point.evalf()))
+    begins = [sympy.Integer(1), *(Heaviside(x - point) for point in breaks)]
+    ends = [*begins[1:], sympy.Integer(0)]
     total = sympy.Integer(0)
     for k in range(len(breaks) + 1):
-        begins = Heaviside(x - breaks[k - 1]) if k else sympy.Integer(1)
-        ends = Heaviside(x - breaks[k]) if k < len(breaks) else sympy.Integer(0)
-        values = {
-            step: sympy.Integer(1 if breaks.index(place[0]) < k else 0)
-            for step, place in zip(steps, places, strict=True)
-            if place
-        }
+        passed = breaks[:k]
+        values = {step: sympy.Integer(1 if a in passed else 0) for step, a in places.items()}
         on = above(u.xreplace(values), x)
         if on is None:
             return None
-        total += (begins - ends) * on
+        total += (begins[k] - ends[k]) * on
     return _reduced(total, x)
 
 
@@ -279,8 +313,7 @@ def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The points where functions of an expression jump, as far as they are known."""
     found = []
     for e in expression.atoms(*JUMPING):
-        inner = [e.args[0]] if not isinstance(e, sympy.Piecewise | sympy.Max | sympy.Min) else _borders(e)
-        for u in inner:
+        for u in _borders(e):
             on = above(u, x) if u.has(x) else None
             if on is not None:
                 found += [x - step.args[0] for step in on.atoms(Heaviside)]
@@ -290,7 +323,12 @@ def break_points(expression: Expr, x: Expr) -> list[Expr]:
 def _borders(e: Expr) -> list[Expr]:
     """Expressions whose zeros separate the cases."""
     if isinstance(e, sympy.Max | sympy.Min):
-        return [first - other for k, first in enumerate(e.args) for other in e.args[:k]]
+        differences = []
+        for k, first in enumerate(e.args):
+            differences += [first - other for other in e.args[:k]]
+        return differences
+    if not isinstance(e, sympy.Piecewise):
+        return [e.args[0]]
     relations = set().union(*(condition.atoms(sympy.core.relational.Relational) for _, condition in e.args))
     return [relation.lhs - relation.rhs for relation in relations]
 

@@ -11,6 +11,7 @@ resonance Q has a degree one or two higher, and no part that solves the homogene
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import perm
 from typing import Any
 
@@ -45,6 +46,17 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     return sympy.Add(*total)
 
 
+@dataclass(frozen=True)
+class _Term:
+    """(u + i v) x^degree exp((rate + i frequency) x), of which the real part is meant."""
+
+    degree: int
+    rate: Expr
+    frequency: Expr
+    u: Expr
+    v: Expr
+
+
 def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
     """{(rho, omega): {k: the coefficient of x^k exp((rho + i omega) x)}}; a real part is meant."""
     if any(p.base.has(x) and not (p.exp.is_Integer and p.exp > 0) for p in right.atoms(sympy.Pow)):
@@ -53,34 +65,52 @@ def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
     if right.has(sin, cos):
         right = sympy.expand(TR8(right))  # powers and products of waves become waves
     result: dict[Pair, dict[int, Pair]] = {}
-    summands = sympy.Add.make_args(right) if right != 0 else ()
+    if right == 0:
+        return result
+    summands = sympy.Add.make_args(right)
     if len(summands) > _LARGEST:
         return None
-    for term in summands:
-        constant, rest = term.as_independent(x, as_Add=False)
-        degree, rate, wave = 0, sympy.Integer(0), None
-        for factor in sympy.Mul.make_args(rest) if rest != 1 else ():
-            base, exponent = factor.as_base_exp()
-            if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
-                degree += int(exponent)
-            elif not base.has(x) and (line := _line(exponent, x)):
-                constant, rate = constant * base ** line[0], rate + line[1] * sympy.log(base)
-            elif factor.func in (sin, cos) and wave is None and (line := _line(factor.args[0], x)):
-                wave = factor.func, *line
-            else:
-                return None
-        frequency, pair = sympy.Integer(0), (constant, sympy.Integer(0))
-        if wave is not None:
-            function, phase, frequency = wave
-            pair = (constant * cos(phase), constant * sin(phase))
-            if function is sin:
-                pair = (pair[1], -pair[0])
-            if frequency.could_extract_minus_sign():
-                frequency, pair = -frequency, (pair[0], -pair[1])
-        P = result.setdefault((rate, frequency), {})
-        old = P.get(degree, (0, 0))
-        P[degree] = (old[0] + pair[0], old[1] + pair[1])
+    for summand in summands:
+        term = _term(summand, x)
+        if term is None:
+            return None
+        P = result.setdefault((term.rate, term.frequency), {})
+        u, v = P.get(term.degree, (0, 0))
+        P[term.degree] = (u + term.u, v + term.v)
     return result
+
+
+def _term(summand: Expr, x: Expr) -> _Term | None:
+    """A product of a constant, powers of x, exponentials and one wave."""
+    constant, rest = summand.as_independent(x, as_Add=False)
+    degree = 0
+    rate = sympy.Integer(0)
+    wave = None
+    for factor in sympy.Mul.make_args(rest):
+        base, exponent = factor.as_base_exp()
+        if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
+            degree += int(exponent)
+        elif factor.func in (sin, cos) and wave is None:
+            wave = factor
+        else:
+            line = None if base.has(x) else _line(exponent, x)
+            if line is None:
+                return None
+            constant *= base ** line[0]
+            rate += line[1] * sympy.log(base)
+    if wave is None:
+        return _Term(degree, rate, sympy.Integer(0), constant, sympy.Integer(0))
+    line = _line(wave.args[0], x)
+    if line is None:
+        return None
+    phase, frequency = line
+    u = constant * cos(phase)
+    v = constant * sin(phase)
+    if wave.func is sin:
+        u, v = v, -u
+    if frequency.could_extract_minus_sign():
+        return _Term(degree, rate, -frequency, u, -v)
+    return _Term(degree, rate, frequency, u, v)
 
 
 def _line(expression: Expr, x: Expr) -> Pair | None:
@@ -98,20 +128,28 @@ def _solved(b: Expr, c: Expr, rate: Expr, frequency: Expr, P: dict[int, Pair]) -
         (sympy.Integer(1), sympy.Integer(0)),
     ]
     m = next(k for k, factor in enumerate(factors) if factor != (0, 0))
-    divisor = factors[m]
-    norm = _constant(divisor[0] ** 2 + divisor[1] ** 2)
+    f, g = factors[m]
+    norm = _constant(f**2 + g**2)
     if norm == 0:
         return None
     Q: dict[int, Pair] = {}
     for n in range(max(P), -1, -1):
         u, v = P.get(n, (0, 0))
         for j in range(m + 1, 3):
-            (f, g), (r, s) = factors[j], Q.get(n + j, (0, 0))
-            u, v = u - perm(n + j, j) * (f * r - g * s), v - perm(n + j, j) * (f * s + g * r)
-        f, g = divisor
-        scale = norm * perm(n + m, m)
-        Q[n + m] = _constant((u * f + v * g) / scale), _constant((v * f - u * g) / scale)
+            product = _product(factors[j], Q.get(n + j, (0, 0)))
+            u -= perm(n + j, j) * product[0]
+            v -= perm(n + j, j) * product[1]
+        scale = norm * perm(n + m, m)  # (u + i v)/(f + i g) = (u + i v) (f - i g)/norm
+        real, imaginary = _product((u, v), (f, -g))
+        Q[n + m] = (_constant(real / scale), _constant(imaginary / scale))
     return Q
+
+
+def _product(first: Pair, second: Pair) -> Pair:
+    """(f + i g) (r + i s)."""
+    f, g = first
+    r, s = second
+    return f * r - g * s, f * s + g * r
 
 
 def _constant(value: Expr) -> Expr:
