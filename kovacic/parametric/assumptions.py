@@ -8,7 +8,7 @@ with these properties; None where none follows.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
@@ -36,6 +36,10 @@ _COSETS = {
     "half-integer": Coset(Fraction(1, 2), Fraction(1)),
 }
 _INEQUALITIES = {"positive": ">0", "negative": "<0", "nonnegative": ">=0", "nonpositive": "<=0"}
+#: What SymPy calls numbers that aren't 0, and others, on a side of it.
+_SIGNS = {1: ("positive", "nonnegative"), -1: ("negative", "nonpositive")}
+#: Words that are taken, and not used.
+_SAY_NOTHING = ("real", "complex")
 WORDS = (*_COSETS, "rational", "irrational", "noninteger", "nonzero", *_INEQUALITIES)
 _RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
 _BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL})")
@@ -60,6 +64,11 @@ class Bound:
         distance = self.sign * (number - self.end)
         return distance > 0 or (distance == 0 and not self.strict)
 
+    def is_stronger_than(self, other: Bound) -> bool:
+        """For two lower bounds, or two upper ones; the same isn't stronger, unless both are strict."""
+        distance = self.sign * (self.end - other.end)
+        return distance > 0 or (distance == 0 and self.strict)
+
 
 @lru_cache(maxsize=256)
 def _end(text: str) -> Any:
@@ -72,10 +81,14 @@ def _end(text: str) -> Any:
     return ball.real
 
 
+def _matches(pattern: re.Pattern[str], words: Iterable[str]) -> list[re.Match[str]]:
+    """Those of the words that have a form."""
+    return [match for match in map(pattern.fullmatch, words) if match is not None]
+
+
 def _ends(words: Iterable[str]) -> list[tuple[int, Any]]:
     """The direction of each bound that isn't rational, and a ball with its end."""
-    matches = filter(None, map(_ALGEBRAIC.fullmatch, words))
-    return [(1 if ">" in match[1] else -1, _end(match[2])) for match in matches]
+    return [(1 if ">" in match[1] else -1, _end(match[2])) for match in _matches(_ALGEBRAIC, words)]
 
 
 def _beyond(sign: int, end: Any) -> Fraction:
@@ -105,7 +118,9 @@ class Known:
 
     @property
     def rational(self) -> bool | None:
-        return True if self.coset or "rational" in self.words else False if "irrational" in self.words else None
+        if self.coset or "rational" in self.words:
+            return True
+        return False if "irrational" in self.words else None
 
     @property
     def bounds(self) -> list[Bound]:
@@ -115,17 +130,18 @@ class Known:
             if self.coset is not None:
                 bound = _among(bound, self.coset)
             known = found.get(bound.sign)
-            distance = Fraction(0) if known is None else bound.sign * (bound.end - known.end)
-            if known is None or distance > 0 or (distance == 0 and bound.strict):
+            if known is None or bound.is_stronger_than(known):
                 found[bound.sign] = bound
         return [*found.values()]
 
     def _each_bound(self) -> Iterator[Bound]:
         """What each word says; for one that isn't rational, a weaker one."""
-        for match in filter(None, (_BOUND.fullmatch(_INEQUALITIES.get(word, word)) for word in self.words)):
-            yield Bound(1 if ">" in match[1] else -1, Fraction(match[2]), "=" not in match[1])
+        inequalities = [_INEQUALITIES.get(word, word) for word in self.words]
+        for match in _matches(_BOUND, inequalities):
+            sign = 1 if ">" in match[1] else -1
+            yield Bound(sign, Fraction(match[2]), strict="=" not in match[1])
         for sign, end in _ends(self.words):
-            yield Bound(sign, _beyond(sign, end), True)
+            yield Bound(sign, _beyond(sign, end), strict=True)
 
     @property
     def nonzero(self) -> bool:
@@ -147,10 +163,11 @@ class Known:
             return False
         if self.rational is False or ("noninteger" in self.words and number.denominator == 1):
             return False
-        if any(Fraction(match[1]) == number for match in filter(None, map(_UNEQUAL.fullmatch, self.words))):
+        if any(Fraction(match[1]) == number for match in _matches(_UNEQUAL, self.words)):
             return False
-        is_beyond = any(_is_beyond(sign, _ball(number), end) for sign, end in _ends(self.words))
-        return not is_beyond and all(bound.admits(number) for bound in self.bounds)
+        if any(_is_beyond(sign, _ball(number), end) for sign, end in _ends(self.words)):
+            return False
+        return all(bound.admits(number) for bound in self.bounds)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
@@ -163,9 +180,11 @@ class Known:
 def _among(bound: Bound, coset: Coset) -> Bound:
     """The same bound for numbers of a class, by the nearest of them."""
     steps = (bound.end - coset.start) / coset.step
-    nearest = coset.start + (ceil(steps) if bound.sign > 0 else floor(steps)) * coset.step
-    excluded = bound.strict and nearest == bound.end
-    return Bound(bound.sign, nearest + bound.sign * coset.step * excluded, False)
+    whole = ceil(steps) if bound.sign > 0 else floor(steps)
+    nearest = coset.start + whole * coset.step
+    if bound.strict and nearest == bound.end:
+        nearest += bound.sign * coset.step
+    return Bound(bound.sign, nearest, strict=False)
 
 
 def _ball(number: Fraction) -> Any:
@@ -222,9 +241,11 @@ class Assumptions:
     def __str__(self) -> str:
         parts = []
         for name, known in self.known:
-            words = " ".join(word for word in known.words if not _is_relation(word))
-            bounds = [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in known.words if _is_relation(word)]
-            parts += [f"{name} {words}"] * bool(words) + bounds
+            words = [word for word in known.words if not _is_relation(word)]
+            if words:
+                parts.append(f"{name} {' '.join(words)}")
+            relations = [word for word in known.words if _is_relation(word)]
+            parts += [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in relations]
         return ", ".join(parts)
 
     def symbols(self) -> dict[str, Any]:
@@ -234,14 +255,8 @@ class Assumptions:
 
         found = {}
         for name, known in self.known:
-            words = [word for word in known.words if word in {*WORDS} - {*_INEQUALITIES, "half-integer"}]
-            words += ["rational", "noninteger"] if "half-integer" in known.words else []
-            for bound in known.bounds:
-                if bound.sign * bound.end >= 0:
-                    strict, weak = ("positive", "nonnegative") if bound.sign > 0 else ("negative", "nonpositive")
-                    words.append(strict if bound.end or bound.strict else weak)
             try:
-                found[name] = Symbol(name, **dict.fromkeys(words, True))
+                found[name] = Symbol(name, **dict.fromkeys(_sympy_properties(known), True))
             except InconsistentAssumptions:
                 raise InputError(f"the assumptions on {name} contradict one another: {' '.join(known.words)}") from None
         return found
@@ -252,45 +267,58 @@ class Assumptions:
         if value is not None:
             number = value.field.rational_value(value)
             return number is not None and any(coset.contains(number) for coset in classes)
-        values, linear = self._coset_of(form), _linear(form)
+        values = self._coset_of(form)
         if values is not None:
-            if not any(values.meets(coset) for coset in classes):
-                return False
-            return True if values.is_covered_by(classes) else None
-        if linear is not None and len(linear[1]) == 1:
-            constant, ((name, factor),) = linear[0], linear[1].items()
-            known = self.of(name)
-            solutions = [Coset((c.start - constant) / factor, c.step / abs(factor)) for c in classes]
-            if "noninteger" in known.words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
-                return False
-            if not any(_has_number_between(s, known.bounds) for s in solutions):
-                return False
+            if values.is_covered_by(classes):
+                return True
+            return None if any(values.meets(coset) for coset in classes) else False
+        linear = _linear(form)
+        if linear is not None and len(linear.factors) == 1 and self._is_apart(linear, classes):
+            return False
         return False if self._is_irrational(form) else None
+
+    def _is_apart(self, linear: _Linear, classes: list[Coset]) -> bool:
+        """Is no value of the one parameter known to bring the form into the classes?"""
+        ((name, factor),) = linear.factors.items()
+        known = self.of(name)
+        solutions = [Coset((c.start - linear.constant) / factor, c.step / abs(factor)) for c in classes]
+        if "noninteger" in known.words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
+            return True
+        return not any(_has_number_between(s, known.bounds) for s in solutions)
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Does the function vanish: True (always), False (never) or None?"""
-        value, above = self._value_of(function), numerator(function)
+        value = self._value_of(function)
         if value is not None:
             return not value
-        values, linear = self._coset_of(function), _linear(above)
+        return False if self._is_nowhere_zero(function) else None
+
+    def _is_nowhere_zero(self, function: FunctionPoly) -> bool:
+        """Is one of these seen: by classes, by a root that isn't admitted, by factors, by irrationality, by a sign?"""
+        values = self._coset_of(function)
         if values is not None and not values.contains(Fraction(0)):
-            return False
-        if linear is not None and len(linear[1]) == 1:
-            constant, ((name, factor),) = linear[0], linear[1].items()
-            if not self.of(name).admits(QQ.poly([-constant / factor])):
-                return False
+            return True
+        above = numerator(function)
+        linear = _linear(above)
+        if linear is not None and len(linear.factors) == 1:
+            ((name, factor),) = linear.factors.items()
+            if not self.of(name).admits(QQ.poly([-linear.constant / factor])):
+                return True
         if len(function.num) == 1:
-            return False if all(self.of(name).nonzero for name in _names(function)) else None
-        nowhere = self._is_irrational(function) or any(self.is_positive(sign * above) for sign in (1, -1))
-        return False if nowhere else None
+            return all(self.of(name).nonzero for name in _names(function))
+        if self._is_irrational(function):
+            return True
+        return self.is_positive(above) or self.is_positive(-1 * above)
 
     def _value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a polynomial in the parameters that have a value; None for any other."""
-        field, fixed, names = self.values[0][1].field if self.values else QQ, dict(self.values), function.field.names
-        parts = (function, element(function.field, function.den))
-        if any(k and name not in fixed for part in parts for name, k in zip(names, degrees(part), strict=True)):
-            return None
-        return function.value_at([fixed.get(name, 0) for name in names], field)
+        field = self.values[0][1].field if self.values else QQ
+        fixed = dict(self.values)
+        below = element(function.field, function.den)
+        for part in (function, below):
+            if not fixed.keys() >= {*_names(part)}:
+                return None
+        return function.value_at([fixed.get(name, 0) for name in function.field.names], field)
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
         """Can a polynomial be proven to be positive, or not negative, everywhere?
@@ -304,29 +332,36 @@ class Assumptions:
         for chosen in product(*bounds):
             values = [form.field.generator(n) * b.sign + b.end for n, b in zip(names, chosen, strict=True)]
             terms = over_parameters(form.value_at(values, form.field)).num.to_dict()
-            strict = or_zero or any(all(b.strict for b, k in zip(chosen, e[1:], strict=True) if k) for e in terms)
-            if strict and all(coefficient > 0 for coefficient in terms.values()):
+            if not all(coefficient > 0 for coefficient in terms.values()):
+                continue
+            if or_zero or any(_is_positive_monomial(exponents[1:], chosen) for exponents in terms):
                 return True
         return False
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""
-        known = {name: coset for name in _names(form) if (coset := self.of(name).coset) is not None}
-        linear = _linear(form)
-        if not known or len(known) < len(_names(form)):
+        known: dict[str, Coset] = {}
+        for name in _names(form):
+            coset = self.of(name).coset
+            if coset is None:
+                return None
+            known[name] = coset
+        if not known:
             return None
-        if linear is not None:
-            start = linear[0] + sum(factor * known[name].start for name, factor in linear[1].items())
-            return Coset(
-                start, reduce(common_divisor, (abs(factor) * known[name].step for name, factor in linear[1].items()))
-            )
-        integers = form.den.is_one() and all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
-        return _INTEGERS if integers else None
+        linear = _linear(form)
+        if linear is None:
+            integers = form.den.is_one() and all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
+            return _INTEGERS if integers else None
+        start = linear.constant + sum(factor * known[name].start for name, factor in linear.factors.items())
+        steps = [abs(factor) * known[name].step for name, factor in linear.factors.items()]
+        return Coset(start, reduce(common_divisor, steps))
 
     def _is_irrational(self, form: FunctionPoly) -> bool:
         """A linear form in which one parameter is irrational and the others are rational."""
         linear = _linear(form)
-        kinds = [self.of(name).rational for name in (linear[1] if linear else ())]
+        if linear is None:
+            return False
+        kinds = [self.of(name).rational for name in linear.factors]
         return kinds.count(False) == 1 and None not in kinds
 
 
@@ -345,31 +380,74 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for name, what in (assume or {}).items():
         if str(name) not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-        text = re.sub(r"!=0(?![\d/])", "nonzero", re.sub(r"([<>]=?|!=)\s+", r"\1", str(what)))
-        words = text.replace(",", " ").split()
-        unknown = [word for word in words if word not in (*WORDS, "real", "complex") and not _is_relation(word)]
-        if unknown or not words:
-            raise InputError(
-                f"{' '.join(unknown) or what!r} isn't an assumption that is known",
-                hint=f"known are {', '.join(WORDS)}, >=1/2, !=1, a value",
-            )
-        _ends(words)  # of which each has to be a real number
-        found.setdefault(str(name), []).extend(words)
-    words_of = {name: [w for w in dict.fromkeys(found.get(name, ())) if w not in ("real", "complex")] for name in names}
-    return Assumptions(tuple((name, Known(tuple(words))) for name, words in words_of.items() if words))
+        found.setdefault(str(name), []).extend(_read_words(what))
+    known = []
+    for name in names:
+        words = [word for word in dict.fromkeys(found.get(name, ())) if word not in _SAY_NOTHING]
+        if words:
+            known.append((name, Known(tuple(words))))
+    return Assumptions(tuple(known))
+
+
+def _read_words(what: object) -> list[str]:
+    """The words of an assumption.  Raises `InputError` for others, and for bounds that aren't real numbers."""
+    text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what))
+    text = re.sub(r"!=0(?![\d/])", "nonzero", text)
+    words = text.replace(",", " ").split()
+    unknown = [word for word in words if word not in (*WORDS, *_SAY_NOTHING) and not _is_relation(word)]
+    if unknown or not words:
+        raise InputError(
+            f"{' '.join(unknown) or what!r} isn't an assumption that is known",
+            hint=f"known are {', '.join(WORDS)}, >=1/2, !=1, a value",
+        )
+    _ends(words)  # of which each has to be a real number
+    return words
 
 
 def _words_of(symbol: Any) -> list[str]:
     """What SymPy knows of a symbol, without what follows from the rest."""
+    words = _arithmetic_of(symbol)
+    for word in _INEQUALITIES:
+        if getattr(symbol, f"is_{word}"):
+            words.append(word)
+            break
+    if symbol.is_zero is False and not Known(tuple(words)).nonzero:
+        words.append("nonzero")
+    return words
+
+
+def _arithmetic_of(symbol: Any) -> list[str]:
+    """Of which kind the number is."""
+    if symbol.is_odd:
+        return ["odd"]
+    if symbol.is_even:
+        return ["even"]
     if symbol.is_integer:
-        words = ["odd" if symbol.is_odd else "even" if symbol.is_even else "integer"]
-    elif symbol.is_irrational:
-        words = ["irrational"]
-    else:
-        words = ["rational"] * bool(symbol.is_rational) + ["noninteger"] * (symbol.is_integer is False)
-    sign = next((word for word in _INEQUALITIES if getattr(symbol, f"is_{word}")), None)
-    words += [sign] if sign else []
-    return words if Known(tuple(words)).nonzero or symbol.is_zero is not False else [*words, "nonzero"]
+        return ["integer"]
+    if symbol.is_irrational:
+        return ["irrational"]
+    words = ["rational"] if symbol.is_rational else []
+    if symbol.is_integer is False:
+        words.append("noninteger")
+    return words
+
+
+def _sympy_properties(known: Known) -> list[str]:
+    """What SymPy has names for; of bounds, what they say of the sign."""
+    unnamed = {*_INEQUALITIES, "half-integer"}
+    words = [word for word in known.words if word in WORDS and word not in unnamed]
+    if "half-integer" in known.words:
+        words += ["rational", "noninteger"]
+    for bound in known.bounds:
+        if bound.sign * bound.end >= 0:
+            strict, weak = _SIGNS[bound.sign]
+            words.append(strict if bound.end or bound.strict else weak)
+    return words
+
+
+def _is_positive_monomial(exponents: Sequence[int], bounds: Sequence[Bound]) -> bool:
+    """Is each of its parameters strictly beyond the bound?"""
+    return all(bound.strict for bound, k in zip(bounds, exponents, strict=True) if k)
 
 
 def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
@@ -381,14 +459,28 @@ def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
     return any(all(bound.admits(number) for bound in bounds) for number in (first, first + coset.step))
 
 
-def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:
-    """The constant and the factors of the parameters in a linear form; None for anything else."""
+@dataclass(frozen=True)
+class _Linear:
+    """constant + the sum of factor * parameter."""
+
+    constant: Fraction
+    factors: Mapping[str, Fraction]
+
+
+def _linear(form: FunctionPoly) -> _Linear | None:
+    """A linear form; None for anything else."""
     if not form.den.is_constant() or form.num.total_degree() > 1:
         return None
     den = int(form.den.leading_coefficient())
-    terms = {e[1:]: Fraction(int(c), den) for e, c in form.num.to_dict().items()}
-    factors = {form.field.names[e.index(1)]: c for e, c in terms.items() if any(e)}
-    return terms.get((0,) * len(form.field.names), Fraction(0)), factors
+    constant = Fraction(0)
+    factors = {}
+    for exponents, coefficient in form.num.to_dict().items():
+        value = Fraction(int(coefficient), den)
+        if any(exponents[1:]):
+            factors[form.field.names[exponents.index(1) - 1]] = value
+        else:
+            constant = value
+    return _Linear(constant, factors)
 
 
 def _names(form: FunctionPoly) -> list[str]:

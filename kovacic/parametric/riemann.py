@@ -18,7 +18,7 @@ Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
@@ -73,12 +73,12 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
     >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
     <Structure.OCTAHEDRAL: 'octahedral'>
     """
-    if sum(d is not None and d.denominator == 2 for d in differences) >= 2:
-        return Structure.IMPRIMITIVE
     known = [d for d in differences if d is not None]
-    if len(known) < 3 or any(d.denominator > 5 for d in known):
+    if sum(d.denominator == 2 for d in known) >= 2:
+        return Structure.IMPRIMITIVE
+    if len(known) < 3 or any(d.denominator > _LARGEST for d in known):
         return None
-    return _table().get(tuple(sorted(int(60 * d) % 120 for d in known)))
+    return _table().get(_key(known))
 
 
 @lru_cache(maxsize=1)
@@ -89,10 +89,19 @@ def _table() -> dict[tuple[int, ...], Structure]:
         for whole in product((0, 1), repeat=3):
             if parity and sum(whole) % 2:
                 continue
-            values = [60 * (r + q) for r, q in zip(row, whole, strict=True)]
+            values = [r + q for r, q in zip(row, whole, strict=True)]
             for signs in product((1, -1), repeat=3):
-                table[tuple(sorted(int(sign * v) % 120 for sign, v in zip(signs, values, strict=True)))] = structure
+                table[_key([sign * value for sign, value in zip(signs, values, strict=True)])] = structure
     return table
+
+
+def _sixtieths(difference: Fraction) -> int:
+    """The number modulo 2, where its denominator is one of the table."""
+    return int(60 * difference) % 120
+
+
+def _key(differences: Sequence[Fraction]) -> tuple[int, ...]:
+    return tuple(sorted(map(_sixtieths, differences)))
 
 
 @dataclass(frozen=True)
@@ -112,10 +121,16 @@ class Schwarz(Statement):
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
         differences = [self.cubic.field.sqrt(square) for square in dict.fromkeys(roots(self.cubic))]
         rows = [[_F(k, 60) for k in key] for key, structure in _table().items() if structure in self.structures]
-        values = random.choice(rows) if rows else [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
+        values = [_F(1, 2), _F(3, 2)]
+        if rows:
+            values = random.choice(rows)
+        else:
+            values.append(_F(random.randint(1, 9), random.randint(2, 9)))
         random.shuffle(values)
         known = [over_parameters(difference) for difference in differences if difference is not None]
-        return [root - value for root, value in zip(known, values, strict=True)] if len(known) == 3 else []
+        if len(known) != 3:
+            return []
+        return [root - value for root, value in zip(known, values, strict=True)]
 
     @cached_property
     def written(self) -> str:
@@ -132,19 +147,21 @@ class Schwarz(Statement):
         for square in roots(self.cubic):
             difference = field.sqrt(square)
             known = None if difference is None else values_at_integers(over_parameters(difference), _LARGEST)
-            if known is None or not assumptions.is_integer(known[0]):
-                continue
-            name, numbers = known
-            found: list[Statement] = []
-            for number in numbers:
-                here = Vanishes(over_parameters(field.generator(name) - number))
-                if here.decided(assumptions) is False:
-                    continue
-                there = self._on(hypersurface(here.function))
-                if there != NEVER:
-                    found.append(both(here, there))
-            return either(*found)
+            if known is not None and assumptions.is_integer(known[0]):
+                return self._at_values(*known, assumptions)
         return self
+
+    def _at_values(self, name: str, numbers: Iterable[int], assumptions: Assumptions) -> Statement:
+        """The same at some values of one parameter."""
+        found: list[Statement] = []
+        for number in numbers:
+            here = Vanishes(over_parameters(self.cubic.field.generator(name) - number))
+            if here.decided(assumptions) is False:
+                continue
+            there = self._on(hypersurface(here.function))
+            if there != NEVER:
+                found.append(both(here, there))
+        return either(*found)
 
     def _on(self, surface: Hypersurface) -> Statement:
         """The same for fewer parameters, said in all of them."""
@@ -162,22 +179,27 @@ class Schwarz(Statement):
 
         Else no names, and the rows of Schwarz's table.
         """
-        constants, _ = _split(self.cubic)
+        constants = _split(self.cubic).constants
         names = [name for name in differences(self.cubic) if not re.fullmatch(r"[\d/]+", name)]
         if len(constants) != 1 or constants[0] is None or len(names) != 2:
             rows = [row for row in _SCHWARZ.values() if row[0] in self.structures]
             return [], [(kind, [f"`{_text(row)}`", "even" if even else "any"]) for kind, row, even in rows]
-        third, found = int(60 * constants[0]) % 120, list[tuple[Structure, int, int]]()
+        found = self._pairs_beside(constants[0])
+        is_modulo_1 = _is_symmetric(found)
+        if is_modulo_1:
+            found = [pair for pair in found if max(pair.u, pair.v) <= 30]
+        lattice = "Z" if is_modulo_1 else "2*Z"
+        found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
+        return names, [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
+
+    def _pairs_beside(self, third: Fraction) -> list[_Pair]:
+        """The other two differences in sixtieths, up to signs modulo 2, with one of these structures."""
+        found = []
         for u, v in product(range(61), repeat=2):
-            kind = _table().get(tuple(sorted((u, v, third))))
-            if kind in self.structures:
-                found.append((kind, u, v))
-        modulus = 2
-        if {(kind, 60 - u, v) for kind, u, v in found} == {(kind, u, 60 - v) for kind, u, v in found} == {*found}:
-            modulus, found = 1, [(kind, u, v) for kind, u, v in found if max(u, v) <= 30]
-        lattice = "Z" if modulus == 1 else "2*Z"
-        found.sort(key=lambda row: (self.structures.index(row[0]), row[1:]))
-        return names, [(kind, [f"`+-{_F(u, 60)} + {lattice}`", f"`+-{_F(v, 60)} + {lattice}`"]) for kind, u, v in found]
+            structure = _table().get(tuple(sorted((u, v, _sixtieths(third)))))
+            if structure in self.structures:
+                found.append(_Pair(structure, u, v))
+        return found
 
     def merged(self, other: Statement) -> Schwarz | None:
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
@@ -187,6 +209,25 @@ class Schwarz(Statement):
 
 def _text(row: Sequence[Fraction]) -> str:
     return ", ".join(map(str, row))
+
+
+def _class(sixtieths: int, lattice: str) -> str:
+    return f"`+-{_F(sixtieths, 60)} + {lattice}`"
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """The structure with two exponent differences, in sixtieths, beside a constant one."""
+
+    structure: Structure
+    u: int
+    v: int
+
+
+def _is_symmetric(found: Sequence[_Pair]) -> bool:
+    """Are the structures those of the differences modulo 1: the same for u and 1 - u, and for v and 1 - v?"""
+    whole = {*found}
+    return {replace(p, u=60 - p.u) for p in found} == whole and {replace(p, v=60 - p.v) for p in found} == whole
 
 
 def _two_half_integers(names: list[str]) -> str:
@@ -245,20 +286,23 @@ def group(problem: Problem, structure: Structure) -> str | None:
     imprimitive equation, which is rational because it has two branch points, the same holds for the third difference.
     """
     cubic = squares_of_differences(problem)
-    constants, variable = _split(cubic)
+    split = _split(cubic)
     if structure is Structure.REDUCIBLE:
-        if None not in constants and len(constants) >= 2:
+        if None not in split.constants and len(split.constants) >= 2:
             return "`mu_n`, or `G_a` extended by `mu_n`"  # a third difference is rational because their sum is
         where = f"where {', '.join(f'`{name}`' for name in differences(cubic))} are rational"
         return f"`mu_n`, or `G_a` extended by `mu_n`, {where}; else `G_m`, or the Borel group"
-    if structure is not Structure.IMPRIMITIVE:
-        return None
-    halves = [d for d in constants if d is not None and d.denominator == 2]
-    rest = [d for d in constants if d not in halves] + halves[2:]
-    if len(constants) >= 2 and rest:
-        return "the infinite dihedral group" if rest[0] is None else "dicyclic"
-    if len(constants) == 2 and variable is not None:
-        return f"dicyclic where `{root_written(variable)}` is rational, else the infinite dihedral group"
+    return _imprimitive_group(split) if structure is Structure.IMPRIMITIVE else None
+
+
+def _imprimitive_group(split: _Split) -> str:
+    """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
+    halves = [d for d in split.constants if d is not None and d.denominator == 2]
+    third = [d for d in split.constants if d not in halves] + halves[2:]
+    if len(split.constants) >= 2 and third:
+        return "the infinite dihedral group" if third[0] is None else "dicyclic"
+    if len(split.constants) == 2 and split.variable is not None:
+        return f"dicyclic where `{root_written(split.variable)}` is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
@@ -268,33 +312,64 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
         yield Structure.REDUCIBLE, ALWAYS
         return
     cubic = squares_of_differences(problem)
-    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
-    z = cubic.field.poly([0, 0, 1])
-    yield Structure.REDUCIBLE, integer_roots(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z, [1], 2)
-    constants, _ = _split(cubic)
-    always, single = kimura(constants), _one_function(cubic)
+    yield Structure.REDUCIBLE, integer_roots(_squares_of_sums(cubic), [1], 2)
+    constants = _split(cubic).constants
+    always = kimura(constants)
     if always is not None:
         yield always, ALWAYS
-    if always is not None or len(constants) == 3:
         return
-    halves = [d % 1 for d in constants if d is not None]
-    residues = {int(60 * d) % 120 if d is not None and d.denominator <= 5 else None for d in constants}
+    if len(constants) == 3:
+        return
+    single = _one_function(cubic)
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
-        rows = (set(row) for row, known in _table().items() if known is structure)
         if single is not None:
             yield structure, _classes(single, structure)
-        elif structure is Structure.IMPRIMITIVE and _F(1, 2) in halves:
-            yield structure, _one_more_half_integer(cubic)
-        elif structure is Structure.IMPRIMITIVE or any(residues <= row for row in rows):
-            yield structure, Schwarz(cubic, (structure,))
+        elif _is_possible(structure, constants):
+            yield structure, _in_table(cubic, structure, constants)
+
+
+def _squares_of_sums(cubic: FunctionPoly) -> FunctionPoly:
+    """The polynomial of the module's head, in N: its roots are the four sums, up to signs."""
+    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
+    z = over_parameters(cubic.field.poly([0, 0, 1]))
+    return over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)
+
+
+def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> bool:
+    """Has a row of the table the constant differences?"""
+    if structure is Structure.IMPRIMITIVE:
+        return True
+    if any(d is None or d.denominator > _LARGEST for d in constants):
+        return False
+    residues = {_sixtieths(d) for d in constants if d is not None}
+    return any(residues <= set(row) for row, known in _table().items() if known is structure)
+
+
+def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fraction | None]) -> Statement:
+    """That the exponent differences are in the rows of the structure."""
+    has_half_integer = any(d is not None and d % 1 == _F(1, 2) for d in constants)
+    if structure is Structure.IMPRIMITIVE and has_half_integer:
+        return _one_more_half_integer(cubic)
+    return Schwarz(cubic, (structure,))
 
 
 def _one_more_half_integer(cubic: FunctionPoly) -> Statement:
     """That an exponent difference that depends on the parameters is a half-integer: its square N^2/4 with an odd N."""
     field = cubic.field
-    factors = [factor for factor, k in field.factor(cubic) for _ in range(k)]
-    variable = (f for f in factors if any(field.rational_value(c) is None for c in f))
-    return either(*(integer_roots(over_parameters(f(field.poly([0, 0, _F(1, 4)]))), [1], 2) for f in variable))
+    found = []
+    for factor in _each_factor(cubic):
+        if any(field.rational_value(c) is None for c in factor):
+            equation = over_parameters(factor(field.poly([0, 0, _F(1, 4)])))
+            found.append(integer_roots(equation, [1], 2))
+    return either(*found)
+
+
+def _each_factor(cubic: FunctionPoly) -> list[Poly]:
+    """The factors over Q(t), each as often as it occurs."""
+    found = []
+    for factor, multiplicity in cubic.field.factor(cubic):
+        found += [factor] * multiplicity
+    return found
 
 
 @dataclass(frozen=True)
@@ -317,18 +392,22 @@ class _OneFunction:
 
 def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     """The exponent differences by one function of the parameters, where they are."""
-    field, squares = cubic.field, roots(cubic)
+    field = cubic.field
+    squares = roots(cubic)
     free = [over_parameters(square) for square in squares if field.rational_value(square) is None]
     if not free or len(squares) < 3:
         return None
-    root, lines = field.sqrt(free[0]), list[tuple[Fraction, Fraction] | None]()
+    root = field.sqrt(free[0])
+    lines: list[tuple[Fraction, Fraction] | None] = []
     for square in squares:
-        constant = rational_square_root(square)
-        lines.append(None if constant is None else (_F(0), constant))
         if field.rational_value(square) is None:
-            lines[-1] = _line(square, free[0], root)
-            if lines[-1] is None:
+            line = _line(square, free[0], root)
+            if line is None:
                 return None
+        else:
+            constant = rational_square_root(square)
+            line = None if constant is None else (_F(0), constant)
+        lines.append(line)
     return _OneFunction(free[0], None if root is None else over_parameters(root), tuple(lines))
 
 
@@ -350,17 +429,12 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
     """Where w gives the exponent differences this structure, and the equation isn't reducible."""
     lines = {line for line in single.lines if line is not None and line[0]}
     period = reduce(common_multiple, (2 / abs(a) for a, _ in lines))
-    values = [_F(k, d) for d in (2, 3, 4, 5) for k in range(2 * d) if gcd(k, d) == 1]
-    found = {
-        ((value - b) / a + j * abs(2 / a)) % period
-        for (a, b), value in product(lines, values)
-        for j in range(int(period * abs(a) / 2))
-    }
-    # w and -w are the same where only w^2 is known.
+    found = set().union(*(_numbers_in_table(a, b, period) for a, b in lines))
     admitted = [w for w in sorted(found) if single.structure(w) is structure]
     if admitted and single.root is not None:
         equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
         return Congruence.make(equation, admitted, period)
+    # w and -w are the same where only w^2 is known.
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
@@ -370,10 +444,37 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
     return either(*statements)
 
 
-def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
+def _numbers_in_table(a: Fraction, b: Fraction, period: Fraction) -> set[Fraction]:
+    """The w modulo a period for which a w + b has a denominator of the table: modulo 2, one of its values."""
+    found = set()
+    for denominator in range(2, _LARGEST + 1):
+        for k in range(2 * denominator):
+            if gcd(k, denominator) > 1:
+                continue
+            first = (_F(k, denominator) - b) / a
+            found |= {(first + j * abs(2 / a)) % period for j in range(int(period * abs(a) / 2))}
+    return found
+
+
+@dataclass(frozen=True)
+class _Split:
     """The constant exponent differences (None: irrational), and the square of the other one if there is exactly one."""
+
+    constants: Sequence[Fraction | None]
+    variable: Poly | None
+
+
+def _split(cubic: FunctionPoly) -> _Split:
+    """By the factors of the cubic: those without parameters, and those with."""
     field = cubic.field
-    roots = [factor for factor, k in field.factor(cubic) for _ in range(k * factor.degree)]
-    variable = [f for f in roots if any(field.rational_value(c) is None for c in f)]
-    fixed = [rational_square_root(-f[0]) if f.degree == 1 else None for f in roots if f not in variable]
-    return fixed, -variable[0][0] if len(variable) == 1 else None
+    constants: list[Fraction | None] = []
+    variable: list[Poly] = []
+    for factor in _each_factor(cubic):
+        if any(field.rational_value(c) is None for c in factor):
+            variable.append(factor)
+        elif factor.degree == 1:
+            constants.append(rational_square_root(-factor[0]))
+        else:
+            constants += [None] * factor.degree
+    is_single = len(variable) == 1 and variable[0].degree == 1
+    return _Split(constants, -variable[0][0] if is_single else None)

@@ -12,6 +12,7 @@ exactly when.  Cases 2 and 3 are treated in the same way through the invariants 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from math import lcm, prod
@@ -22,7 +23,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.invariants import least_valuation
-from kovacic.engine.places import Kind, Problem
+from kovacic.engine.places import Kind, Place, Problem
 from kovacic.parametric import riemann
 from kovacic.parametric.exponents import form_conditions, with_degree
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
@@ -57,10 +58,12 @@ class Findings:
         self.candidates += found.polynomials
         if found.system is None:
             return False
-        solvable = (irreducible_factors(function) for function in found.system)
-        chosen = next((factors for factors in solvable if all(map(_is_eliminated, factors))), None)
-        self.candidates += chosen or ()
-        return chosen is not None or not found.system
+        for function in found.system:
+            factors = irreducible_factors(function)
+            if all(map(_is_eliminated, factors)):
+                self.candidates += factors
+                return True
+        return not found.system
 
 
 def _is_eliminated(function: FunctionPoly) -> bool:
@@ -76,17 +79,19 @@ def search(problem: Problem) -> Findings:
         findings = Findings("the exponents, and polynomials of bounded or natural degree")
         _reducible(problem, findings)
         degrees = _degrees_that_are_possible(problem)
-    by_degree = {m: _forms(problem, m, findings) for m in degrees}
-    findings.unproven += [f"case {degrees[m][0].case}" for m, factors in by_degree.items() if factors is None]
-    shown_otherwise = any(
-        factors and m > _SHOWS_CASE_1 and Structure.REDUCIBLE in degrees[m] for m, factors in by_degree.items()
-    )
-    if shown_otherwise:
+    by_degree: dict[int, tuple[FunctionPoly, ...]] = {}
+    for m, possible in degrees.items():
+        factors = _forms(problem, m, findings)
+        if factors is None:
+            findings.unproven.append(f"case {possible[0].case}")
+        elif factors:
+            by_degree[m] = factors
+    if any(m > _SHOWS_CASE_1 and Structure.REDUCIBLE in degrees[m] for m in by_degree):
         _reducible(problem, findings)
     for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
         for m, factors in by_degree.items():
             is_shown = structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
-            if factors and is_shown and structure in degrees[m]:
+            if is_shown and structure in degrees[m]:
                 findings.natural.append(Natural(problem.S, m, factors, structure))
     return findings
 
@@ -103,10 +108,11 @@ def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
     if len(differences) < len(singular):
         return None
     found: dict[int, list[Structure]] = {}
-    is_ramified = any(place.kind is Kind.RAMIFIED for place in problem.places)
+    is_ramified = _is_ramified(problem)
     if not is_ramified:
-        for m in {2, lcm(*(((1 + difference) / 2).denominator for difference in differences))}:
-            found.setdefault(m, []).append(Structure.REDUCIBLE)
+        q = lcm(*(((1 + difference) / 2).denominator for difference in differences))
+        for m in {2, q}:
+            found[m] = [Structure.REDUCIBLE]
     if not _has_logarithms(problem):
         found.setdefault(4, []).append(Structure.IMPRIMITIVE)
         if not is_ramified:
@@ -121,18 +127,21 @@ def _has_logarithms(problem: Problem) -> bool:
 
 def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
     """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
-    branch_points, found = 0, dict[int, list[Structure]]()
+    found: dict[int, list[Structure]] = {}
     if _has_logarithms(problem):
         return found
-    for place in problem.places:
-        denominator = 0 if place.delta is None else place.delta.denominator
-        if place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and denominator in (0, 2)):
-            branch_points += place.degree
-    if branch_points >= 2:
+    if sum(place.degree for place in problem.places if _may_be_branch_point(place)) >= 2:
         found[4] = [Structure.IMPRIMITIVE]
     if riemann.is_fuchsian(problem) and all(p.delta is None or p.delta.denominator <= 5 for p in problem.places):
         found[12] = [Structure.TETRAHEDRAL]
     return found
+
+
+def _may_be_branch_point(place: Place) -> bool:
+    """Can it be one of case 2: is the exponent difference a half-integer, or not known?"""
+    if place.kind is Kind.RAMIFIED:
+        return True
+    return place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2)
 
 
 def _differences(problem: Problem) -> list[Poly] | None:
@@ -181,17 +190,24 @@ def _reducible(problem: Problem, findings: Findings) -> None:
     if equation is None:
         findings.unproven.append("case 1 where the exponents at conjugate points differ")
         return
-    field = problem.field
     factors: list[FunctionPoly] = []
-    for factor, _ in field.factor(equation):
-        if not _may_be_natural(factor):
-            continue
-        root = field.rational_value(-factor[0]) if factor.degree == 1 else None
-        found = None if root is None else with_degree(problem, int(root))
-        if found is None or sum(findings.add(conditions) for _, conditions in found) < len(found):
+    for factor, _ in problem.field.factor(equation):
+        if _may_be_natural(factor) and not _is_settled(problem, factor, findings):
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
+
+
+def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
+    """Is the degree a number, for which the candidates are all that is special?  They are added in any case."""
+    root = problem.field.rational_value(-factor[0]) if factor.degree == 1 else None
+    if root is None:
+        return False
+    found = with_degree(problem, int(root))
+    if found is None:
+        return False
+    complete = [findings.add(conditions) for _, conditions in found]
+    return all(complete)
 
 
 def all_half_integers(problem: Problem) -> Statement:
@@ -213,8 +229,9 @@ def all_half_integers(problem: Problem) -> Statement:
         statement = integer_roots(equation, [1], 2)
         if statement == NEVER:
             return NEVER
-        found += [] if statement == ALWAYS or statement in found else [statement]
-    return both(*found) if len(found) != 1 else found[0]
+        if statement != ALWAYS and statement not in found:
+            found.append(statement)
+    return found[0] if len(found) == 1 else both(*found)
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:
@@ -239,33 +256,51 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
 
 def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
     """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents."""
-    field = problem.field
     complete = findings.add(form_conditions(problem, m))
-    variable, room = list[tuple[Poly, int]](), m  # the square of the difference, and how often it can occur in the sum
+    squares: list[Poly] = []  # of the differences that depend on the parameters
+    most: list[int] = []  # how often each can occur in the sum
+    room = m
     for place in problem.places:
-        square, v = place.delta_squared, least_valuation(place, m, logarithms=False)
-        if place.kind is Kind.REGULAR and square is None:
+        if place.kind is Kind.REGULAR and place.delta_squared is None:
             return None
-        if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:
-            variable.append((square, m // 2 * place.degree))
-            room -= m // 2 * place.degree
-        elif v is None:
+        if _depends_on_parameters(place, problem.field):
+            assert place.delta_squared is not None
+            squares.append(place.delta_squared)
+            most.append(m // 2 * place.degree)
+            room -= most[-1]
+            continue
+        v = least_valuation(place, m, logarithms=False)
+        if v is None:
             return ()
-        else:
-            room -= v * place.degree
-    if prod(largest + 1 for _, largest in variable) > _COMBINATIONS:
+        room -= v * place.degree
+    if prod(largest + 1 for largest in most) > _COMBINATIONS:
         return None
-    factors: list[FunctionPoly] = [] if complete else [over_parameters(field.poly([-room, 1]))]
-    for choice in product(*(range(largest + 1) for _, largest in variable)):
-        if any(choice):
-            chosen = [k * k * square for k, (square, _) in zip(choice, variable, strict=True) if k]
-            sums = _signed_sums(chosen, field)(field.poly([-room, 1]))
-            factors += [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
+    factors = [] if complete else [over_parameters(problem.field.poly([-room, 1]))]
+    for multiples in product(*(range(largest + 1) for largest in most)):
+        if any(multiples):
+            factors += _numbers_of_zeros(multiples, squares, room, problem.field)
     return tuple(dict.fromkeys(factors))
+
+
+def _depends_on_parameters(place: Place, field: Field) -> bool:
+    """Is the exponent difference of a regular singular point no number?"""
+    square = place.delta_squared
+    return place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None
+
+
+def _numbers_of_zeros(multiples: Sequence[int], squares: Sequence[Poly], room: int, field: Field) -> list[FunctionPoly]:
+    """Equations for room + the sums of +- k times the differences."""
+    chosen = [k * k * square for k, square in zip(multiples, squares, strict=True) if k]
+    sums = _signed_sums(chosen, field)(field.poly([-room, 1]))
+    return [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
 
 
 def _may_be_natural(factor: Poly) -> bool:
     """Can an irreducible polynomial over Q(t) have a natural root for some values of the parameters?"""
     values = [factor.field.rational_value(c) for c in factor]
-    root = -values[0] if factor.degree == 1 and values[0] is not None else None
-    return None in values or (root is not None and root.denominator == 1 and root >= 0)
+    if None in values:
+        return True
+    if factor.degree != 1 or values[0] is None:
+        return False
+    root = -values[0]
+    return root.denominator == 1 and root >= 0
