@@ -132,11 +132,35 @@ def test_lifting_recovers_rationals_of_any_size(values: list[Fraction]) -> None:
     raise AssertionError("not recovered from 40 primes")
 
 
-@given(st.integers(-(10**8), 10**8), st.integers(1, 10**8))
-def test_rational_reconstruction_inverts_reduction(n: int, d: int) -> None:
-    value = Fraction(n, d)
-    residue = value.numerator * pow(value.denominator, -1, P) % P
-    assert rational_reconstruction(residue, P, 10**8) == (value.numerator, value.denominator)
+@given(st.integers(-(10**12), 10**12), st.integers(1, 10**12), st.sampled_from([(1, 1), (10**12, 1), (1, 10**12)]))
+def test_rational_reconstruction_inverts_reduction(n: int, d: int, scales: tuple[int, int]) -> None:
+    """However the digits are shared out between the numerator and the denominator."""
+    value = Fraction(n * scales[0], d * scales[1])
+    modulus = P * prime(1)
+    residue = value.numerator * pow(value.denominator, -1, modulus) % modulus
+    bound = abs(value.numerator) * value.denominator
+    assert rational_reconstruction(residue, modulus, bound) == (value.numerator, value.denominator)
+
+
+def test_long_numerators_over_short_denominators_need_half_of_the_primes() -> None:
+    """Three primes have 180 bits: 3^90/7 has 145, and lengths of numerator and denominator that add up to so many will do."""
+    vector = QQ.poly([Fraction(3**90, 7), 1])
+    lifter = Lifter(QQ)
+    for bundle in islice(QQ.bundles(), 3):
+        proposal = lifter.add(bundle, [[h(vector)] for h in bundle])
+    assert proposal == [vector]
+
+
+@pytest.mark.parametrize("degree", [0, 1, 7])
+def test_polynomial_solutions_of_a_long_operator(degree: int) -> None:
+    """P'' + q P' + r P = 0 with r = -(P'' + q P')/P for a P with simple zeros at those of q: the operator has degree 40."""
+    x = QQ.poly([0, 1])
+    P = prod((x - k for k in range(degree)), start=QQ.poly([1]))
+    second = P * (x**33 + 3 * x + 5)
+    first = P * (x**32 - 2)
+    zeroth = -(second * P.derivative().derivative() + first * P.derivative()) // P
+    assert polynomial_solution(second, first, zeroth, degree) == P
+    assert polynomial_solution(second, first, zeroth + x, degree) is None
 
 
 @given(nonzero, nonzero)

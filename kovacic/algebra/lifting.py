@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import count
-from math import isqrt
 from typing import Any
 
 from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
@@ -45,15 +44,16 @@ def chinese_remainders(old: Sequence[int], modulus: int, new: Sequence[int], p: 
 
 
 def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int, int] | None:
-    """`(n, d)` with n = d * residue modulo `modulus`, |n| <= bound and 0 < d <= bound, gcd(n, d) = 1; None without one.
+    """`(n, d)` with n = d * residue modulo `modulus`, |n| d <= bound, d > 0 and gcd(n, d) = 1: the least such d; None without one.
 
-    Unique when 2 * bound**2 < modulus [von zur Gathen & Gerhard, Modern Computer Algebra, Thm 5.26].
+    Where the modulus is much larger than the bound another pair than the sought one is improbable; whether the numerator
+    or the denominator is the long one doesn't matter [Monagan, Proc. ISSAC 2004, 243-249].
     """
     r0, r1, t0, t1 = modulus, residue % modulus, 0, 1
-    while r1 > bound:
+    while r1 and r1 * abs(t1) > bound:
         quotient = r0 // r1
         r0, r1, t0, t1 = r1, r0 - quotient * r1, t1, t0 - quotient * t1
-    if t1 == 0 or abs(t1) > bound:
+    if not r1 and abs(t1) > 1:
         return None
     return (r1, t1) if t1 > 0 else (-r1, -t1)
 
@@ -136,14 +136,14 @@ class Residues(Collector):
 
 
 def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:
-    """Integers and one common denominator that give the residues, if they are small enough to be unique; else None."""
-    bound = isqrt(modulus >> (_SLACK_BITS + 1))
+    """Integers and one common denominator that give the residues, short enough for no others to be probable; else None."""
+    bound = modulus >> (_SLACK_BITS + modulus.bit_length().bit_length())
     denominator = 1
     for residue in reversed(residues):
         value = residue * denominator % modulus
-        if value > bound and modulus - value > bound:
-            fraction = rational_reconstruction(value, modulus, bound)
-            if fraction is None or denominator * fraction[1] > bound:
+        if min(value, modulus - value) * denominator > bound:
+            fraction = rational_reconstruction(value, modulus, bound // denominator)
+            if fraction is None:
                 return None
             denominator *= fraction[1]
     numerators = []
@@ -151,7 +151,7 @@ def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int]
         value = residue * denominator % modulus
         if value > modulus >> 1:
             value -= modulus
-        if abs(value) > bound:
+        if abs(value) * denominator > bound:
             return None
         numerators.append(value)
     return numerators, denominator

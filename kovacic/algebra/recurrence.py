@@ -107,42 +107,53 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
     be added.
     """
-    field, operator = first.field, _operator(second, first, zeroth)
+    operator = _operator(second, first, zeroth)
     if _at(operator[0], degree):
         return None
-    main = _descend(field, operator, degree)
+    main = _descend(first.field, operator, degree)
     if main is None:
         return None
-    P, free, remainder = main
-    if any(remainder):
-        other = None if free is None else _descend(field, operator, free)
-        if other is None:
-            return None
-        factor = next((-r / q for r, q in zip(remainder, other[2], strict=True) if q), None)
-        if factor is None or any(r + factor * q for r, q in zip(remainder, other[2], strict=True)):
-            return None
-        P = P + other[0] * field.poly([factor])
-    return P
+    P, free = main
+    remainder = _remainder(second, first, zeroth, P)
+    if not remainder:
+        return P
+    other = None if free is None else _descend(first.field, operator, free)
+    if other is None:
+        return None
+    further = _remainder(second, first, zeroth, other[0])
+    if further.degree != remainder.degree:
+        return None
+    factor = -remainder.lc / further.lc
+    return None if remainder + factor * further else P + factor * other[0]
 
 
-def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple[Poly, int | None, list[Any]] | None:
-    """A solution x^start + ... downwards, the power whose coefficient was free and set to 0, what remains below x^0.
-
-    None if a free coefficient meets an obstruction.
+def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple[Poly, int | None] | None:
+    """x^start + ..., of which the operator leaves a remainder of low powers alone, and the power whose coefficient was free
+    and set to 0.  None if the free coefficient meets an obstruction.
     """
     lowest, *others = operator
-    width, free, remainder = len(others), None, list[Any]()
-    series = RationalSeries(width) if field == QQ else FieldSeries(field, width)
-    for k in range(start - 1, -width - 1, -1):
+    free = None
+    series = RationalSeries(len(others)) if field == QQ else FieldSeries(field, len(others))
+    for k in range(start - 1, -1, -1):
         if k % 64 == 0:
             check_time()
-        pivot = _at(lowest, k) if k >= 0 else 0
+        pivot = _at(lowest, k)
         obstruction = series.extend(pivot, [_at(row, k + j) for j, row in enumerate(others[: start - k], 1)])
-        if k < 0:
-            remainder.append(obstruction)
-        elif not pivot:
-            if obstruction:
-                return None
+        if obstruction:
+            return None
+        if not pivot:
             free = k
     downwards = series.polynomial(start + 1)
-    return downwards.reversed(start - downwards.degree), free, remainder
+    return downwards.reversed(start - downwards.degree), free
+
+
+def _remainder(second: Poly, first: Poly, zeroth: Poly, P: Poly) -> Poly:
+    """second P'' + first P' + zeroth P for a P whose coefficients fulfil the recurrence: below x^shift of `_operator`.
+
+    By products, which stay fast where the operator is long; of P they need no more than the low powers.
+    """
+    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
+    x = P.field.poly([0, 1])
+    low = P if P.degree < shift + 2 else P % x ** (shift + 2)
+    slope = low.derivative()
+    return (second * slope.derivative() + first * slope + zeroth * low) % x ** max(shift, 0)
