@@ -44,7 +44,7 @@ def chinese_remainders(old: Sequence[int], modulus: int, new: Sequence[int], p: 
 
 
 def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int, int] | None:
-    """`(n, d)` with n = d * residue modulo `modulus`, |n| d <= bound, d > 0 and gcd(n, d) = 1: the least such d; None without one.
+    """`(n, d)` with n = d * residue modulo `modulus`, gcd(n, d) = 1 and |n| d <= bound, the least such d > 0; None without one.
 
     Where the modulus is much larger than the bound another pair than the sought one is improbable; whether the numerator
     or the denominator is the long one doesn't matter [Monagan, Proc. ISSAC 2004, 243-249].
