@@ -115,6 +115,10 @@ def check_keywords(call: str, given: Iterable[str], known: Iterable[str]) -> Non
             raise TypeError(f"{call}() got an unexpected keyword argument {name!r}{hint}")
 
 
+#: The package in the index, where the module that is imported has another name.
+_DISTRIBUTION_OF = {"flint": "python-flint"}
+
+
 @contextmanager
 def needs(extra: str, what: str) -> Iterator[None]:
     """Imports in the block belong to this extra of `pyproject.toml`; `what` is that for which they are needed."""
@@ -123,8 +127,12 @@ def needs(extra: str, what: str) -> Iterator[None]:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.startswith("kovacic"):
             raise
-        missing = error.name.partition(".")[0]
-        packages = " ".join(f"'{package}'" for package in _packages_of(extra)) or missing
+        module = error.name.partition(".")[0]
+        missing = _DISTRIBUTION_OF.get(module, module)
+        declared = _packages_of(extra)
+        if not any(package.startswith(missing) for package in declared):
+            declared = [missing]  # without the extra's metadata, or a package that is needed in any case
+        packages = " ".join(f"'{package}'" for package in declared)
         raise MissingExtra(f"{what} needs {missing}: pip install {packages}") from error
 
 

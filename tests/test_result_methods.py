@@ -83,6 +83,14 @@ def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: 
 
 
 @pytest.mark.long
+def test_a_missing_package_is_named_as_the_index_names_it() -> None:
+    program = "import sys; sys.modules['flint'] = None\nimport kovacic\ntry:\n    kovacic.tabulate\n"
+    program += "except kovacic.MissingExtra as error:\n    print(error)\n"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout.strip() == "kovacic.tabulate needs python-flint: pip install 'python-flint'"
+
+
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments", ["plot x --from 0 --to 1 -o p.png", "ball --mass 1 --radius 1 --sphere 3 --simulate"]
 )
