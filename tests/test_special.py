@@ -523,3 +523,21 @@ def test_a_long_answer_in_mathieus_functions_has_no_shorter_form() -> None:
     found = kovacic.dsolve(text)
     assert len(str(found.rhs)) > SCREEN
     assert in_special_functions(found, text) is None
+
+
+@pytest.mark.parametrize("coefficient", ["a - 2*q*cos(2*x)", "3 - 2*sin(x)", "3 - 2*cosh(x)", "3 - 2*cos(x + 1)"])
+def test_values_of_mathieus_functions(coefficient: str) -> None:
+    """Initial values at 0 and elsewhere, with the parity of the functions and their constant Wronskian alone."""
+    x = sympy.Symbol("x")
+    found = kovacic.dsolve(f"y'' + ({coefficient})*y = 0", ics="y(0)=1, y'(0)=2").rhs
+    even, odd = (next(iter(found.atoms(function))) for function in (sympy.mathieuc, sympy.mathieus))
+    a, q, z = even.args
+    assert odd.args == even.args
+    C, S = sympy.mathieuc, sympy.mathieus
+    zero = {S(a, q, 0): 0, sympy.mathieucprime(a, q, 0): 0}
+    start = z.subs(x, 0)
+    W = sympy.mathieuc(a, q, 0) * sympy.mathieusprime(a, q, 0)
+    constant = {sympy.mathieusprime(a, q, start): (W + sympy.mathieucprime(a, q, start) * S(a, q, start)) / C(a, q, start)}
+    values = [e.subs(x, 0).xreplace(zero).xreplace(constant if start else {}) for e in (found, found.diff(x))]
+    assert [sympy.simplify(value) for value in values] == [1, 2]
+    assert len(str(found)) < 300

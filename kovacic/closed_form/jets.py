@@ -4,8 +4,10 @@ The balls contain the values.  A function of the variable is its Taylor series, 
 
 An unevaluated or elliptic integral counts as an antiderivative with an arbitrary constant: its value is taken as 1, and its
 derivatives are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant changes the solution into another one.
+Mathieu's functions have arbitrary values and slopes that fit their equation, their parity and their Wronskian: what holds for
+all such pairs holds for his.
 
-Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 18.5, 18.9 (polynomials).
+Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 18.5, 18.9 (polynomials), 28.2 (Mathieu).
 """
 
 from __future__ import annotations
@@ -38,6 +40,9 @@ _UNARY = {
 }
 
 ANTIDERIVATIVES = (sympy.Integral, sympy.elliptic_f, sympy.elliptic_e, sympy.elliptic_pi)
+MATHIEU = (sympy.mathieuc, sympy.mathieucprime, sympy.mathieus, sympy.mathieusprime)
+#: What has the value of one of several functions.
+ARBITRARY = (*ANTIDERIVATIVES, *MATHIEU)
 
 
 def jet(expression: Any, variable: Any, point: Number) -> tuple[Number, Number, Number]:
@@ -87,9 +92,28 @@ class _Evaluator(BallEvaluator):
             *parameters, last = map(self, e.args)
             z = _lifted(last)
             return _taylor(z, rule(parameters, z[0]))
+        if isinstance(e, MATHIEU):
+            return self._of_mathieu(e)
         if not e.free_symbols:
             return _number(e)
         raise NotImplementedError(f"the function {e.func} can't be evaluated")
+
+    def _of_mathieu(self, e: Any) -> Value:
+        """c, c', s or s' for an even and an odd solution of w'' = f w, f = 2 q cos(2 z) - a; c s' - c' s is constant."""
+        a, q, last = map(self, e.args)
+        z = _lifted(last)
+        c, dc, s, ds = (parameter_value(str(function(*e.args))) for function in MATHIEU)
+        at_zero = (*e.args[:2], sympy.S.Zero)
+        if e.args == at_zero:
+            dc, s = acb(0), acb(0)
+        else:
+            W = parameter_value(str(sympy.mathieuc(*at_zero))) * parameter_value(str(sympy.mathieusprime(*at_zero)))
+            ds = (W + dc * s) / c
+        value, slope = (c, dc) if isinstance(e, sympy.mathieuc | sympy.mathieucprime) else (s, ds)
+        f = 2 * q * (2 * z[0]).cos() - a
+        values = [value, slope, f * value, f * slope - 4 * q * (2 * z[0]).sin() * value]
+        is_slope = isinstance(e, sympy.mathieucprime | sympy.mathieusprime)
+        return _taylor(z, values[1:] if is_slope else values[:3])
 
     def _of_sign(self, e: Any) -> Value:
         """|f| or the sign of f: for a function of the variable, near a point where it isn't zero, and real."""
@@ -140,7 +164,10 @@ def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:
 
 def _number(e: Any) -> Number:
     """A constant that isn't made of the functions above."""
-    number = e._to_mpmath(ctx.prec)
+    try:
+        number = e._to_mpmath(ctx.prec)
+    except ValueError:  # mpmath doesn't have the function
+        raise NotImplementedError(f"the function {e.func} can't be evaluated") from None
     parts = number._mpc_ if hasattr(number, "_mpc_") else (number._mpf_,)
     return acb(*(arb((-mantissa if sign else mantissa, exponent)) for sign, mantissa, exponent, _ in parts))
 

@@ -9,7 +9,6 @@ all monomials of the expansion, and isn't computed again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice, pairwise
 from typing import Any
@@ -41,19 +40,38 @@ _SMALL = arb(10) ** (-DIGITS // 2)
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
-def check_answer(question: Question, value: Expr, start: Expr | None, limits: Sequence[Expr]) -> None:
-    """Raises `VerificationFailed` where the answer isn't one: a defect of this package.
+def check_answer(question: Question, value: Expr, start: Expr | None, limits: Sequence[Expr]) -> list[str]:
+    """What couldn't be checked, in a sentence each.  Raises `VerificationFailed` where the answer isn't one: a defect.
 
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
     are the points at which conditions are on limits.
     """
     if not is_finite(value):
         raise _failed(question, value, "has no value")
-    if _is_wrong_at(question, value, start):
+    unchecked = []
+    try:
+        is_wrong = _is_wrong_at(question, value, start)
+    except _NOT_EVALUATED as reason:
+        is_wrong = False
+        unchecked.append(f"the answer wasn't put into the equation, numerically: {_said(reason)}")
+    if is_wrong:
         raise _failed(question, value, "doesn't satisfy the equation")
     for condition in question.conditions:
-        if not set(condition.points) & set(limits) and _is_violated(question, value, condition):
+        if set(condition.points) & set(limits):
+            continue
+        try:
+            is_violated = _is_violated(question, value, condition)
+        except _NOT_EVALUATED as reason:
+            is_violated = False
+            unchecked.append(f"the answer wasn't put into {condition.text}, numerically: {_said(reason)}")
+        if is_violated:
             raise _failed(question, value, f"doesn't satisfy {condition.text}")
+    return unchecked
+
+
+def _said(reason: Exception) -> str:
+    """Why a value isn't known; the messages of other errors than ours are no help."""
+    return str(reason) if isinstance(reason, NotImplementedError) else "a part of it can't be evaluated"
 
 
 def is_finite(value: Expr) -> bool:
@@ -77,7 +95,7 @@ def _sampled(expression: Expr, symbols: set[Expr], number: int) -> Expr:
 
 
 def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
-    """Is the residual seen not to be zero at a point?  False where the functions can't be evaluated."""
+    """Is the residual seen not to be zero at a point?  Raises one of `_NOT_EVALUATED` where it can't be computed."""
     x = question.x
     definite = [integral for integral in value.atoms(sympy.Integral) if not integral.has_free(x)]
     value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
@@ -86,9 +104,8 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
         return _is_wrong_in_pieces(question, value)
     middle = None if start is None else ball(_sampled(start, start.free_symbols, 1))
     base = acb(fmpq(23, 71), fmpq(0) if start is not None else fmpq(41, 89)) if middle is None else middle
-    with ctx.workdps(DIGITS), suppress(*_NOT_EVALUATED):
+    with ctx.workdps(DIGITS):
         return _residual_is_large(question, value, base + arb(_STEP))
-    return False
 
 
 @dataclass(frozen=True)
@@ -121,11 +138,10 @@ class _Pieces:
 def _is_wrong_in_pieces(question: Question, value: Expr) -> bool:
     """Is the residual seen not to be zero on a piece of the line, or do y and y' have wrong jumps?"""
     pieces = _in_pieces(question, value)
-    with ctx.workdps(DIGITS), suppress(*_NOT_EVALUATED):
+    with ctx.workdps(DIGITS):
         if any(pieces.is_wrong_at(point) for point in pieces.points):
             return True
         return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
-    return False
 
 
 def _in_pieces(question: Question, value: Expr) -> _Pieces:
@@ -208,6 +224,8 @@ def _is_large(coefficients: Sequence[Any], values: Sequence[Any]) -> bool:
     a, b, c, f = coefficients
     own, slope, second = values
     terms = [a * second, b * slope, c * own, -f]
+    if not all(term.is_finite() for term in terms):
+        raise NotImplementedError("a value isn't finite")
     return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
 
 
@@ -230,19 +248,18 @@ def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
 
 
 def _is_violated(question: Question, value: Expr, condition: Condition) -> bool:
-    """Is the difference of the two sides of a condition seen not to be zero?"""
+    """Is the difference of the two sides of a condition seen not to be zero?  Raises as `_is_wrong_at` does."""
     assert condition.value is not None
     total = -condition.value
-    try:
-        for term in condition.terms:
-            total += term.coefficient * value_at(value, question.x, term.point, term.order)
-    except NotImplementedError:
-        return False
+    for term in condition.terms:
+        total += term.coefficient * value_at(value, question.x, term.point, term.order)
     integrals = sorted(
         (e for e in total.atoms(sympy.Integral) if e.limits[0][1:]), key=str
     )  # numbers that aren't known
     total = total.xreplace({e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(integrals)})
     difference = _sampled(total, total.free_symbols, 1)
     with ctx.workdps(2 * DIGITS):
-        found = ball(difference)
-        return found is not None and found.is_finite() and bool(abs(found) > _SMALL)
+        found = jet(difference, sympy.Dummy(), acb(0))[0]
+        if not found.is_finite():
+            raise NotImplementedError("a value isn't finite")
+        return bool(abs(found) > _SMALL)

@@ -242,7 +242,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
         particular = particular_solution(basis, None, budget)
         constants = free_constants(question, basis, particular)
         value = combination(question, basis, particular, constants)
-        check_answer(question, value, None, ())
+        notices += check_answer(question, value, None, ())
         return written(question, value), notices
     limits = limit_points(question)
     start = start_of(question, limits)
@@ -257,7 +257,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
         at = f" ({singular} is a singular point of the equation)" if singular else ""
         raise InputError(f"there is no solution with these values: the conditions contradict one another{at}{unless}")
     value = combination(question, basis, particular, generic.values)
-    check_answer(question, value, start, tuple(limits))
+    notices += check_answer(question, value, start, tuple(limits))
     notices += [f"this holds unless {said}" for said in exceptions]
     return written(question, value), notices
 

@@ -8,6 +8,8 @@ import sympy
 
 Expr = Any  # SymPy publishes no types
 _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+#: Mathieu's odd function, and the slope of his even one, which SymPy leaves as they are at 0.
+_ODD = (sympy.mathieus, sympy.mathieucprime)
 _OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 
 
@@ -30,7 +32,7 @@ def size(expression: Expr) -> int:
 
 def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     """The value of a function, of a series at 0, or of an integral from the point on."""
-    special = e.atoms(sympy.RootSum, sympy.hyper, sympy.Integral)
+    special = e.atoms(sympy.RootSum, sympy.hyper, sympy.Integral, *_ODD)
     sums = {  # SymPy's substitution would compute rational ones exactly, without end
         r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
         for r in special
@@ -39,6 +41,7 @@ def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     value = (e.xreplace(sums) if sums else e).subs(x, point)
     if special:
         value = value.xreplace({f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0})
+        value = value.xreplace({f: _ZERO for f in value.atoms(*_ODD) if f.args[-1] == 0})
         empty = (i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:])
         value = value.xreplace(dict.fromkeys(empty, _ZERO))
     if not _OPEN.isdisjoint(value.atoms()):

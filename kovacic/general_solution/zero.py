@@ -21,7 +21,7 @@ from flint import acb, arb, ctx
 from sympy.simplify.fu import TR8
 
 from kovacic.closed_form.check import DIGITS
-from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
+from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared
 from kovacic.reading.parser import shown
 
@@ -86,6 +86,8 @@ def _is_nonzero(factor: Expr) -> bool:
         return bool(argument.is_positive or argument.is_integer is False)
     if isinstance(base, sympy.cosh):
         return bool(base.args[0].is_real)
+    if isinstance(base, sympy.mathieuc | sympy.mathieusprime):  # an even solution, the slope of an odd one
+        return bool(base.args[-1] == 0)
     return base.is_zero is False and exponent.is_finite is not False
 
 
@@ -129,7 +131,7 @@ def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
     """The value of a constant in a ball, None where that can't be computed; parameters have the values of the sample."""
     if sample:
         value = value.xreplace(sample)
-    if value.has(*ANTIDERIVATIVES):
+    if value.has(*ARBITRARY):
         return None
     try:
         return jet(value, sympy.Dummy(), acb(0))[0]
