@@ -10,7 +10,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide as decide_structure
-from kovacic.equation import Parsed, parameters_of
+from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.verify import Verification, verify
@@ -95,9 +95,20 @@ def find_answer(
 
 
 def _text_of(S: Any, parsed: Parsed) -> str:
-    """The input as it was given; in our own spelling where it is no text, or constants became parameters."""
-    in_letters = bool(parsed.letters) and (parsed.equation is None or parsed.equation.change is None)
-    return parsed.text if in_letters or not isinstance(S, str) else S.strip()
+    """The input as it was given; in our own spelling where it is no text, or constants became parameters.
+
+    An equation in another variable than the user's isn't what was given: then it is written as SymPy has it.
+    """
+    is_changed = parsed.equation is not None and parsed.equation.change is not None
+    if parsed.letters and not is_changed:
+        return parsed.text
+    if isinstance(S, str):
+        return S.strip()
+    if not is_changed or isinstance(S, Equation):
+        return parsed.text
+    from kovacic.reading.symbolic import text_of
+
+    return text_of(S)
 
 
 @limited

@@ -63,6 +63,32 @@ def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered 
     return Lettered(found, meanings) if found != tuple(parts) else None
 
 
+def without_shifts(part: Expr, x: Expr) -> Expr:
+    """exp(x) exp(b) in the place of exp(x + b), and waves by the addition theorems, for a constant b.
+
+    >>> x, b = sympy.symbols("x b")
+    >>> without_shifts(sympy.exp(2 * x - b) + sympy.cos(x + b), x)
+    -sin(b)*sin(x) + cos(b)*cos(x) + exp(-b)*exp(2*x)
+
+    Powers a^x are exponentials, whose rate is log(a).
+    """
+    part = part.replace(
+        lambda e: e.is_Pow and e.exp.has(x) and not e.base.has(x) and e.base is not sympy.E,
+        lambda e: sympy.exp(sympy.log(e.base) * e.exp, evaluate=False),
+    )
+    inner, shift = sympy.Dummy(), sympy.Dummy()
+
+    def is_shifted(e: Expr) -> bool:
+        known = isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction)
+        return known and e.has(x) and e.args[0].expand().as_independent(x, as_Add=True)[0] != 0
+
+    def apart(e: Expr) -> Expr:
+        constant, rest = e.args[0].expand().as_independent(x, as_Add=True)
+        return sympy.expand(e.func(inner + shift), trig=True).xreplace({inner: rest, shift: constant})
+
+    return part.replace(is_shifted, apart)
+
+
 def _innermost(parts: Sequence[Expr], x: Expr) -> list[Expr]:
     """The constants that are no rational functions of symbols and numbers, and have no such constants within them."""
     both = any(

@@ -150,15 +150,31 @@ def _divided(given: Any, source: Source, limits: Limits) -> Parsed | None:
 
 
 def _in_letters(source: Source, limits: Limits) -> Parsed | None:
-    """With letters for constants that aren't rational in symbols; None where that doesn't help."""
+    """With letters for constants that aren't rational in symbols; None where that doesn't help.
+
+    Then with letters for those that are added to multiples of x in exponents and waves, too.
+    """
+    from sympy import Symbol
+
+    from kovacic.reading.letters import without_shifts
+    from kovacic.reading.parts import parts_of
+
+    parts, notices = parts_of(source, limits)
+    x = Symbol(source.variable)
+    found = _with_letters(parts, source, limits)
+    if found is None:
+        found = _with_letters([without_shifts(part, x) for part in parts[:3]] + [parts[3]], source, limits)
+    return found and replace(found, notices=(*notices, *found.notices))
+
+
+def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parsed | None:
     from sympy import Symbol
 
     from kovacic.reading.exponentials import in_exponentials
     from kovacic.reading.letters import with_letters
-    from kovacic.reading.parts import parts_of, source_of_parts
+    from kovacic.reading.parts import source_of_parts
     from kovacic.reading.powers import in_powers
 
-    parts, notices = parts_of(source, limits)
     lettered = with_letters(parts, 3, Symbol(source.variable))
     if lettered is None:
         return None
@@ -174,7 +190,7 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
         return None
     said = [f"{letter} is {meaning}" for letter, meaning in lettered.meanings.items()]
     letters = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
-    return replace(found, notices=(*said, *notices, *found.notices), letters=letters)
+    return replace(found, notices=(*said, *found.notices), letters=letters)
 
 
 def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:

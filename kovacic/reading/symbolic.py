@@ -23,6 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits
+from kovacic.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import tokens_of
@@ -105,6 +106,22 @@ def functions_in(value: Any) -> set[Any]:
 def is_sympy_equation(value: Any) -> bool:
     """Is it an `Eq` with an undefined function, or an expression with a derivative of one?"""
     return bool(functions_in(value)) and (bool(getattr(value, "is_Equality", False)) or value.has(sympy.Derivative))
+
+
+def text_of(given: Any) -> str:
+    """A SymPy expression or equation as a text that means the same.
+
+    >>> x, y = sympy.Symbol("x"), sympy.Function("y")
+    >>> text_of(sympy.Eq(y(x).diff(x, 2), sympy.exp(x) * y(x)))
+    "y'' = y*exp(x)"
+    """
+    if not is_sympy_equation(given):
+        return as_text(given)
+    function = function_of(given)
+    (x,) = function.args
+    sides = (given.lhs, given.rhs) if given.is_Equality else (given, sympy.S.Zero)
+    names = {function.diff(x, k): sympy.Symbol(function.func.__name__ + "'" * k) for k in range(3)}
+    return " = ".join(as_text(side.doit(integrals=False).xreplace(names)) for side in sides)
 
 
 def function_of(expression: Any) -> Any:
