@@ -7,7 +7,8 @@ derivatives are those of the integrand.  In y1 int y1^-2 and exp(int ...) the co
 Mathieu's functions have arbitrary values and slopes that fit their equation, their parity and their Wronskian: what holds for
 all such pairs holds for his.
 
-Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 18.5, 18.9 (polynomials), 28.2 (Mathieu).
+Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 14.9, 18.5, 18.9 (polynomials), 28.2
+(Mathieu).
 """
 
 from __future__ import annotations
@@ -235,6 +236,10 @@ def rewritten(e: Any) -> Any:
     if isinstance(e, sympy.legendre | sympy.gegenbauer):
         n, a, z = e.args if len(e.args) == 3 else (e.args[0], half, e.args[1])
         return gamma(n + 2 * a) / gamma(n + 1) / gamma(2 * a) * sympy.hyper((-n, n + 2 * a), (a + half,), (1 - z) / 2)
+    if isinstance(e, sympy.assoc_legendre):
+        n, m, z = e.args
+        factor = sympy.gamma(n + m + 1) / sympy.gamma(n - m + 1) / gamma(m + 1) / (-2) ** m
+        return factor * (1 - z**2) ** (m / 2) * sympy.hyper((m - n, n + m + 1), (m + 1,), (1 - z) / 2)
     if isinstance(e, sympy.jacobi):
         n, a, b, z = e.args
         factor = gamma(n + a + 1) / gamma(n + 1) / gamma(a + 1)

@@ -9,7 +9,7 @@ all monomials of the expansion, and isn't computed again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any
 
@@ -27,7 +27,7 @@ from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, break_points, in_steps, on_piece, taken_apart
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.zero import ball, samples
+from kovacic.general_solution.zero import ball, sample_value, samples
 from kovacic.reading.change_of_variable import function_of_x
 
 Expr = Any  # SymPy publishes no types
@@ -40,17 +40,25 @@ _SMALL = arb(10) ** (-DIGITS // 2)
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
-def check_answer(question: Question, value: Expr, start: Expr | None, limits: Sequence[Expr]) -> list[str]:
+def check_answer(
+    question: Question,
+    value: Expr,
+    start: Expr | None = None,
+    limits: Sequence[Expr] = (),
+    *,
+    natural: Expr | None = None,
+) -> list[str]:
     """What couldn't be checked, in a sentence each.  Raises `VerificationFailed` where the answer isn't one: a defect.
 
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
-    are the points at which conditions are on limits.
+    are the points at which conditions are on limits.  The answer holds where the integer `natural` isn't negative.
     """
+    numbers = _numbers_with(natural)
     if not is_finite(value):
         raise _failed(question, value, "has no value")
     unchecked = []
     try:
-        is_wrong = _is_wrong_at(question, value, start)
+        is_wrong = _is_wrong_at(_at_numbers(question, numbers), value.xreplace(numbers), start)
     except _NOT_EVALUATED as reason:
         is_wrong = False
         unchecked.append(f"the answer wasn't put into the equation, numerically: {_said(reason)}")
@@ -60,13 +68,32 @@ def check_answer(question: Question, value: Expr, start: Expr | None, limits: Se
         if set(condition.points) & set(limits):
             continue
         try:
-            is_violated = _is_violated(question, value, condition)
+            is_violated = _is_violated(question, value, condition, numbers)
         except _NOT_EVALUATED as reason:
             is_violated = False
             unchecked.append(f"the answer wasn't put into {condition.text}, numerically: {_said(reason)}")
         if is_violated:
             raise _failed(question, value, f"doesn't satisfy {condition.text}")
     return unchecked
+
+
+def _numbers_with(natural: Expr | None) -> dict[Expr, Expr]:
+    """Numbers for the symbols of this integer, for which it isn't negative."""
+    if natural is None:
+        return {}
+    symbols = sorted(natural.free_symbols, key=str)
+    for ordered in (symbols, symbols[::-1]):
+        numbers = {symbol: sample_value(symbol, 1 + 3 * position) for position, symbol in enumerate(ordered)}
+        if natural.xreplace(numbers) >= 0:
+            return numbers
+    return {}
+
+
+def _at_numbers(question: Question, numbers: dict[Expr, Expr]) -> Question:
+    """The question with numbers for some of its symbols."""
+    if not numbers:
+        return question
+    return replace(question, symbols={name: numbers.get(symbol, symbol) for name, symbol in question.symbols.items()})
 
 
 def _said(reason: Exception) -> str:
@@ -247,12 +274,13 @@ def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
     return a, b, c, f + a * h
 
 
-def _is_violated(question: Question, value: Expr, condition: Condition) -> bool:
+def _is_violated(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
     """Is the difference of the two sides of a condition seen not to be zero?  Raises as `_is_wrong_at` does."""
     assert condition.value is not None
     total = -condition.value
     for term in condition.terms:
         total += term.coefficient * value_at(value, question.x, term.point, term.order)
+    total = total.xreplace(numbers)
     integrals = sorted(
         (e for e in total.atoms(sympy.Integral) if e.limits[0][1:]), key=str
     )  # numbers that aren't known

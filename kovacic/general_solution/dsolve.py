@@ -26,7 +26,7 @@ from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
 from kovacic.general_solution.constants import Case, Outcome, can_be, condition_of
 from kovacic.general_solution.determined import constants_of
-from kovacic.general_solution.homogeneous import find_basis, no_solution
+from kovacic.general_solution.homogeneous import Found, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
 from kovacic.general_solution.question import Question, apart, read_question
@@ -103,8 +103,9 @@ def dsolve(
     -----
     UserWarning
         Where particular values of parameters give more solutions, or none: with the condition and what holds then (the
-        answer is for the others).  Where special functions were taken, and it isn't proven that there is no Liouvillian
-        solution, because a limit was reached.
+        answer is for the others).  Where other solutions are independent if an integer is negative: with these.  Where
+        special functions were taken, and it isn't proven that there is no Liouvillian solution, because a limit was
+        reached.  Where the answer couldn't be checked, because a function can't be evaluated.
 
     Raises
     ------
@@ -235,14 +236,16 @@ def _riccati_equation(
 def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr, list[str]]:
     """The steps of the head of this module, after the first."""
     notices = []
-    basis, solution = find_basis(question, budget, special=special)
+    found = find_basis(question, budget, special=special)
+    basis, solution = found.basis, found.solution
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
     if not question.conditions:
         particular = particular_solution(basis, None, budget)
         constants = free_constants(question, basis, particular)
         value = combination(question, basis, particular, constants)
-        notices += check_answer(question, value, None, ())
+        notices += _by_sign(question, found, particular, constants)
+        notices += check_answer(question, value, natural=found.natural)
         return written(question, value), notices
     limits = limit_points(question)
     start = start_of(question, limits)
@@ -257,9 +260,21 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
         at = f" ({singular} is a singular point of the equation)" if singular else ""
         raise InputError(f"there is no solution with these values: the conditions contradict one another{at}{unless}")
     value = combination(question, basis, particular, generic.values)
-    notices += check_answer(question, value, start, tuple(limits))
+    notices += _by_sign(question, found, particular, None)
+    notices += check_answer(question, value, start, tuple(limits), natural=found.natural)
     notices += [f"this holds unless {said}" for said in exceptions]
     return written(question, value), notices
+
+
+def _by_sign(question: Question, found: Found, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
+    """Where the solutions are those for a natural number: that, and the others, unless their constants are determined."""
+    if found.natural is None:
+        return []
+    holds = f"this holds where {as_text(found.natural)} >= 0"
+    if found.otherwise is None or names is None or particular != 0:
+        return [f"{holds}: give such values for the solutions elsewhere"]
+    other = written(question, combination(question, found.otherwise, particular, names))
+    return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
 
 def _said(question: Question, basis: Basis, particular: Expr, case: Case) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
@@ -14,6 +15,7 @@ from kovacic.decision import Status
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.integrands import NUMBERS
+from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import are_independent
 from kovacic.general_solution.variation import Basis
@@ -23,7 +25,7 @@ from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.reading.change_of_variable import is_power, solution_in_x
 from kovacic.solution import Solution, solve
 from kovacic.special.mathieu import mathieu
-from kovacic.special.search import special_functions
+from kovacic.special.search import BySign, by_sign, special_functions
 
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]
@@ -37,21 +39,42 @@ class NothingKnown(NotImplementedError):
         self.is_proven = is_proven
 
 
-def find_basis(question: Question, budget: Budget, *, special: bool = False) -> tuple[Basis, Solution]:
+@dataclass(frozen=True)
+class Found:
     """Two independent solutions in the user's variable, and what was decided.
 
-    Liouvillian ones if there are any, unless `special`; else special functions.  Raises `NotImplementedError` without.
+    With `natural`, an integer that depends on parameters, they are such where it isn't negative; where it is,
+    `otherwise` are, if these are known.
+    """
+
+    basis: Basis
+    solution: Solution
+    natural: Expr | None = None
+    otherwise: Basis | None = None
+
+
+def find_basis(question: Question, budget: Budget, *, special: bool = False) -> Found:
+    """Liouvillian solutions if there are any, unless `special`; else special functions.
+
+    Raises `NotImplementedError` without.
     """
     solution = decide(question, budget)
-    if solution.case is None or special:
-        pair = _in_special_functions(question, solution, budget, special=special)
-    else:
-        pair = _liouvillian(question, solution, budget)
+    if solution.case is not None and not special:
+        return Found(_basis(question, _liouvillian(question, solution, budget)), solution)
+    pair = _in_special_functions(question, solution, budget, special=special)
+    if not isinstance(pair, BySign):
+        return Found(_basis(question, pair), solution)
+    otherwise = None if pair.negative is None else _basis(question, pair.negative)
+    return Found(_basis(question, pair.natural), solution, question.own(pair.integer), otherwise)
+
+
+def _basis(question: Question, pair: Pair) -> Basis:
+    """The solutions in the user's variable."""
     if is_power(question.equation):  # whose exponent has plain symbols
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair[0].xreplace(plain), pair[1].xreplace(plain)
     y1, y2 = (solution_in_x(question.equation, y).xreplace(NUMBERS) for y in pair)
-    return Basis(y1, y2, question.x, question.equation), solution
+    return Basis(y1, y2, question.x, question.equation)
 
 
 def decide(question: Question, budget: Budget) -> Solution:
@@ -73,8 +96,11 @@ def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair
     return form.y1, form.y2
 
 
-def _in_special_functions(question: Question, solution: Solution, budget: Budget, *, special: bool) -> Pair:
-    """Special functions, or Mathieu's; analytic at ordinary points, where Bessel's functions of roots would jump."""
+def _in_special_functions(question: Question, solution: Solution, budget: Budget, *, special: bool) -> Pair | BySign:
+    """Special functions, or Mathieu's; analytic at ordinary points, where Bessel's functions of roots would jump.
+
+    By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
+    """
     found: Any = special_functions(
         solution.S,
         solution.gauge,
@@ -83,6 +109,18 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
         symbols=question.parameters,
         joined=True,
     )
+    is_asked = not question.conditions or bool(limit_points(question))
+    if not found or (is_asked and question.equation.is_homogeneous):
+        halves = by_sign(
+            solution.S,
+            solution.gauge,
+            solution.variable,
+            budget,
+            symbols=question.parameters,
+            joined=True,
+        )
+        if halves is not None:
+            return halves
     equation = question.equation
     if not found and equation.change is not None:
         found = mathieu(solution.S, solution.gauge, equation) or found

@@ -114,10 +114,10 @@ def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
     """Values of symbols that fit what is assumed of them, the integers small: without an end."""
     ordered = sorted(symbols, key=str)
     for k in range(10**6):
-        yield {symbol: _sample(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
+        yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
 
 
-def _sample(symbol: Expr, k: int) -> Expr:
+def sample_value(symbol: Expr, k: int) -> Expr:
     """The k-th value of a symbol."""
     if symbol.is_integer:
         step = 2 if symbol.is_even or symbol.is_odd else 1

@@ -7,9 +7,11 @@ Solutions: with the exponent differences alpha, beta, gamma at 0, 1, infinity, i
     u = z^((1-alpha)/2) (1-z)^((1-beta)/2) 2F1((1-alpha-beta-gamma)/2, (1-alpha-beta+gamma)/2; 1-alpha; z).
 
 The second solution has -alpha; where alpha is an integer, it is the one of this kind at 1.  These are independent if no
-combination (1 +- alpha +- beta +- gamma)/2 is an integer: a common solution would be elementary.  P_N^(a,b)(1 - 2 z) is a
-multiple of 2F1(-N, N + a + b + 1; 1 + a; z); beside it there is one with another exponent at 0 or at infinity, and, for a = b,
-the one of the other parity.  K, E and P_nu are written where 2F1 is one of them.
+combination (1 +- alpha +- beta +- gamma)/2 is an integer: a common solution would be elementary.  With the larger exponents
+at 0 and at 1 a common solution would be a multiple of a polynomial: they are independent if neither upper parameter is an
+integer <= 0.  P_N^(a,b)(1 - 2 z) is a multiple of 2F1(-N, N + a + b + 1; 1 + a; z); beside it there is one with another
+exponent at 0 or at infinity, and, for a = b, the one of the other parity.  For a natural a = b = m it is written as the
+associated Legendre function P_(N+m)^m.  K, E and P_nu are written where 2F1 is one of them.
 
 Values, with e0, e1, einf for alpha, beta, gamma:
 
@@ -95,6 +97,13 @@ class Gauss(StandardEquation):
         if not writer.is_integer(first.alpha):
             return writer.pair(first.term, first.turned.term)
         return writer.pair(first.regular.term, first.swapped.regular.term)
+
+    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
+        """Degrees of polynomials, and the exponent differences."""
+        forms = _Form.of(self, writer, f).arranged
+        for form in sorted(forms, key=lambda form: form.cost):
+            yield from (signed.degree for signed in form.signs if writer.is_natural(-signed.alpha))
+        yield from (forms[0].alpha, forms[0].beta, forms[0].gamma)
 
     @property
     def parameters(self) -> list[fmpq]:
@@ -227,7 +236,18 @@ def _reducible(writer: Writer, forms: list[_Form]) -> tuple[Expr, Expr] | None:
     if free is not None:
         return writer.pair(free.term, free.turned.term)
     even = next((signed for form in forms for signed in form.signs if signed.alpha == signed.beta), None)
-    return None if even is None else writer.pair(*_even_and_odd(even))
+    if even is not None:
+        return writer.pair(*_even_and_odd(even))
+    regular = next((signed for form in forms for signed in form.signs if _is_irreducible_at(signed)), None)
+    return None if regular is None else writer.pair(regular.term, regular.swapped.term)
+
+
+def _is_irreducible_at(form: _Form) -> bool:
+    """Are -alpha and -beta natural, and the upper parameters positive where they are integers?"""
+    writer = form.writer
+    upper = [(1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (1, -1)]
+    are_natural = writer.is_natural(-form.alpha) and writer.is_natural(-form.beta)
+    return are_natural and all(writer.is_natural(value - 1) or not writer.is_integer(value) for value in upper)
 
 
 def _jacobi(form: _Form) -> tuple[Expr, Expr]:
@@ -238,11 +258,20 @@ def _jacobi(form: _Form) -> tuple[Expr, Expr]:
     N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
     t = writer.argument(1 - 2 * f)
     if form.alpha == form.beta:
-        polynomial = sympy.gegenbauer(N, a + sympy.S.Half, t) if a else sympy.legendre(N, t)
         even, odd = _even_and_odd(form)
         second = form.factor, writer.by_parity(N, odd[1], even[1])
+        if a and writer.is_natural(-form.alpha):
+            polynomial = sympy.assoc_legendre(sympy.expand(N + a), a, t)
+            plain = replace(form, alpha=form.alpha * 0, beta=form.beta * 0)
+            return writer.pair((plain.factor, writer.without_constant(polynomial)), second)
+        if writer.is_natural(form.alpha - HALF):  # Gegenbauer's polynomials of an index 0, -1, ... are 0
+            polynomial = _named(form)
+        else:
+            polynomial = sympy.gegenbauer(N, a + sympy.S.Half, t) if a else sympy.legendre(N, t)
     else:
-        polynomial = sympy.jacobi(N, a, b, t)
+        # For b = -a SymPy would write an associated Legendre function of the order -a, which needn't be an integer.
+        is_opposite = form.alpha == -form.beta
+        polynomial = _named(form) if is_opposite else sympy.jacobi(N, a, b, t)
         if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
             second = _Form(writer, 1 / f, -form.gamma, form.beta, form.alpha).term
         else:

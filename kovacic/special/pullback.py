@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from flint import fmpq, fmpq_poly
 
     from kovacic.closed_form.atoms import Expr
+    from kovacic.special.numbers import Number
     from kovacic.special.values import Cost, StandardForm
     from kovacic.special.writer import Writer
 
@@ -64,6 +65,10 @@ class StandardEquation(ABC):
 
         With `singular`, solutions are analytic wherever this denominator of S isn't zero, even where f is.
         """
+
+    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
+        """Numbers that may be integers, on whose signs it may depend what is written, the preferred ones first."""
+        yield from ()
 
     # ----------------------------------------------------------------------------------------- values, over the rationals
 

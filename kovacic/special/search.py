@@ -19,7 +19,9 @@ from kovacic.special.pullback import Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 
 if TYPE_CHECKING:
+    from kovacic.algebra.poly import Poly
     from kovacic.closed_form.atoms import Expr
+    from kovacic.special.writer import Writer
 
 #: In the order in which they are tried.
 EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
@@ -174,15 +176,99 @@ def _written(
     """
     import sympy
 
-    from kovacic.closed_form.check import is_numerical_solution
     from kovacic.special.writer import Writer
 
     writer = Writer(gauge, sympy.Symbol(variable), symbols)
     found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
     for y in found or ():
-        if not is_numerical_solution(y, writer.atoms.x, S, gauge):
-            raise VerificationFailed(
-                f"a special function for S = {S} failed its check; please report the equation: {y}"
-            )
+        _check(y, writer.atoms.x, S, gauge)
     own = {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
     return (found[0].xreplace(own), found[1].xreplace(own)) if found and own else found
+
+
+def _check(y: Expr, x: Any, S: RatFunc, gauge: RatFunc) -> None:
+    """Raises `VerificationFailed` where it isn't a solution, to 50 digits at a point."""
+    from kovacic.closed_form.check import is_numerical_solution
+
+    if not is_numerical_solution(y, x, S, gauge):
+        said = f"a special function for S = {S} failed its check; please report the equation: {y}"
+        raise VerificationFailed(said)
+
+
+@dataclass(frozen=True)
+class BySign:
+    """Solutions where an integer that depends on parameters isn't negative, and where it is; None where none are known."""
+
+    integer: Any
+    natural: tuple[Any, Any]
+    negative: tuple[Any, Any] | None
+
+    @property
+    def pairs(self) -> tuple[tuple[Any, Any], tuple[Any, Any] | None]:
+        """Both."""
+        return self.natural, self.negative
+
+
+def by_sign(
+    S: RatFunc, gauge: RatFunc, variable: str, budget: Budget, *, symbols: Mapping[str, Any], joined: bool
+) -> BySign | None:
+    """Solutions by the sign of an integer: where polynomials have names, or where it tells which solutions are independent.
+
+    Arguments as for `special_functions`; None where the sign of no integer helps.
+
+    >>> import kovacic, sympy
+    >>> n, l = sympy.symbols("n l", integer=True, positive=True)
+    >>> answer = kovacic.solve("x^2*y'' + 2*x*y' + (2*x - x^2/n^2 - l*(l + 1))*y = 0", var="x")
+    >>> found = by_sign(answer.S, answer.gauge, "x", Budget(), symbols={"n": n, "l": l}, joined=False)
+    >>> print(found.integer, "|", found.natural[0])
+    -l + n - 1 | x**l*exp(-x/n)*assoc_laguerre(-l + n - 1, 2*l + 1, 2*x/n)
+    """
+    if not any(symbol.is_integer for symbol in symbols.values()):
+        return None
+    pullback = find(S, budget).pullback
+    if pullback is None:
+        return None
+    try:
+        with budget.watched():
+            return _by_sign(pullback, S, gauge, variable, symbols, S.den if joined else None)
+    except LimitExceeded:
+        return None
+
+
+def _by_sign(
+    pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], singular: Poly | None
+) -> BySign | None:
+    import sympy
+
+    from kovacic.special.writer import Writer
+
+    writer = Writer(gauge, sympy.Symbol(variable), symbols)
+    equation, f = pullback.equation, pullback.f
+    whole = equation.written(writer, f, singular)
+    best = None
+    for number in dict.fromkeys(equation.integers(writer, f)):
+        value = writer.constant(number)
+        is_open = writer.is_integer(number) and not writer.is_natural(number) and not writer.is_natural(-number - 1)
+        natural = _assuming(writer, value, pullback, singular) if is_open else None
+        is_named = natural is not None and any(y.has(sympy.assoc_legendre, sympy.assoc_laguerre) for y in natural)
+        if natural is None or natural == whole or (whole is not None and not is_named):
+            continue
+        found = BySign(value, natural, whole or _assuming(writer, -value - 1, pullback, singular))
+        if found.negative is not None:
+            best = found
+            break
+        best = best or found
+    if best is None:
+        return None
+    for y in (*best.natural, *(best.negative or ())):
+        _check(y, writer.atoms.x, S, gauge)
+    own = {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
+    natural, negative = (pair and (pair[0].xreplace(own), pair[1].xreplace(own)) for pair in best.pairs)
+    assert natural is not None
+    return BySign(best.integer.xreplace(own), natural, negative)
+
+
+def _assuming(writer: Writer, value: Any, pullback: Pullback, singular: Poly | None) -> tuple[Expr, Expr] | None:
+    """The solutions where the value is natural."""
+    informed = writer.assuming(value)
+    return None if informed is None else pullback.equation.written(informed, pullback.f, singular)

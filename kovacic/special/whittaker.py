@@ -114,6 +114,12 @@ class Whittaker(StandardEquation):
                 return polynomial
         return _kummer_or_tricomi(form)
 
+    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
+        """Degrees of Laguerre's polynomials."""
+        if self.r:
+            form = _Form.of(self, writer, f)
+            yield from (turned.kappa - mu - HALF for turned in (form, form.turned) for mu in (form.mu, -form.mu))
+
     @property
     def parameters(self) -> list[fmpq]:
         q, r, M = (rational(v) for v in (self.q, self.r, self.M))

@@ -45,8 +45,31 @@ class Writer:
     def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any]) -> None:
         self.gauge, self.atoms = gauge, Atoms(x)
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
+        self.known = self.symbols
         self._squares: list[Poly] = []
         self._shown: dict[Number | Poly, Expr] = {}
+        self._natural: dict[Number, bool] = {}
+        self._lower: dict[Expr, Expr] = {}
+
+    def assuming(self, value: Expr) -> Writer | None:
+        """A writer that knows the value to be natural: a symbol of an integer is written by that; None without one.
+
+        >>> n, m = sympy.symbols("n m", integer=True, positive=True)
+        >>> writer = Writer(RatFunc(QQ.poly([0])), sympy.Symbol("x"), {"n": n, "m": m})
+        >>> writer.assuming(sympy.Symbol("n") - sympy.Symbol("m")).known
+        {n: _d + m, m: m}
+        """
+        value = sympy.expand(value)
+        slopes = {plain: value.diff(plain) for plain in sorted(self.symbols, key=str)}
+        for slope in (1, -1):
+            for plain in (plain for plain in slopes if slopes[plain] == slope and self.symbols[plain].is_integer):
+                natural = sympy.Dummy("d", integer=True, nonnegative=True)
+                meaning = sympy.expand(plain + (natural - value) / slope).xreplace(self.symbols)
+                writer = Writer(self.gauge, self.atoms.x, {})
+                writer.symbols = self.symbols
+                writer.known = {**self.symbols, plain: meaning}
+                return writer
+        return None
 
     @property
     def exponential_rate(self) -> RatFunc:
@@ -109,16 +132,30 @@ class Writer:
 
     def is_integer(self, value: Number) -> bool:
         """Is it known to be an integer?"""
-        return bool(self.constant(value).xreplace(self.symbols).is_integer)
+        return bool(self.constant(value).xreplace(self.known).is_integer)
 
     def is_natural(self, value: Number) -> bool:
         """Is it known to be an integer that isn't negative?"""
-        shown = self.constant(value).xreplace(self.symbols)
-        return bool(shown.is_integer and sympy.expand(shown).is_nonnegative)
+        if value not in self._natural:
+            shown = self.constant(value)
+            forms = [shown.xreplace(self.symbols)]
+            if self.known is not self.symbols:
+                forms.append(shown.xreplace(self.known))
+            self._natural[value] = any(map(self._is_natural, forms))
+        return self._natural[value]
+
+    def _is_natural(self, value: Expr) -> bool:
+        """Of an expression in the user's symbols: a positive integer n is n' + 1 with a natural n'."""
+        if not value.is_integer:
+            return False
+        for symbol in value.free_symbols - self._lower.keys():
+            if symbol.is_integer and symbol.is_positive:
+                self._lower[symbol] = sympy.Dummy(symbol.name, integer=True, nonnegative=True) + 1
+        return bool(sympy.expand(value.xreplace(self._lower)).is_nonnegative)
 
     def is_degree(self, value: Number) -> bool:
         """Is it known to be natural, and does it depend on a parameter?"""
-        assumed = any(symbol.is_integer for symbol in self.symbols.values())
+        assumed = any(symbol.is_integer for symbol in self.known.values())
         return assumed and bool(self.constant(value).free_symbols) and self.is_natural(value)
 
     def is_negative(self, value: Number | Poly) -> bool:
