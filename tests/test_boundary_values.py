@@ -413,18 +413,6 @@ def test_nothing_infinite_leaves() -> None:
     assert is_finite(sympy.Integral(exp(-(x**2)), (x, 0, oo)) + 1)
 
 
-@parametrize("integers", [(1, 1), (1, 3), (2, 1), (3, 3), (2, 5), (5, 4)], ordinary=1)
-def test_no_constant_dies(integers: tuple[int, int]) -> None:
-    """The Wronskian of the two solutions isn't zero at admissible integers, where the order is above the degree, too."""
-    i, j = integers
-    order = Symbol("m", integer=True, positive=True)
-    left = D2 + sympy.cot(x) * D1 + (n * (n + 1) - order**2 / sin(x) ** 2) * D0
-    found = sympy.expand(dsolve(left).rhs)
-    y1, y2 = (found.coeff(c).subs({n: i, order: j}) for c in (C1, C2))
-    wronskian = y1 * y2.diff(x) - y1.diff(x) * y2
-    assert abs(sympy.N(wronskian.subs(x, Rational(7, 5)), 30)) > 1e-10
-
-
 def test_entire_solutions_where_bessel_functions_jump() -> None:
     """y'' + c x^m y = 0: the values from the left and from the right agree at 0, for any constants."""
     c = Symbol("c")
