@@ -472,20 +472,7 @@ class ParametricAnswer:
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
     """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
-    kinds = {type(value) for value in values}
-    if str not in kinds and any(kind.__module__.startswith("sympy") for kind in kinds):
-        import sympy
-
-        try:
-            x, terms = sympy.Symbol("x_"), [sympy.sympify(value, strict=True) for value in values]
-        except sympy.SympifyError as error:
-            raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
-        if not all(isinstance(term, sympy.Expr) for term in terms):
-            raise InputError("the values of parameters are numbers")
-        together = sum((value * x**k for k, value in enumerate(terms)), sympy.Integer(0))
-    else:
-        together = " + ".join(f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values))
-    read = read_input(together, var="x_", limits=limits).S
+    read = read_input(_in_one_polynomial(values, limits), var="x_", limits=limits).S
     if not read.is_polynomial or read.num.degree >= len(values) or read.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
     numbers, field = [read.num[k] for k in range(len(values))], read.field
@@ -495,3 +482,21 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
         *numbers, root = with_root(numbers, field, constant.field, limits)
         return ParameterPoint((*names, *constant.names), (*numbers, root), root.field)
     return ParameterPoint((*names, *constant.names), (*numbers, *constant.values), field)
+
+
+def _in_one_polynomial(values: list[Any], limits: Limits) -> Any:
+    """The values as coefficients of powers of x_, so that they are read together."""
+    kinds = {type(value) for value in values}
+    is_sympy = any(kind.__module__.startswith("sympy") for kind in kinds)
+    if str in kinds or not is_sympy:
+        return " + ".join(f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values))
+    import sympy
+
+    try:
+        terms = [sympy.sympify(value, strict=True) for value in values]
+    except sympy.SympifyError as error:
+        raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
+    if not all(isinstance(term, sympy.Expr) for term in terms):
+        raise InputError("the values of parameters are numbers")
+    x = sympy.Symbol("x_")
+    return sum((term * x**k for k, term in enumerate(terms)), sympy.Integer(0))

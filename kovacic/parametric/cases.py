@@ -68,8 +68,11 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
 
 def _everything(regions: Sequence[ParameterRegion]) -> list[ParameterPoint]:
     """All values of the parameters, none where no region says which they are."""
-    field = next((field for region in regions if (field := _field(region.statement)) is not None), None)
-    return [] if field is None else [ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)]
+    for region in regions:
+        field = _field(region.statement)
+        if field is not None:
+            return [ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)]
+    return []
 
 
 def _field(statement: Statement) -> FunctionField | None:
@@ -86,21 +89,22 @@ def _field(statement: Statement) -> FunctionField | None:
 
 def _left_to_say(other: Statement, statement: Statement, charts: list[ParameterPoint]) -> Statement:
     """What the other statement says beside this one, where the values of this one are those of one chart."""
-    if len(charts) != 1:
+    field = _field(other)
+    if len(charts) != 1 or field is None:
         return other
     (chart,) = charts
-    field = _field(other)
     left: list[Statement] = []
     for part in both(other).parts:
         value = chart.at(part.function) if isinstance(part, Vanishes) else None
-        if value is None or field is None:
-            left.append(part)
-        elif isinstance(value, FunctionPoly):
+        if isinstance(value, FunctionPoly):
             factors = irreducible_factors(value) if value else []
-            left += [over_all(either(*map(Vanishes, factors)), field)] if factors else []
-        elif value:
+            if factors:
+                left.append(over_all(either(*map(Vanishes, factors)), field))
+        elif value is None or value:
             left.append(part)
-    return both(*left) if len(left) > 1 else left[0] if left else other
+    if not left:
+        return other
+    return both(*left) if len(left) > 1 else left[0]
 
 
 def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
@@ -121,11 +125,12 @@ def _joined(cases: Iterable[Case]) -> list[Case]:
 
 def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:
     """Can the two be said in one sentence?  Both have simple statements of the same kind, and the same group."""
-    kinds = {type(part) for region in (first, second) for part in _alternatives(region.statement)}
-    is_simple = len(kinds) == 1 and kinds <= {Vanishes, Congruence}
-    return (
-        is_simple and first.plain and second.plain and first.verdict == second.verdict and first.group == second.group
-    )
+    statements = [*_alternatives(first.statement), *_alternatives(second.statement)]
+    kinds = {type(statement) for statement in statements}
+    if len(kinds) > 1 or not kinds <= {Vanishes, Congruence}:
+        return False
+    is_same = first.verdict == second.verdict and first.group == second.group
+    return is_same and first.plain and second.plain
 
 
 def _alternatives(statement: Statement) -> Sequence[Statement]:
@@ -159,11 +164,13 @@ def _within(statement: Statement, charts: list[ParameterPoint]) -> list[Paramete
         for part in statement.parts:
             charts = _within(part, charts)
         return charts
-    if isinstance(statement, Either):
-        return [
-            zeros for chart in charts for zeros in _union((_within(part, [chart]) for part in statement.parts), chart)
-        ]
-    return [zeros for chart in charts for zeros in _on_chart(statement, chart)]
+    found: list[ParameterPoint] = []
+    for chart in charts:
+        if isinstance(statement, Either):
+            found += _union((_within(part, [chart]) for part in statement.parts), chart)
+        else:
+            found += _on_chart(statement, chart)
+    return found
 
 
 def _on_chart(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:

@@ -73,10 +73,12 @@ def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
 
 def shifted(text: str, value: Poly) -> str:
     """`text - value`: x - 2, x + 1/2, x - (a + b)."""
+    if not value:
+        return text
     amount = shown(over_parameters(value))
     if not re.fullmatch(r"-?[\w/]+", amount):
         return f"{text} - ({amount})"
-    return text if not value else f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
+    return f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
 
 
 def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
@@ -120,21 +122,29 @@ def _in_factors(function: RatFunc, variable: str) -> str:
 def equation_written(function: FunctionPoly) -> str:
     """`function = 0`; it is solved where it is linear, or a power is a product of linear factors; two terms have two sides."""
     above, _, names = _cleared(function, "x")
-    terms, context, left, right = above.to_dict(), above.context(), above, "0"
+    terms = above.to_dict()
+    linear = [exponents for exponents in terms if sum(map(int, exponents)) == 1]
+    constants = [exponents for exponents in terms if not any(exponents)]
+    if linear and len(terms) == len(linear) + len(constants):
+        return _solved_for_a_parameter(above, linear, names)
     power = None if len(terms) < 3 else _power_in_linear_factors(above)
-    linear = {next(i for i, k in enumerate(e) if k): e for e in terms if sum(map(int, e)) == 1}
-    if linear and len(terms) - len(linear) == sum(1 for e in terms if not any(e)):
-        i = next((i for i, e in linear.items() if abs(int(terms[e])) == 1), next(iter(linear)))
-        left, coefficient = context.gen(i), int(terms[linear[i]])
-        values = _forms(left * coefficient - above, context.constant(coefficient))
-        right = min((_sum(form, names) for form in values), key=len)
-    elif power is not None:
-        left, right = power[0], _sum([power[1]], names)
-    elif len(terms) == 2 and sum(1 for c in terms.values() if int(c) < 0) == 1:
-        left, other = (
-            context.from_dict({e: abs(int(c))}) for e, c in sorted(terms.items(), key=lambda t: int(t[1]) < 0)
-        )
-        right = _polynomial(other, names)
+    if power is not None:
+        return f"{_polynomial(power[0], names)} = {_sum([power[1]], names)}"
+    negative = [exponents for exponents, c in terms.items() if int(c) < 0]
+    if len(terms) == 2 and len(negative) == 1:
+        right = above.context().from_dict({e: abs(int(terms[e])) for e in negative})
+        return f"{_polynomial(above + right, names)} = {_polynomial(right, names)}"
+    return f"{_polynomial(above, names)} = 0"
+
+
+def _solved_for_a_parameter(above: Any, linear: Sequence[tuple[int, ...]], names: Sequence[str]) -> str:
+    """A linear equation, solved for the first parameter with the coefficient 1 or -1, or for the first."""
+    terms = above.to_dict()
+    chosen = next((exponents for exponents in linear if abs(int(terms[exponents])) == 1), linear[0])
+    coefficient = int(terms[chosen])
+    left = above.context().from_dict({chosen: 1})
+    values = _forms(left * coefficient - above, above.context().constant(coefficient))
+    right = min((_sum(form, names) for form in values), key=len)
     return f"{_polynomial(left, names)} = {right}"
 
 
@@ -245,11 +255,16 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
     pieces = [digits(number)] if number != 1 else []
     for factor, k in factors:
         if not (factor.is_constant() and factor.is_one()):
-            text = _polynomial(factor, names)
-            if " + " in text or " - " in text or text.startswith("-") or ("*" in text and k > 1):
-                text = f"({text})"
-            pieces.append(text if k == 1 else f"{text}^{k}")
+            pieces.append(_power(_polynomial(factor, names), k))
     if root != 1:
         inside = _polynomial(root, names)
         pieces.append("I" if inside == "-1" else f"sqrt({inside})")
     return pieces
+
+
+def _power(text: str, k: int) -> str:
+    """The k-th power, with parentheses where they are needed in a product."""
+    is_sum = " + " in text or " - " in text or text.startswith("-")
+    if is_sum or (k > 1 and "*" in text):
+        text = f"({text})"
+    return text if k == 1 else f"{text}^{k}"

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain, count
+from itertools import chain, count, product
 from math import ceil, lcm
 from random import Random
 
@@ -55,25 +55,33 @@ class Congruence(Statement):
         A form gets no constant term (in a Laurent series at 0) and coprime coefficients; else the mean of the roots lies in
         (-1, 0] if it is a number, and the classes are symmetric about it if the equation is.
         """
-        Z, classes, modulus = equation.field.poly([0, 1]), {Fraction(r) for r in residues}, Fraction(modulus)
+        Z = equation.field.poly([0, 1])
+        classes = {Fraction(r) for r in residues}
+        modulus = Fraction(modulus)
         if equation.degree == 1:
             form, scale, shift = normal_form(-equation[0] / equation[1])
-            equation, modulus = over_parameters(Z - form), abs(modulus * scale)
+            equation = over_parameters(Z - form)
+            modulus = abs(modulus * scale)
             classes = {(residue - shift) * scale for residue in classes}
-        else:
-            mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
-            if mean is not None:
-                equation = over_parameters(equation(Z + ceil(mean)))
-                classes, twice = {r - ceil(mean) for r in classes}, 2 * (mean - ceil(mean))
-                if twice.denominator == 1 and equation(twice - Z) == (-1) ** equation.degree * equation:
-                    classes |= {twice - r for r in classes}
-        classes = {residue % modulus for residue in classes}
-        for k in range(len(classes), 1, -1):
-            fewer = {residue % (modulus / k) for residue in classes}
-            if len(fewer) * k == len(classes) and (equation.degree == 1 or modulus % k == 0):
-                classes, modulus = fewer, modulus / k
-                break
-        return cls(equation, tuple(sorted(classes)), modulus)
+            return cls._with_least_modulus(equation, classes, modulus)
+        mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
+        if mean is not None:
+            equation = over_parameters(equation(Z + ceil(mean)))
+            classes = {r - ceil(mean) for r in classes}
+            twice = 2 * (mean - ceil(mean))
+            if twice.denominator == 1 and equation(twice - Z) == (-1) ** equation.degree * equation:
+                classes |= {twice - r for r in classes}
+        return cls._with_least_modulus(equation, classes, modulus)
+
+    @classmethod
+    def _with_least_modulus(cls, equation: FunctionPoly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:
+        """k classes modulo m may be one modulo m/k, which is an integer where the numbers are integers."""
+        known = {residue % modulus for residue in classes}
+        for k in range(len(known), 1, -1):
+            fewer = {residue % (modulus / k) for residue in known}
+            if len(fewer) * k == len(known) and (equation.degree == 1 or modulus % k == 0):
+                return cls(equation, tuple(sorted(fewer)), modulus / k)
+        return cls(equation, tuple(sorted(known)), modulus)
 
     @property
     def form(self) -> FunctionPoly | None:
@@ -86,7 +94,8 @@ class Congruence(Statement):
         return [Coset(residue, self.modulus) for residue in self.residues]
 
     def _holds(self, point: ParameterPoint) -> bool:
-        return any(coset.contains(N) for N in rational_roots(point.at(self.equation)) for coset in self.cosets)
+        roots = rational_roots(point.at(self.equation))
+        return any(coset.contains(N) for coset, N in product(self.cosets, roots))
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         made = Congruence.make(change(self.equation), self.residues, self.modulus)
@@ -97,17 +106,24 @@ class Congruence(Statement):
         return [over_parameters(self.equation(N))]
 
     def merged(self, other: Statement) -> Congruence | None:
-        relation = self._relation(other.equation) if isinstance(other, Congruence) else None
-        if relation is None or not isinstance(other, Congruence):
+        if not isinstance(other, Congruence):
+            return None
+        relation = self._relation(other.equation)
+        if relation is None:
             return None
         sign, shift = relation
         common = common_multiple(self.modulus, other.modulus)
-        numbers = [r + k * self.modulus for r in self.residues for k in range(int(common / self.modulus))]
-        numbers += [
-            sign * (r + k * other.modulus) + shift for r in other.residues for k in range(int(common / other.modulus))
-        ]
+        numbers = self._numbers_below(common)
+        numbers += [sign * number + shift for number in other._numbers_below(common)]
         made = Congruence.make(self.equation, numbers, common)
         return replace(made, letter=self.letter, fixed=self.fixed)
+
+    def _numbers_below(self, multiple: Fraction) -> list[Fraction]:
+        """The classes for a multiple of the modulus."""
+        found: list[Fraction] = []
+        for residue in self.residues:
+            found += [residue + k * self.modulus for k in range(int(multiple / self.modulus))]
+        return found
 
     def _relation(self, other: FunctionPoly) -> tuple[int, int] | None:
         """`(sign, shift)` where each root N of the other equation is one, sign N + shift, of this one."""
@@ -127,8 +143,12 @@ class Congruence(Statement):
     def decided(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
             return assumptions.meets_classes(self.form, self.cosets)
-        roots = [-f[0] for f, _ in self.equation.field.factor(self.equation) if f.degree == 1] if assumptions else []
-        return True if any(assumptions.meets_classes(over_parameters(root), self.cosets) for root in roots) else None
+        if not assumptions:
+            return None
+        for factor, _ in self.equation.field.factor(self.equation):
+            if factor.degree == 1 and assumptions.meets_classes(over_parameters(-factor[0]), self.cosets):
+                return True
+        return None
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""
@@ -147,20 +167,29 @@ class Congruence(Statement):
 
     @cached_property
     def written(self) -> str:
-        n, form, (first, *others), modulus = Notation(self.letter, self.fixed), self.form, self.residues, self.modulus
-        if form is None:
-            return integer_condition(self.equation, [*map(int, self.residues)], int(modulus), n)
-        if not others and modulus == 1:
-            return f"`{n.function(form)}{f' - {first}' if first else ''} in Z`"
-        if not others and not first and modulus.numerator == 1:
+        n = Notation(self.letter, self.fixed)
+        if self.form is None:
+            return integer_condition(self.equation, [*map(int, self.residues)], int(self.modulus), n)
+        if len(self.residues) == 1:
+            return self._one_class(self.form, n)
+        return f"`{n.function(self.form)} = {', '.join(map(str, self.residues))} mod {self.modulus}`"
+
+    def _one_class(self, form: FunctionPoly, n: Notation) -> str:
+        """That a form is congruent to one number."""
+        (residue,) = self.residues
+        modulus = self.modulus
+        if modulus == 1:
+            shift = f" - {residue}" if residue else ""
+            return f"`{n.function(form)}{shift} in Z`"
+        if not residue and modulus.numerator == 1:
             return f"`{n.function(form * modulus.denominator)} in Z`"
-        if not others and modulus == 2 and first.denominator == 1:
+        if modulus == 2 and residue.denominator == 1:
             return f"`{n.function(form)}` is {kind(self.residues, modulus)}"
-        scale = lcm(first.denominator, modulus.denominator)
+        scale = lcm(residue.denominator, modulus.denominator)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
-        if not others and sum(map(bool, degrees(equation))) > 1 and families(equation):
-            return integer_condition(equation, [int(first * scale)], int(modulus * scale), Notation(self.letter))
-        return f"`{n.function(form)} = {', '.join(map(str, self.residues))} mod {modulus}`"
+        if sum(map(bool, degrees(equation))) > 1 and families(equation):
+            return integer_condition(equation, [int(residue * scale)], int(modulus * scale), Notation(self.letter))
+        return f"`{n.function(form)} = {residue} mod {modulus}`"
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:

@@ -126,11 +126,11 @@ def together(regions: Sequence[ParameterRegion]) -> bool | str:
 
 
 def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
-    regions, findings = list[ParameterRegion](), Findings("polynomial conditions")
+    regions: list[ParameterRegion] = []
+    findings = Findings("polynomial conditions")
     complete: bool | str = True
     try:
         regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
-        known = {r.statement.function for r in regions if isinstance(r.statement, Vanishes)}
         findings = search(problem)
         if expected.structure is Structure.IMPRIMITIVE:
             findings.candidates += _discriminants(problem, settings)
@@ -138,29 +138,53 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
             findings.unproven.append("smaller groups than the generic one")
         if findings.unproven:
             complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
-        for function in dict.fromkeys(findings.candidates):
-            if function not in known:
-                settings.budget.check()
-                found = _pieces(problem.S, function, settings)
-                if any(not r.verdict.known or r.case != expected.case or r.complete is not True for r in found):
-                    regions += found
+        _add_special(regions, findings.candidates, problem, expected, settings)
     except LimitExceeded as limit:
         complete = as_far_as(limit)
+    _add_natural(regions, findings, problem, expected, settings)
+    return Partition(expected, together(regions) if complete is True else complete, findings.theory, tuple(regions))
+
+
+def _add_special(
+    regions: list[ParameterRegion],
+    candidates: Sequence[FunctionPoly],
+    problem: Problem,
+    expected: RegionVerdict,
+    settings: Settings,
+) -> None:
+    """The regions where a candidate vanishes, if something there is other than expected, or isn't known."""
+    known = {r.statement.function for r in regions if isinstance(r.statement, Vanishes)}
+    for function in dict.fromkeys(candidates):
+        if function in known:
+            continue
+        settings.budget.check()
+        found = _pieces(problem.S, function, settings)
+        if not all(_is_as_expected(region, expected) for region in found):
+            regions += found
+
+
+def _is_as_expected(region: ParameterRegion, expected: RegionVerdict) -> bool:
+    return region.verdict.known and region.case == expected.case and region.complete is True
+
+
+def _add_natural(
+    regions: list[ParameterRegion], findings: Findings, problem: Problem, expected: RegionVerdict, settings: Settings
+) -> None:
+    """The regions with a natural number; those of four half-integers before the first that isn't reducible."""
     half_integers = all_half_integers(problem)
     for statement in findings.natural:
         structure = statement.structure
-        if structure is not Structure.REDUCIBLE and half_integers != NEVER and expected.structure is None:
+        is_reducible = structure is Structure.REDUCIBLE
+        if half_integers != NEVER and expected.structure is None and not is_reducible:
             regions.append(ParameterRegion(half_integers, RegionVerdict(Structure.IMPRIMITIVE)))
             findings.theory += "; half-integers: Treibich & Verdier"
             half_integers = NEVER
-        if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
+        is_smaller = expected.structure is None or is_reducible
+        if structure is not expected.structure and is_smaller:
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
-            verdict, origin = (
-                RegionVerdict(structure, family=primitive),
-                partial(statement.solutions, settings.variable),
-            )
+            verdict = RegionVerdict(structure, family=primitive)
+            origin = partial(statement.solutions, settings.variable)
             regions.append(ParameterRegion(statement, verdict, origin=origin))
-    return Partition(expected, together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:

@@ -103,10 +103,7 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
 def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> RankConditions:
     rows, eliminated = without_constant_pivots([*map(_column, images)])
     rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
-    # The rank at a random point is a lower bound, and the generic rank but for a probability of about 1/_PRIME.
-    p, point = _random_point(field, surface)
-    entries = [int(entry(0, *point)) % p for row in rows for entry in row]
-    rank = int(nmod_mat(len(rows), len(rows[0]), entries, p).rank()) if rows else 0
+    rank = _generic_rank(rows, field, surface)
     deficient = eliminated + rank < len(images)
     if rank == 0:
         return RankConditions(deficient=deficient)
@@ -121,6 +118,17 @@ def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface 
     if surface is not None:
         return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
     return _common_zeros(field, minors, deficient)
+
+
+def _generic_rank(rows: Sequence[Sequence[Any]], field: FunctionField, surface: _Surface | None) -> int:
+    """The rank at a random point: a lower bound, and the generic rank but for a probability of about 1/_PRIME."""
+    if not rows:
+        return 0
+    p, point = _random_point(field, surface)
+    entries: list[int] = []
+    for row in rows:
+        entries += [int(entry(0, *point)) % p for entry in row]
+    return int(nmod_mat(len(rows), len(rows[0]), entries, p).rank())
 
 
 @dataclass(frozen=True)
@@ -147,6 +155,14 @@ class _Surface:
             total = total + over_parameters(part).value_at(values[:-1], self.field) * values[-1] ** power
         return over_parameters(total)
 
+    def values_of_last(self, others: Sequence[int], p: int) -> list[int]:
+        """The values modulo p of the algebraic parameter, where the others have these."""
+        parts = by_power(self.equation, len(others) + 1)
+        coefficients = [0] * (max(parts) + 1)
+        for k, part in parts.items():
+            coefficients[k] = int(part(0, *others, 1)) % p
+        return [int(root) for root, _ in nmod_poly(coefficients, p).roots()]
+
 
 def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, list[int]]:
     """A prime, and values of the parameters modulo the prime, on the surface if there is one."""
@@ -156,11 +172,9 @@ def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, 
         point = [random.randrange(p) for _ in field.names]
         if surface is None:
             return p, point
-        columns = by_power(surface.equation, len(point))
-        values = [int(columns[k](0, *point[:-1], 1)) % p if k in columns else 0 for k in range(max(columns) + 1)]
-        roots = nmod_poly(values, p).roots()
-        if roots:
-            return p, [*point[:-1], int(roots[0][0])]
+        last = surface.values_of_last(point[:-1], p)
+        if last:
+            return p, [*point[:-1], last[0]]
     raise AssertionError("the sequence of primes is infinite")
 
 
@@ -209,21 +223,42 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[An
     among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
     so that this is the elimination of its coefficients by their recurrence.
     """
-    used = sorted({i for column in columns for i in column})
-    rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in used]
-    while True:
-        weights = Counter(k for row in rows for k in row)
-        places = (
-            (len(row) * weights[k], i, k) for i, row in enumerate(rows) for k, e in row.items() if e.is_constant()
-        )
-        best = min(places, default=None)
-        if best is None:
-            break
-        chosen = rows.pop(best[1])
-        rows = [_cleared(row, best[2], chosen) if best[2] in row else row for row in rows]
-    zero = next((0 * entry for row in rows for entry in row.values()), 0)
-    left = sorted({k for row in rows for k in row})
-    return [[row.get(k, zero) for k in left] for row in rows if row], len(used) - len(rows)
+    rows = _rows_of(columns)
+    rank = 0
+    pivot = _constant_entry(rows)
+    while pivot is not None:
+        i, k = pivot
+        chosen = rows.pop(i)
+        rows = [_cleared(row, k, chosen) if k in row else row for row in rows]
+        rank += 1
+        pivot = _constant_entry(rows)
+    rows = [row for row in rows if row]
+    left = sorted(set().union(*rows))
+    zero = 0 * next(iter(rows[0].values())) if rows else 0
+    return [[row.get(k, zero) for k in left] for row in rows], rank
+
+
+def _rows_of(columns: Sequence[dict[int, Any]]) -> list[dict[int, Any]]:
+    """The entries that aren't zero, by rows, without rows that have none."""
+    rows: dict[int, dict[int, Any]] = {}
+    for k, column in enumerate(columns):
+        for i, entry in column.items():
+            row = rows.setdefault(i, {})
+            if entry:
+                row[k] = entry
+    return [rows[i] for i in sorted(rows)]
+
+
+def _constant_entry(rows: Sequence[dict[int, Any]]) -> tuple[int, int] | None:
+    """Row and column of the constant entry with the fewest others in its row times those in its column; None without any."""
+    weights = Counter(k for row in rows for k in row)
+    best: tuple[int, int, int] | None = None
+    for i, row in enumerate(rows):
+        for k, entry in row.items():
+            place = (len(row) * weights[k], i, k)
+            if entry.is_constant() and (best is None or place < best):
+                best = place
+    return None if best is None else best[1:]
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import count
+from itertools import chain, count
 from math import gcd
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
@@ -181,26 +181,40 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
 
     T is a monomial in u and v, which isn't defined at u = v = 0.
     """
-    names, terms = function.field.names, function.num.to_dict()
-    powers = [(k, int(n), int(c)) for e, c in terms.items() for k, n in enumerate(e[1:]) if n]
-    if [sum(map(bool, e)) for e in terms] != [1, 1]:
+    names = function.field.names
+    powers = _powers_of_parameters(function)
+    if powers is None or len(powers) != 2:
         return None
     (i, p, A), (j, q, B) = powers
     if i == j or min(p, q) < 2 or gcd(p, q) > 1:
         return None
-    name = next(t for k in count() if (t := f"T{k or ''}") not in names)
+    letters = chain(["T"], map("T{}".format, count(1)))
+    name = next(letter for letter in letters if letter not in names)
     field = FunctionField((*(n for k, n in enumerate(names) if k not in (i, j)), name))
-    T, s = field.generator(name), pow(p, -1, q)
+    T = field.generator(name)
+    s = pow(p, -1, q)
     r = -s % q
     # A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q).
     alpha = Fraction(A) ** r * Fraction(-B) ** s
     beta = Fraction(A) ** ((1 + r * p) // q) * Fraction(-B) ** ((s * p - 1) // q)
     values: list[Poly] = [field.generator(n) if n in field.names else T for n in names]
-    values[i], values[j] = T**q * alpha, T**p * beta
+    values[i] = T**q * alpha
+    values[j] = T**p * beta
     u, v = (function.field.generator(names[k]) for k in (i, j))
     a = pow(q, -1, p)
     parameter = (u / alpha) ** a / (v / beta) ** ((a * q - 1) // p)
     return Hypersurface(names, tuple(values), field, (T,), (u if i < j else v,), (name, parameter))
+
+
+def _powers_of_parameters(function: FunctionPoly) -> list[tuple[int, int, int]] | None:
+    """(k, n, c) for each term c t_k^n; None where a term isn't a power of one parameter."""
+    found = []
+    for exponents, coefficient in function.num.to_dict().items():
+        powers = [(k, int(n)) for k, n in enumerate(exponents[1:]) if n]
+        if exponents[0] or len(powers) != 1:
+            return None
+        found.append((*powers[0], int(coefficient)))
+    return found
 
 
 def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, ParameterPoint]:

@@ -53,11 +53,12 @@ class Notation:
 
 def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[str, RatFunc]]:
     """`(name, f)` where a polynomial in N over Q(t) vanishes exactly if a parameter, not a `fixed` one, is f(N)."""
-    linear = [
-        (i, name) for i, name in enumerate(equation.field.names) if degrees(equation)[i] == 1 and name not in fixed
-    ]
-    parts = [(name, powers_of(equation, i)) for i, name in linear]
-    return [(name, -RatFunc(part.get(0, 0 * part[1]), part[1])) for name, part in parts]
+    found = []
+    for i, name in enumerate(equation.field.names):
+        if degrees(equation)[i] == 1 and name not in fixed:
+            parts = powers_of(equation, i)
+            found.append((name, -RatFunc(parts.get(0, 0 * parts[1]), parts[1])))
+    return found
 
 
 def equation_text(equation: FunctionPoly, n: Notation) -> str:
@@ -72,31 +73,40 @@ def equation_text(equation: FunctionPoly, n: Notation) -> str:
 def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
     """That one of the equations holds: `b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
     functions: dict[str, list[RatFunc]] = {}
-    others: list[str] = []
+    said: list[str] = []
     for equation in equations:
         family = families(equation, n.fixed) if any(degrees(equation)) else []
         if family:
-            functions.setdefault(family[0][0], []).append(family[0][1])
+            name, function = family[0]
+            functions.setdefault(name, []).append(function)
         else:
-            others.append(equation_text(equation, n))
-    for name, known in functions.items():
-        what, total = name, _sum_in_pairs(known)
-        if total:
-            what += f"` or `{n.function(over_parameters(total - total.field.generator(name)))}"
-            pairs = [sorted((f, RatFunc(total) - f), key=str) for f in known]
-            known = [*dict.fromkeys(min(pair, key=lambda f: _is_negative(n, f)) for pair in pairs)]
-        texts = _with_signs(known, n)
-        listed = texts if len(texts) < 3 else [", ".join(texts[:-1]), texts[-1]]
-        others.append(f"`{what} = {'` or `'.join(listed)}`")
-    return " or ".join(others)
+            said.append(equation_text(equation, n))
+    said += [_one_of(name, known, n) for name, known in functions.items()]
+    return " or ".join(said)
+
+
+def _one_of(name: str, functions: Sequence[RatFunc], n: Notation) -> str:
+    """That a parameter is one of the functions; or that it or c minus it is, where these come in pairs with the sum c."""
+    what = name
+    total = _sum_in_pairs(functions)
+    if total:
+        what += f"` or `{n.function(over_parameters(total - total.field.generator(name)))}"
+        pairs = [sorted((f, RatFunc(total) - f), key=str) for f in functions]
+        functions = [*dict.fromkeys(min(pair, key=lambda f: _is_negative(n, f)) for pair in pairs)]
+    texts = _with_signs(functions, n)
+    if len(texts) > 2:
+        texts = [", ".join(texts[:-1]), texts[-1]]
+    return f"`{what} = {'` or `'.join(texts)}`"
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
     """A constant, not 0, of which each function has another one that makes it up; None where there isn't one, or two pairs."""
-    for total in [functions[0] + other for other in functions[1:]] if len(functions) > 3 else ():
-        if not total or total.num.degree or total.den.degree or total.field.rational_value(total.num) is None:
-            continue
-        if all(total - f in functions and 2 * f != total for f in functions):
+    if len(functions) < 4:
+        return None
+    for other in functions[1:]:
+        total = functions[0] + other
+        is_number = not total.num.degree and not total.den.degree and total.field.rational_value(total.num) is not None
+        if total and is_number and all(total - f in functions and 2 * f != total for f in functions):
             return over_parameters(total.num)
     return None
 
@@ -123,8 +133,10 @@ def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: st
     name = f" `{letter}`" if letter else ""
     if modulus == 1 and not any(residues):
         return f"an integer{name}"
-    if modulus == 2 and list(residues) in ([0], [1]):
-        return f"an {'odd' if residues[0] else 'even'} integer{name}"
+    if modulus == 2 and list(residues) == [0]:
+        return f"an even integer{name}"
+    if modulus == 2 and list(residues) == [1]:
+        return f"an odd integer{name}"
     if len(residues) > 1 and list(residues) == list(range(1, int(modulus))):
         return f"an integer{name} not divisible by {modulus}"
     equation = f"{letter} = {', '.join(map(str, residues))} mod {modulus}"
@@ -151,63 +163,87 @@ def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: 
 def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str | None:
     """`name = f(n)` and what is said of n, by the shortest of the ways to choose n; None where no parameter is linear."""
     known = families(equation, n.fixed)
-    choices: list[tuple[int, str, RatFunc, str, Possible]] = []
-    for k, (name, f) in enumerate([pair for pair in known if pair[0] == ENERGY] or known):
-        for g, what, possible in _choices(equation, f, residues, modulus, n):
-            length = _LATER * k + _WEIGHT * len(n.function(g)) + len(text_of(what))
-            choices.append((length, name, g, what, possible))
-    if not choices:
+    energies = [(name, f) for name, f in known if name == ENERGY]
+    best: tuple[str, _Choice] | None = None
+    shortest = 0
+    for k, (name, f) in enumerate(energies or known):
+        for choice in _choices(equation, f, residues, modulus, n):
+            length = _LATER * k + _WEIGHT * len(n.function(choice.f)) + len(text_of(choice.what))
+            if best is None or length < shortest:
+                best = (name, choice)
+                shortest = length
+    if best is None:
         return None
-    _, name, f, what, possible = min(choices, key=lambda choice: choice[0])
-    # What the statement says for a possible n at which f isn't defined: that its numerator vanishes there.
+    name, choice = best
+    notes = _notes_at_poles(choice, n)
+    note = f" ({', '.join(notes)})" if notes else ""
+    return f"{n.equals(name, choice.f)}{note}{choice.what}"
+
+
+def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
+    """What the statement says for a possible n at which f isn't defined: that its numerator vanishes there."""
+    f = choice.f
     notes: list[str] = []
     for factor, _ in f.field.factor(f.den) if f.den.degree else ():
         root = f.field.rational_value(-factor[0]) if factor.degree == 1 else None
-        value = None if root is None or not possible(root) else over_parameters(f.num(root))
-        zeros = [] if value is None else [n.function(zero) for zero in irreducible_factors(value)]
+        if root is None or not choice.is_possible(root):
+            continue
+        zeros = [n.function(zero) for zero in irreducible_factors(over_parameters(f.num(root)))]
         if zeros:
             zero = zeros[0] if len(zeros) == 1 else f"({')*('.join(zeros)})"
             notes.append(f"`{zero} = 0` where `{n.letter} = {root}`")
-    note = f" ({', '.join(notes)})" if notes else ""
-    return f"{n.equals(name, f)}{note}{what}"
+    return notes
+
+
+@dataclass(frozen=True)
+class _Choice:
+    """A parameter is f(n); what is said of n; and for which rational numbers n that is possible."""
+
+    f: RatFunc
+    what: str
+    is_possible: Possible
+
+
+def _is_integer(n: Fraction) -> bool:
+    return n.denominator == 1
 
 
 def _choices(
     equation: FunctionPoly, f: RatFunc, residues: Sequence[int], modulus: int, n: Notation
-) -> Iterator[tuple[RatFunc, str, Possible]]:
-    """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters.
-
-    Each with what is said of n, and for which rational numbers n that is possible.
-    """
+) -> Iterator[_Choice]:
+    """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters."""
     N = equation.field.poly([0, 1])
     mirrored = equation(-N) == (-1) ** equation.degree * equation
     single = len(residues) == 1 or (mirrored and {*residues} == {residues[0], -residues[0] % modulus})
     if equation.degree > 1 or not single:
-        yield (
-            f,
-            f" for {kind(residues, modulus, n.letter)}",
-            lambda n: n.denominator == 1 and int(n) % modulus in residues,
-        )
+        what = f" for {kind(residues, modulus, n.letter)}"
+        yield _Choice(f, what, lambda n: _is_integer(n) and int(n) % modulus in residues)
     if single and (modulus < 3 or not mirrored):
         signs, shifts = ((1, -1), (0, -1, 1)) if modulus == 1 else ((1,), (0, -1))
         for sign, shift in product(signs, shifts):
             chosen = RatFunc(N * (sign * modulus) + residues[0] + modulus * shift)
-            yield f(chosen), f" for an integer `{n.letter}`", lambda n: n.denominator == 1
+            yield _Choice(f(chosen), f" for an integer `{n.letter}`", _is_integer)
     center = _center(equation, f)
     if center is None:
         return
     u = over_parameters((center - residues[0]) / modulus)
     if single:
-        # n + u is an integer; where only n^2 matters: n + u or n - u - 1 is a natural number
-        centered, constant = f(RatFunc(N * modulus + center)), constant_term(u)
-        forms = [n.function(N + u - constant), n.function(N - u + constant - 1)]
-        integers = f"`{forms[0]}{f' - {-constant % 1}' if constant.denominator > 1 else ''} in Z`"
-        if constant.denominator == 1 and centered(RatFunc(-N)) == centered:
-            integers = f"`{'` or `'.join(forms)} in N`"
-        yield centered, f", {integers}", lambda n: True
+        yield _centered(f(RatFunc(N * modulus + center)), u, n)
     if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
         form = over_parameters(N + center)
-        yield f(RatFunc(form)), f", `{n.function(form)}` is {kind(residues, modulus)}", lambda n: True
+        yield _Choice(f(RatFunc(form)), f", `{n.function(form)}` is {kind(residues, modulus)}", lambda n: True)
+
+
+def _centered(f: RatFunc, u: FunctionPoly, n: Notation) -> _Choice:
+    """n + u is an integer; where only n^2 matters: n + u or n - u - 1 is a natural number."""
+    N = f.field.poly([0, 1])
+    constant = constant_term(u)
+    plus = n.function(N + u - constant)
+    if constant.denominator == 1 and f(RatFunc(-N)) == f:
+        minus = n.function(N - u + constant - 1)
+        return _Choice(f, f", `{plus}` or `{minus} in N`", lambda n: True)
+    shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
+    return _Choice(f, f", `{plus}{shift} in Z`", lambda n: True)
 
 
 def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:

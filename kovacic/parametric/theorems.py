@@ -100,11 +100,23 @@ def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Po
             continue
         center = -points[points.degree - 1] / (points.lc * points.degree)
         square = (moved(x + center) if center else moved) * x * x
-        n = gcd(*(i for part in (square.num, square.den) for i, c in enumerate(part) if c))
-        weight = "1" if pole is None else shifted(variable, pole)
-        base = shifted(variable if pole is None else f"1/({weight})" if pole else f"1/{variable}", center)
+        n = gcd(*_exponents(square.num), *_exponents(square.den))
         num, den = (field.poly([f[i] for i in range(0, f.degree + 1, n or 1)]) for f in (square.num, square.den))
-        yield Coordinate(base, n, weight), num, den
+        yield _coordinate(pole, center, n, variable), num, den
+
+
+def _exponents(f: Poly) -> list[int]:
+    """Of the powers that occur."""
+    return [i for i, coefficient in enumerate(f) if coefficient]
+
+
+def _coordinate(pole: Poly | None, center: Poly, n: int, variable: str) -> Coordinate:
+    """How s = x - center is written, or 1/(x - pole) - center."""
+    if pole is None:
+        return Coordinate(shifted(variable, center), n, "1")
+    weight = shifted(variable, pole)
+    inverse = f"1/({weight})" if pole else f"1/{variable}"
+    return Coordinate(shifted(inverse, center), n, weight)
 
 
 def kimura(problem: Problem, variable: str) -> Theorem | None:
