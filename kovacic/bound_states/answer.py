@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -135,9 +135,21 @@ class Spectrum:
         [-25/4, -9/4, -1/4]
         """
         count = whole(count, "count")
-        given = {
-            str(name): read_expression(exact_text(v, "the value of a parameter")) for name, v in (values or {}).items()
-        }
+        at = self._symbols_at(values or {})
+        for relation in self.excluded:
+            if _is_true(relation, at):
+                raise InputError("both solutions are square integrable at an end", hint='boundary="friedrichs"')
+        found: dict[Any, State] = {}
+        for levels in self.levels:
+            for state in _states_of(levels, at, count):
+                found.setdefault(state.energy, state)
+        for one in self.algebraic:
+            found.update((state.energy, state) for state in one.states)
+        return tuple(sorted(found.values(), key=lambda state: state.energy))
+
+    def _symbols_at(self, values: Mapping[Any, Any]) -> dict[Any, Any]:
+        """The values by symbols.  Raises `InputError` where one is missing, unknown, not real or not admitted."""
+        given = {str(name): read_expression(exact_text(v, "the value of a parameter")) for name, v in values.items()}
         if {*given} != {*self.parameters}:
             missing = ", ".join(name for name in self.parameters if name not in given) or "none"
             unknown = ", ".join(name for name in given if name not in self.parameters) or "none"
@@ -147,24 +159,7 @@ class Spectrum:
                 raise InputError(f"{name} = {_text(value)} isn't a real number")
             if not _is_admitted(self.assumptions.of(name), value):
                 raise InputError(f"{name} = {_text(value)} contradicts the assumption: {self.assumptions}")
-        at = {sympy.Symbol(name): value for name, value in given.items()}
-        for relation in self.excluded:
-            if _is_true(relation, at):
-                raise InputError("both solutions are square integrable at an end", hint='boundary="friedrichs"')
-        found: dict[Any, State] = {}
-        for levels in self.levels:
-            for n in range(count):
-                here = {**at, levels.number: sympy.Integer(n)}
-                if not all(_is_true(c, here) for c in levels.conditions):
-                    if levels.above:
-                        break
-                    continue
-                energy = sympy.simplify(levels.energy.subs(here))
-                wave = levels.wave.subs(here).doit()
-                found.setdefault(energy, State(n, energy, wave, int(levels.zeros.subs(here))))
-        for one in self.algebraic:
-            found.update((state.energy, state) for state in one.states)
-        return tuple(sorted(found.values(), key=lambda state: state.energy))
+        return {sympy.Symbol(name): value for name, value in given.items()}
 
     def text(self) -> str:
         """In lines, as the command prints it."""
@@ -270,6 +265,17 @@ def _is_admitted(known: Known, value: Any) -> bool:
     if known.coset is not None:
         return bool(value.is_Rational) and known.coset.contains(Fraction(int(value.p), int(value.q)))
     return not (known.nonzero and value.is_zero)
+
+
+def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[State]:
+    """Those of the numbers 0, ..., count - 1 that exist where the parameters have these values."""
+    for n in range(count):
+        here = {**at, levels.number: sympy.Integer(n)}
+        if all(_is_true(condition, here) for condition in levels.conditions):
+            energy = sympy.simplify(levels.energy.subs(here))
+            yield State(n, energy, levels.wave.subs(here).doit(), int(levels.zeros.subs(here)))
+        elif levels.above:
+            return
 
 
 def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:

@@ -168,7 +168,31 @@ def _question(
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=f'boundary="{FRIEDRICHS}", or none')
     if not isinstance(energy, str) or not energy.isidentifier():
         raise InputError(f"{energy!r} can't be the name of the energy")
-    name = str(var) if var is not None else "x"
+    name = "x" if var is None else str(var)
+    expression, S = _potential(V, energy)
+    if len(domain) != 2 or isinstance(domain, str):
+        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    parsed = read_input(S, var=name, limits=limits, exponentials=True)
+    S, parsed, assume = with_values(S, parsed, assume, limits)
+    names = parameters_of(parsed.S.field)
+    ends = [_end(value) for value in domain]
+    others = sorted({s.name for end in ends for s in end.free_symbols} - {*names})
+    if others:
+        raise InputError(f"{', '.join(others)} in the domain isn't a parameter of the potential")
+    known = read_assumptions(assume, V, names)
+    for constant in _constants(expression, names):
+        known = known.also(constant, ("irrational", "positive"))
+    signs = Signs(known, names)
+    if isinstance(S, str):
+        expression = read_expression(S[: S.rindex(" - ")])
+    first, last = map(signs.real, ends)
+    if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
+        raise InputError(f"the domain is empty: {first} isn't below {last}")
+    return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS)
+
+
+def _potential(V: Any, energy: str) -> tuple[Any, Any]:
+    """V as an expression, and V - E as it is read: text where V is.  Raises `InputError` for what isn't a real potential."""
     if isinstance(V, str):
         expression = read_expression(V, what="the potential")
         S: Any = f"({V}) - {energy}"
@@ -179,24 +203,7 @@ def _question(
         raise InputError(f"the potential contains {energy}, the energy", hint="energy= gives it another name")
     if expression.has(sympy.I):
         raise InputError("the potential isn't real")
-    if len(domain) != 2 or isinstance(domain, str):
-        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-    parsed = read_input(S, var=name, limits=limits, exponentials=True)
-    S, parsed, assume = with_values(S, parsed, assume, limits)
-    ends = [_end(value) for value in domain]
-    names = parameters_of(parsed.S.field)
-    others = sorted({s.name for end in ends for s in end.free_symbols} - {*names})
-    if others:
-        raise InputError(f"{', '.join(others)} in the domain isn't a parameter of the potential")
-    known = read_assumptions(assume, V, names)
-    for name in _constants(expression, names):
-        known = known.also(name, ("irrational", "positive"))
-    signs = Signs(known, names)
-    expression = read_expression(S[: S.rindex(" - ")]) if isinstance(S, str) else expression
-    first, last = map(signs.real, ends)
-    if signs.is_nonnegative(first - last) or first in (sympy.oo,) or last == -sympy.oo:
-        raise InputError(f"the domain is empty: {first} isn't below {last}")
-    return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS)
+    return expression, S
 
 
 def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:
@@ -213,22 +220,16 @@ def _end(value: Any) -> Any:
 
 def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
     ends = _ends(question)
-    excluded = (
-        [] if question.friedrichs else [end.circle for end in ends if question.signs.holds(end.circle) is not False]
-    )
-    excluded += [end.circle for end in ends if question.friedrichs and end.oscillates and end.circle is not False]
-    excluded = [sympy.true if question.signs.holds(c) else c for c in dict.fromkeys(map(sympy.sympify, excluded))]
-    excluded = [*dict.fromkeys(c if c == sympy.true else tidied([c], question.signs)[0] for c in excluded)]
+    excluded = _excluded(question, ends)
     if sympy.true in excluded:
-        hint = (
-            f'boundary="{FRIEDRICHS}" chooses the smaller solution'
-            if not any(e.oscillates for e in ends)
-            else "none is distinguished"
-        )
+        hint = "none is distinguished"
+        if not any(end.oscillates for end in ends):
+            hint = f'boundary="{FRIEDRICHS}" chooses the smaller solution'
         return _spectrum(question, ends, excluded=(sympy.true,), reason=hint)
-    silent = next((end for end in ends if end.oscillates and end.circle is False), None)
-    if silent is not None:
-        return _spectrum(question, ends, complete=True, reason=f"no solution is square integrable at {silent.at}")
+    for end in ends:
+        if end.oscillates and end.circle is False:
+            reason = f"no solution is square integrable at {end.at}"
+            return _spectrum(question, ends, complete=True, reason=reason)
     try:
         families, name = _families(question, budget)
     except Uncovered as uncovered:
@@ -237,6 +238,22 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
     levels = _merged([_levels(question, family) for family in families])
     reason = f"{name}: {_PROOF}"
     return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
+
+
+def _excluded(question: Question, ends: list[End]) -> list[Any]:
+    """Where both solutions are square integrable at an end and none of them is chosen; true where that is always so."""
+    signs = question.signs
+    found: dict[Any, None] = {}
+    for end in ends:
+        is_chosen = question.friedrichs and not end.oscillates
+        if is_chosen or end.circle is False or signs.holds(end.circle) is False:
+            continue
+        circle = sympy.sympify(end.circle)
+        if signs.holds(circle):
+            found[sympy.true] = None
+        else:
+            found[tidied([circle], signs)[0]] = None
+    return [*found]
 
 
 def _transformed(

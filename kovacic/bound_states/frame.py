@@ -12,7 +12,7 @@ At z = oo the coordinate is 1/z, and the sum of all mu is 4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -209,30 +209,16 @@ def frames(
 def _frame(
     original: Original, base: Any, m: int, problem: Problem, variable: str, domain: tuple[Any, Any], signs: Signs
 ) -> Frame:
-    t, s, Z = sympy.Symbol(variable), sympy.Dummy("s"), sympy.Dummy("Z")
+    t = sympy.Symbol(variable)
+    s = sympy.Dummy("s")
+    Z = sympy.Dummy("Z")
     back = sympy.solve(base - s, t)[0]
     slope = m**2 * s ** (2 * m - 2) * (sympy.diff(base, t) ** 2 * SLOPES[original.kind](t)).xreplace({t: back})
     constant, powers = _powers(sympy.factor(slope * original.rate**2), s, m)
     fold = _fold(original, base, m, t, domain, signs)
     half = domain if fold is None else (fold, domain[1])
-    at = {
-        role: _value(base, t, original.at(end, signs)) ** m for role, end in zip(("left", "right"), half, strict=True)
-    }
-    if fold is not None:
-        at["fold"] = at.pop("left")
-    spots = []
-    rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
-    for place in problem.places:
-        for point, square in _points(place, signs):
-            mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
-            roles = tuple(role for role, value in at.items() if _same(value, point))
-            if place.kind is not Kind.ORDINARY or mu or roles:
-                spots.append(Spot(point, square, mu, roles))
-    known = [spot.point for spot in spots]
-    for point, mu in powers.items():
-        if not any(_same(point, other) for other in known):
-            roles = tuple(role for role, value in at.items() if _same(value, point))
-            spots.append(Spot(point, sympy.Integer(1), mu, roles))
+    first, last = (_value(base, t, original.at(end, signs)) ** m for end in half)
+    at = {"left": first, "right": last} if fold is None else {"right": last, "fold": first}
     S = signs.real(sympy.sympify(problem.S.num.to_sympy(Z) / problem.S.den.to_sympy(Z)))
     return Frame(
         original,
@@ -241,13 +227,35 @@ def _frame(
         S,
         Z,
         constant,
-        tuple(spots),
+        tuple(_spots(problem, powers, at, signs)),
         domain,
         fold,
         problem,
         variable,
         range_of(original, half, signs),
     )
+
+
+def _spots(problem: Problem, powers: Mapping[Any, Any], at: Mapping[str, Any], signs: Signs) -> list[Spot]:
+    """The singular points, those of the change of variable, and the ends, `at` which value of Z they are."""
+    spots: list[Spot] = []
+    rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
+    for place in problem.places:
+        for point, square in _points(place, signs):
+            mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
+            roles = _roles(point, at)
+            if place.kind is not Kind.ORDINARY or mu or roles:
+                spots.append(Spot(point, square, mu, roles))
+    known = [spot.point for spot in spots]
+    for point, mu in powers.items():
+        if not any(_same(point, other) for other in known):
+            spots.append(Spot(point, sympy.Integer(1), mu, _roles(point, at)))
+    return spots
+
+
+def _roles(point: Any, at: Mapping[str, Any]) -> tuple[str, ...]:
+    """Of which ends the point is the value."""
+    return tuple(role for role, value in at.items() if _same(value, point))
 
 
 def range_of(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:

@@ -17,18 +17,23 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
 
     `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
-    left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
-    left = _paired(left, signs)
-    squares = {symbol: sympy.expand(root**2) for symbol, root in (radicals or {}).items()}
+    meanings = dict(radicals or {})
+    squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
     roots = {symbol: square for symbol, square in squares.items() if not _radicals(square)}
-    squared = [_squared(_solved(c, signs), roots) for c in left]
-    are_positive = {square for square, is_new in squared if is_new and square is not None}
-    found = [
-        _solved(c, signs).xreplace(dict(radicals or {})) if square is None else _solved(square, signs)
-        for c, (square, _) in zip(left, squared, strict=True)
-    ]
-    implied = {_solved(sympy.Ge(square, 0), signs) for square in roots.values()} if are_positive else set()
-    return _compared([*dict.fromkeys(c for c in found if c != sympy.true and c not in implied)], signs)
+    left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
+    found: list[Any] = []
+    any_squared = False
+    for condition in _paired(left, signs):
+        squared = _squared(_solved(condition, signs), roots)
+        if squared is None:
+            found.append(_solved(condition, signs).xreplace(meanings))
+        else:
+            found.append(_solved(squared, signs))
+            any_squared = True
+    implied = {sympy.true}
+    if any_squared:
+        implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
+    return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
 
 
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
@@ -38,25 +43,34 @@ def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
         if sympy.false in (first, second) or first.lhs != second.lhs:
             continue
         gap = first.rhs - second.rhs
-        is_lower, is_lower_too = (isinstance(c, sympy.StrictGreaterThan | sympy.GreaterThan) for c in (first, second))
-        if is_lower and is_lower_too:
-            implied += [second] if signs.is_positive(gap) else [first] if signs.is_positive(-gap) else []
-        elif (is_lower and signs.is_positive(gap)) or (is_lower_too and signs.is_positive(-gap)):
+        if _is_lower_bound(first) and _is_lower_bound(second):
+            if signs.is_positive(gap):
+                implied.append(second)
+            elif signs.is_positive(-gap):
+                implied.append(first)
+        elif _is_lower_bound(first):
+            if signs.is_positive(gap):
+                return (sympy.false,)
+        elif _is_lower_bound(second) and signs.is_positive(-gap):
             return (sympy.false,)
     return tuple(c for c in conditions if c not in implied)
+
+
+def _is_lower_bound(condition: Any) -> bool:
+    return isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan)
 
 
 def _radicals(expression: Any) -> set[Any]:
     return {power for power in expression.atoms(sympy.Pow) if not power.exp.is_Integer and power.base.free_symbols}
 
 
-def _squared(condition: Any, roots: Mapping[Any, Any]) -> tuple[Any, bool]:
-    """r > c, c >= 0 a number, as r^2 > c^2."""
+def _squared(condition: Any, roots: Mapping[Any, Any]) -> Any:
+    """r > c, c >= 0 a number, as r^2 > c^2; None for another condition."""
     if condition in (sympy.true, sympy.false) or condition.lhs not in roots or not condition.rhs.is_number:
-        return None, False
-    if condition.rhs.is_negative or not isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
-        return None, False
-    return condition.func(roots[condition.lhs], condition.rhs**2), True
+        return None
+    if condition.rhs.is_negative or not _is_lower_bound(condition):
+        return None
+    return condition.func(roots[condition.lhs], condition.rhs**2)
 
 
 def _paired(conditions: list[Any], signs: Signs) -> list[Any]:
@@ -80,14 +94,9 @@ def _solved(condition: Any, signs: Signs) -> Any:
     if condition in (sympy.true, sympy.false) or (condition.has(sympy.Abs) and not condition.has(signs.n)):
         return condition
     strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
-    difference = sympy.factor(sympy.together(condition.gts - condition.lts))
-    rest = sympy.Integer(1)
-    for factor in sympy.Mul.make_args(difference):
-        sign = signs.sign(factor)
-        rest *= factor if sign is None else sign
     greater = sympy.StrictGreaterThan if strict else sympy.GreaterThan
     less = sympy.StrictLessThan if strict else sympy.LessThan
-    rest = sympy.expand(rest)
+    rest = _without_signs(condition.gts - condition.lts, signs)
     for unknown in (signs.n, *sorted(rest.free_symbols - {signs.n}, key=str)):
         if not rest.is_polynomial(unknown) or sympy.degree(rest, unknown) != 1:
             continue
@@ -99,6 +108,15 @@ def _solved(condition: Any, signs: Signs) -> Any:
     if rest.is_polynomial(signs.n) and sympy.degree(rest, signs.n) == 2:
         return _square(rest, signs, greater, less)
     return greater(rest, 0)
+
+
+def _without_signs(difference: Any, signs: Signs) -> Any:
+    """With the signs in the place of the factors whose signs are known."""
+    rest = sympy.Integer(1)
+    for factor in sympy.Mul.make_args(sympy.factor(sympy.together(difference))):
+        sign = signs.sign(factor)
+        rest *= factor if sign is None else sign
+    return sympy.expand(rest)
 
 
 def _square(rest: Any, signs: Signs, greater: Any, less: Any) -> Any:

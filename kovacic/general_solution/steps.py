@@ -113,12 +113,9 @@ def _term_apart(term: Expr, x: Expr) -> Apart | None:
     jumps = [f for f in sympy.Mul.make_args(term) if f.has(*JUMPING) and f.has(x)]
     if not jumps:
         return Apart(term, (), ())
-    if not all(isinstance(f, Heaviside | DiracDelta) for f in jumps):
-        return None
-    places = [place_of(f, x) for f in jumps]
-    last = _last([place.a for place in places if place is not None])
     deltas = [f for f in jumps if isinstance(f, DiracDelta)]
-    if None in places or last is None or len(deltas) > 1:
+    last = _last_place(jumps, x)
+    if last is None or len(deltas) > 1:
         return None
     g = term / sympy.Mul(*jumps)
     if not deltas:
@@ -130,6 +127,17 @@ def _term_apart(term: Expr, x: Expr) -> Apart | None:
     if is_on is None:
         return None
     return Apart(nothing, (), tuple(_impulses(g, delta, place, x)) if is_on else ())
+
+
+def _last_place(jumps: Sequence[Expr], x: Expr) -> Expr | None:
+    """The last of the places of steps and impulses; None where it isn't known, or there are other jumps."""
+    points = []
+    for jump in jumps:
+        place = place_of(jump, x) if isinstance(jump, Heaviside | DiracDelta) else None
+        if place is None:
+            return None
+        points.append(place.a)
+    return _last(points)
 
 
 def _impulses(g: Expr, delta: Expr, place: Place, x: Expr) -> list[Impulse]:

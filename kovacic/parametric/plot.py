@@ -55,30 +55,44 @@ def plot(
     with `axes.figure.savefig`.  Nothing is ever shown on a screen.  With one parameter, a strip is drawn.  Raises
     `InputError` for names that aren't parameters.
     """
+    chosen = _chosen(names, parameters, fixed or {})
+    grids = _grids(chosen, ranges, steps)
+    is_map = len(chosen) == 2
+
+    def colour(*point: Fraction) -> int:
+        return LABELS.index(label_at({**(fixed or {}), **dict(zip(chosen, point, strict=True))}))
+
+    rows = [(second,) for second in grids[1]] if is_map else [()]
+    table = [[colour(first, *row) for first in grids[0]] for row in rows]
+    if axes is None:
+        axes = new_axes(6.5, 5.5)
+    handles = draw_cells(axes, grids[0], grids[1] if is_map else None, table, _KINDS)
+    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    axes.set(xlabel=chosen[0])
+    if is_map:
+        axes.set(ylabel=chosen[1])
+    else:
+        axes.set(yticks=[])
+    axes.set_title(title, fontsize="medium")
+    return axes
+
+
+def _chosen(names: Sequence[str], parameters: Sequence[str] | None, fixed: Mapping[str, Any]) -> tuple[str, ...]:
+    """The parameters that vary.  Raises `InputError`."""
     chosen = tuple(parameters or names[:2])
-    if len(chosen) not in (1, 2) or any(name not in names for name in chosen):
+    if len(chosen) not in (1, 2) or not {*chosen} <= {*names}:
         raise InputError("a map needs one parameter or two", hint=f"the parameters are {', '.join(names)}")
-    if any(name in chosen for name in fixed or {}):
+    if any(name in chosen for name in fixed):
         raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
+    return chosen
+
+
+def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, steps: int) -> list[list[Fraction]]:
+    """The values of each of them.  Raises `InputError`."""
     given = [(-4, 4) for _ in chosen] if ranges is None else list(ranges)
     if len(given) != len(chosen):
         raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
     steps = whole(steps, "steps", least=1)
     if steps > _MOST_STEPS:
         raise InputError(f"steps = {in_a_message(steps)}: at most {_MOST_STEPS} are drawn")
-    values = [_grid(low, high, steps) for low, high in given]
-
-    def colour(*point: Fraction) -> int:
-        return LABELS.index(label_at({**(fixed or {}), **dict(zip(chosen, point, strict=True))}))
-
-    rows = [(second,) for second in values[1]] if len(chosen) == 2 else [()]
-    table = [[colour(first, *row) for first in values[0]] for row in rows]
-
-    if axes is None:
-        axes = new_axes(6.5, 5.5)
-    handles = draw_cells(axes, values[0], values[1] if len(chosen) == 2 else None, table, _KINDS)
-    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-    second: dict[str, Any] = {"ylabel": chosen[1]} if len(chosen) == 2 else {"yticks": []}
-    axes.set(xlabel=chosen[0], **second)
-    axes.set_title(title, fontsize="medium")
-    return axes
+    return [_grid(low, high, steps) for low, high in given]

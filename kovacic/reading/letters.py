@@ -15,7 +15,7 @@ Any other relation isn't used: what holds for generic values of letters holds fo
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import Any
@@ -91,32 +91,41 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
 
 def _innermost(parts: Sequence[Expr], x: Expr) -> list[Expr]:
     """The constants that are no rational functions of symbols and numbers, and have no such constants within them."""
-    both = any(
-        part.has(sympy.pi) for part in parts
-    )  # pi and e: e becomes a letter, for two numbers aren't known to be independent
-    found = {kernel for part in parts for kernel in _kernels(part, x, e_is_known=not both)}
+    # Beside pi, e becomes a letter, for the two numbers aren't known to be independent.
+    e_is_known = not any(part.has(sympy.pi) for part in parts)
+    found: set[Expr] = set()
+    for part in parts:
+        found.update(_kernels(part, x, e_is_known=e_is_known))
     return sorted(found, key=sympy.default_sort_key)
 
 
-def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> Iterator[Expr]:
+def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
     """Of one expression; `e_is_known`: powers of Euler's number are none."""
-    if e.is_Symbol or e.is_Rational or e is sympy.I or e is sympy.pi:
-        return
-    constant = not e.has(x)
-    if constant and e.is_number and e.is_algebraic:
-        return
-    inner = False
+    is_constant = not e.has(x)
+    if is_constant and _is_known(e, e_is_known=e_is_known):
+        return []
+    inner: list[Expr] = []
     for argument in e.args:
-        for kernel in _kernels(argument, x, e_is_known=e_is_known):
-            inner = True
-            yield kernel
-    is_exponential = e is sympy.E or isinstance(e, sympy.exp)
-    is_rational = e.is_Add or e.is_Mul or (e.is_Pow and e.exp.is_Integer and not is_exponential)
-    if not constant or is_rational or inner:
-        return
-    is_power_of_e = e is sympy.E or (is_exponential and e.args[0].is_Integer)
-    if not (e_is_known and is_power_of_e):
-        yield e
+        inner += _kernels(argument, x, e_is_known=e_is_known)
+    if inner or not is_constant or _is_rational(e):
+        return inner
+    return [e]
+
+
+def _is_known(e: Expr, *, e_is_known: bool) -> bool:
+    """Is a constant a symbol, an algebraic number, pi, or a power of Euler's number where that is known?"""
+    if e.is_Symbol or e is sympy.pi:
+        return True
+    if e is sympy.E or (isinstance(e, sympy.exp) and e.args[0].is_Integer):
+        return e_is_known
+    return bool(e.is_number and e.is_algebraic)
+
+
+def _is_rational(e: Expr) -> bool:
+    """Is it a rational function of its arguments?"""
+    if e is sympy.E or isinstance(e, sympy.exp):
+        return False
+    return bool(e.is_Add or e.is_Mul or (e.is_Pow and e.exp.is_Integer))
 
 
 class _Letters:
@@ -148,12 +157,17 @@ class _Letters:
         if changed:
             return tuple(part.xreplace(changed) for part in parts)
         parts = [_without_squares(part, kernels) for part in parts]
-        powers = [kernel for kernel in kernels if kernel.is_Pow or _base(kernel) is sympy.E]
-        replacements = {kernel: self.letter(kernel) for kernel in kernels if kernel not in powers}
-        bases = dict.fromkeys(_base(power) for power in powers)
+        powers: dict[Expr, list[Expr]] = {}
+        replacements: Meanings = {}
+        for kernel in kernels:
+            base = _base(kernel)
+            if kernel.is_Pow or base is sympy.E:
+                powers.setdefault(base, []).append(kernel)
+            else:
+                replacements[kernel] = self.letter(kernel)
         symbols: Meanings = {}
-        for base in bases:
-            self._powers_of(base, [power for power in powers if _base(power) == base], replacements, symbols)
+        for base, of_base in powers.items():
+            self._powers_of(base, of_base, replacements, symbols)
         return tuple(part.xreplace(replacements).xreplace(symbols) for part in parts)
 
     def _powers_of(self, base: Expr, powers: Sequence[Expr], replacements: Meanings, symbols: Meanings) -> None:
@@ -169,19 +183,21 @@ class _Letters:
         linear = _solved_for(base, symbols) if sympy.S.One in rates else None
         if linear is not None:
             rates[sympy.S.One].append(sympy.S.One)
-        letters: dict[Expr, tuple[Expr, Expr]] = {}
+        letters: Meanings = {}
+        units: dict[Expr, Expr] = {}
         for monomial, all_rates in rates.items():
             unit = _unit(all_rates)
             if monomial != 1 and not base.is_negative:
                 unit /= 2  # so that the root, which solutions often have, is rational
-            letters[monomial] = self.letter(base ** (unit * monomial)), unit
+            units[monomial] = unit
+            letters[monomial] = self.letter(base ** (unit * monomial))
         for power, terms in exponents.items():
-            factors = [letters[monomial][0] ** (rate / letters[monomial][1]) for monomial, rate in terms.items()]
+            factors = [letters[monomial] ** (rate / units[monomial]) for monomial, rate in terms.items()]
             replacements[power] = sympy.Mul(*factors)
         if linear is not None:
-            letter, unit = letters[sympy.S.One]
             symbol, slope, rest = linear
-            symbols[symbol] = sympy.expand((letter ** (1 / unit) - rest) / slope)
+            value = letters[sympy.S.One] ** (1 / units[sympy.S.One])
+            symbols[symbol] = sympy.expand((value - rest) / slope)
 
 
 def _base(power: Expr) -> Expr:
@@ -223,21 +239,29 @@ def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
     base, exponent = kernel.as_base_exp()
     if base.is_Rational and 0 < base < _LARGEST and 1 / base < _LARGEST:
         return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
-    if not isinstance(kernel, TrigonometricFunction | HyperbolicFunction):
-        return kernel
-    (argument,) = kernel.args
-    family = TrigonometricFunction if isinstance(kernel, TrigonometricFunction) else HyperbolicFunction
-    others = [other for other in kernels if isinstance(other, family) and other != kernel]
-    first, second = (sympy.sin, sympy.cos) if family is TrigonometricFunction else (sympy.sinh, sympy.cosh)
-    if family is HyperbolicFunction and any(isinstance(other, sympy.exp) for other in kernels):
-        return kernel.rewrite(sympy.exp)
-    if any((argument / other.args[0]).is_Integer for other in others if other.args != kernel.args):
-        return sympy.expand_trig(kernel)
-    if any(other.args == kernel.args for other in others) and not isinstance(kernel, (first, second)):
-        sine, cosine = first(argument), second(argument)
-        forms = {"tan": sine / cosine, "cot": cosine / sine, "sec": 1 / cosine, "csc": 1 / sine}
-        return forms[kernel.func.__name__.removesuffix("h")]
+    if isinstance(kernel, TrigonometricFunction):
+        others = [other for other in kernels if isinstance(other, TrigonometricFunction)]
+        return _by_waves(kernel, others, sympy.sin, sympy.cos)
+    if isinstance(kernel, HyperbolicFunction):
+        if any(isinstance(other, sympy.exp) for other in kernels):
+            return kernel.rewrite(sympy.exp)
+        others = [other for other in kernels if isinstance(other, HyperbolicFunction)]
+        return _by_waves(kernel, others, sympy.sinh, sympy.cosh)
     return kernel
+
+
+def _by_waves(kernel: Expr, waves: Sequence[Expr], sine: Any, cosine: Any) -> Expr:
+    """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
+    (argument,) = kernel.args
+    if any((argument / wave.args[0]).is_Integer for wave in waves if wave.args != kernel.args):
+        return sympy.expand_trig(kernel)
+    is_alone = not any(wave.args == kernel.args and wave != kernel for wave in waves)
+    if is_alone or isinstance(kernel, (sine, cosine)):
+        return kernel
+    s = sine(argument)
+    c = cosine(argument)
+    forms = {"tan": s / c, "cot": c / s, "sec": 1 / c, "csc": 1 / s}
+    return forms[kernel.func.__name__.removesuffix("h")]
 
 
 def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
