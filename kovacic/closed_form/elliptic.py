@@ -28,6 +28,7 @@ Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
@@ -106,62 +107,124 @@ def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[t
     return terms
 
 
-def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
-    """By (2), from one branch point beside infinity."""
-    t, negative, roots = RatFunc(g.field.poly([0, 1])), False, _roots(g)
+@dataclass(frozen=True)
+class _Cubic:
+    """r and a cubic g with the root `a` in u = t(x); `negative` is the sign of A for it."""
+
+    r: RatFunc
+    g: Poly
+    t: RatFunc
+    inner: RatFunc | None
+    a: Poly
+    negative: bool = False
+
+    def over(self, field: Field) -> _Cubic:
+        """The same over a larger field."""
+        r, curve, t, inner = _over(field, self.r, RatFunc(self.g), self.t, self.inner)
+        return replace(self, r=r, g=curve.num, t=t, inner=inner)
+
+
+def _with_a_root(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> _Cubic | None:
+    """A cubic with a root in the field, or in a larger one; None without.  A root of a quartic goes to infinity."""
+    x = RatFunc(g.field.poly([0, 1]))
+    t = x
+    negative = False
+    roots = _roots(g)
     if g.degree == 4:
         if not roots:
-            return []
-        negative, a = atoms.is_negative(g.derivative()(roots[0])), roots[0]
-        t = 1 / (t - a)
-        r, g = _moved(r, RatFunc(g), 1 / RatFunc(g.field.poly([0, 1])) + a)
+            return None
+        pole = roots[0]
+        negative = atoms.is_negative(g.derivative()(pole))
+        t = 1 / (x - pole)
+        r, g = _moved(r, RatFunc(g), 1 / x + pole)
         roots = _roots(g)
-    if not roots:
-        if g.field != QQ or len(sympy.real_roots(atoms.poly(g))) > 1:
-            return []
-        field = AlgebraicField(QQ, g)
-        roots = [field.generator]
-        r, curve, t, inner = _over(field, r, RatFunc(g), t, inner)
-        g = curve.num
-    a, square = roots[0], g.derivative()(roots[0])
-    if (A := g.field.sqrt(square)) is None:
-        field = AlgebraicField(g.field, g.field.poly([-square, 0, 1]))
-        r, curve, t, inner = _over(field, r, RatFunc(g), t, inner)
-        g, A = curve.num, field.generator
-    x = RatFunc(g.field.poly([0, 1]))
-    if negative != atoms.is_negative(A):
+    if roots:
+        return _Cubic(r, g, t, inner, roots[0], negative)
+    if g.field != QQ or len(sympy.real_roots(atoms.poly(g))) > 1:
+        return None
+    field = AlgebraicField(QQ, g)
+    return _Cubic(r, g, t, inner, field.generator, negative).over(field)
+
+
+def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+    """By (2), from one branch point beside infinity."""
+    cubic = _with_a_root(r, g, inner, atoms)
+    if cubic is None:
+        return []
+    square = cubic.g.derivative()(cubic.a)
+    A = cubic.g.field.sqrt(square)
+    if A is None:
+        field = AlgebraicField(cubic.g.field, cubic.g.field.poly([-square, 0, 1]))
+        cubic = cubic.over(field)
+        A = field.generator
+    if cubic.negative != atoms.is_negative(A):
         A = -A
-    g = g(x.num * A + a).monic()
-    done = integrate_on_curve(r(x * A + a), g)
+    x = RatFunc(cubic.g.field.poly([0, 1]))
+    g = cubic.g(x.num * A + cubic.a).monic()
+    done = integrate_on_curve(cubic.r(x * A + cubic.a), g)
     if any(residue.factor.degree > 1 or g.field.height > 1 for residue in done.residues):
         return []
-    m, quadratic = (2 - g[2]) / 4, g // x.num
-    shown, root = _square_root((t - a) / A, inner, atoms)
-    C = done.exact + done.rest[1] * 2 / (x + 1)
+    quadratic = g // x.num
+    shown, root = _square_root((cubic.t - cubic.a) / A, cubic.inner, atoms)
     # w as sqrt(s) (1 + s) sqrt(1 - m sin(phi)^2), for the branches of F and E where s < -1.
     W = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(shown)))
-    phi, modulus = 2 * atan(root), atoms.constant(m)
+    angle = _Angle(quadratic, shown, W, 2 * atan(root), (2 - g[2]) / 4)
     terms: list[tuple[Poly, Expr]] = []
+    C = done.exact + done.rest[1] * 2 / (x + 1)
     if C:
-        terms.append((lead := C.num.lc, atoms.factored((C * (x + 1))(shown) / lead) * W))
-    first = done.rest[0] + done.rest[1]
+        leading = C.num.lc
+        terms.append((leading, atoms.factored((C * (x + 1))(shown) / leading) * W))
+    of_F = done.rest[0] + done.rest[1]
     for residue in done.residues:
-        tau, rho = -residue.factor[0], residue.value[0]
-        square = tau * quadratic(tau)  # w(tau)^2
-        turned, below, above = atoms.is_negative(square), atoms.is_negative(tau), 1 + tau
-        factor = atoms.sqrt(-square if turned else square)
-        n, part = above * above / (4 * tau), rho / (2 * tau)
+        tau = -residue.factor[0]
+        rho = residue.value[0]
+        of_F += angle.part_of_F(tau, rho, atoms)
+        terms += angle.terms_of_pole(tau, rho, atoms)
+    modulus = atoms.constant(angle.m)
+    return [*terms, (of_F, elliptic_f(angle.phi, modulus)), (-done.rest[1] * 2, elliptic_e(angle.phi, modulus))]
+
+
+@dataclass(frozen=True)
+class _Angle:
+    """The curve w^2 = s quadratic(s); s and w as functions of x, the angle phi and the parameter m of (2)."""
+
+    quadratic: Poly
+    s: RatFunc
+    w: Expr
+    phi: Expr
+    m: Poly
+
+    def part_of_F(self, tau: Poly, rho: Poly, atoms: Atoms) -> Poly:
+        """The factor of F for a pole tau with the residue rho: by the first of (2) where tau < 0, else by the second."""
+        above = 1 + tau
+        if atoms.is_negative(tau) and above:
+            return -rho / above
+        return -rho / (2 * tau)
+
+    def terms_of_pole(self, tau: Poly, rho: Poly, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+        """Pi and the logarithm for it."""
+        x = RatFunc(self.quadratic.field.poly([0, 1]))
+        below = atoms.is_negative(tau)
+        above = 1 + tau
+        n = above * above / (4 * tau)
         if below:
-            z = atoms.factored(shown / (shown + 1) / tau) / W
+            z = atoms.factored(self.s / (self.s + 1) / tau) / self.w
         else:
-            n, rest = m / n, above * tau * (1 - x.num) * quadratic - (tau - 1) * (x.num + 1) * x.num * quadratic(tau)
-            z = atoms.factored(((x + 1) * 2 / (rest // (x.num * tau - 1)))(shown)) * W
-        first = first - (rho / above if below and above else part)
+            n = self.m / n
+            Q = above * tau * (1 - x.num) * self.quadratic
+            Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
+            z = atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
+        square = tau * self.quadratic(tau)  # w(tau)^2
+        turned = atoms.is_negative(square)
+        factor = atoms.sqrt(-square if turned else square)
+        inverse = atan if turned else atanh
+        terms: list[tuple[Poly, Expr]] = []
         if above and tau != 1:
-            of_pi = part * (tau - 1) / above * (1 if below else -1)
-            terms.append((of_pi, elliptic_pi(atoms.constant(n), phi, modulus)))
-        terms.append((-rho if below else rho, (atan if turned else atanh)(factor * z) / factor))
-    return [*terms, (first, elliptic_f(phi, modulus)), (-done.rest[1] * 2, elliptic_e(phi, modulus))]
+            of_pi = rho / (2 * tau) * (tau - 1) / above
+            Pi = elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
+            terms.append((of_pi if below else -of_pi, Pi))
+        terms.append((-rho if below else rho, inverse(factor * z) / factor))
+        return terms
 
 
 def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFunc, Expr]:
@@ -188,12 +251,16 @@ def _halved(p: Poly) -> Poly:
 
 def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
     """What becomes 0, 1, and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
-    shown = {a: atoms.constant(a) for a in roots}
-    values = {a: float(shown[a]) if shown[a].is_number and shown[a].is_real else None for a in roots}
-    known = sorted((a for a in roots if values[a] is not None), key=lambda a: values[a] or 0)
-    points = [*known, *(a for a in roots if values[a] is None)]
+    values: dict[Poly, float] = {}
+    for a in roots:
+        shown = atoms.constant(a)
+        if shown.is_number and shown.is_real:
+            values[a] = float(shown)
+    points = [*sorted(values, key=lambda a: values[a]), *(a for a in roots if a not in values)]
     if even:
         zero = next(a for a in points if not a)
-        above = [a for a in points if values[a] is None or (values[a] or 0) > 0]
+        above = [a for a in points if values.get(a, 1.0) > 0]
         return (zero, above[0], None) if above else (zero, None, points[0])
-    return (points[0], points[1], None) if len(points) == 3 else (points[1], points[2], points[0])
+    if len(points) == 3:
+        return points[0], points[1], None
+    return points[1], points[2], points[0]

@@ -18,9 +18,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
-from dataclasses import replace
-from functools import lru_cache
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly
@@ -72,7 +71,7 @@ def _exponential(
 ) -> ProductForm | None:
     c, degree, table = branch.constant(), branch.P.degree, None
     if degree > _FEW_ZEROS and region.is_real and any(region.singular):
-        table = polynomial_table(_expansion(problem, branch, base), region, careful)
+        table = polynomial_table(_Expansion.of(problem, branch, base), region, careful)
     elif degree > _FEW_ZEROS and region.is_real:
         ends = (as_point(end.real, "an end") for end in (region.low, region.high))
         if degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
@@ -89,51 +88,76 @@ def _exponential(
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
 
 
-def _expansion(
-    problem: NumericProblem, branch: Exponential, base: ExactPoint
-) -> Callable[[Cell, Variant], list[Any] | None]:
+@dataclass(frozen=True)
+class _Expansion:
     """The Taylor series of P/P(base) on a piece, by the recurrence of its equation a P'' + b P' + c P = 0 in balls, which loses
-    digits beside singular points; None if the piece won't do."""
-    assert problem.S is not None
-    phi = branch.theta if problem.gauge is None else branch.theta - problem.gauge
-    rest = phi.derivative() + phi * phi - problem.S  # P'' + 2 phi P' + rest P = 0
-    a = phi.den * (rest.den // phi.den.gcd(rest.den))
-    exact = branch.P, a, (2 * phi * a).num, (rest * a).num
+    digits beside singular points."""
 
-    @lru_cache
-    def balls(prec: int) -> list[Any]:
-        constant = branch.constant()
-        P, *equation = (embed(part, constant) for part in exact)
-        P *= 1 / P(to_acb(base))
-        found = [P, P.derivative(), *equation]
-        is_real = all(v.imag.is_zero() for poly in found for v in poly.coeffs())
-        return [arb_poly([v.real for v in poly.coeffs()]) for poly in found] if is_real else found
+    branch: Exponential
+    base: ExactPoint
+    equation: tuple[Any, Any, Any]
+    known: dict[int, list[Any]] = field(default_factory=dict)
 
-    def expand(cell: Cell, variant: Variant) -> list[Any] | None:
-        x, h, prec = arb(cell[0]), arb((1, cell[1])), 300 + 3 * branch.P.degree
+    @classmethod
+    def of(cls, problem: NumericProblem, branch: Exponential, base: ExactPoint) -> _Expansion:
+        assert problem.S is not None
+        phi = branch.theta if problem.gauge is None else branch.theta - problem.gauge
+        rest = phi.derivative() + phi * phi - problem.S  # P'' + 2 phi P' + rest P = 0
+        a = phi.den * (rest.den // phi.den.gcd(rest.den))
+        return cls(branch, base, (a, (2 * phi * a).num, (rest * a).num))
+
+    def __call__(self, cell: Cell, variant: Variant) -> list[Any] | None:
+        """The coefficients; None if the piece won't do."""
+        x = arb(cell[0])
+        h = arb((1, cell[1]))
+        prec = 300 + 3 * self.branch.P.degree
         while prec <= _HIGHEST:
             check_time()
             with working_precision(prec):
-                P, slope, *equation = balls(prec)
+                P, slope, *equation = self._balls(prec)
                 row = [P(x), slope(x) * h]
             with working_precision(200 + prec // 4):
-                a, b, c = ([v * h**k for v in part(type(P)([x, h])).coeffs()] for k, part in enumerate(equation))
-                _, *columns = itertools.zip_longest(a, [0, *b], [0, 0, *c], fillvalue=0)
                 most = GROWTH * max(abs(v).upper() for v in row)
-                for n in range(2, variant.tested):
-                    used = zip(columns, range(n - 1, -1, -1), strict=False)
-                    total = sum((p * (m * (m - 1)) + q * m + r) * row[m] for (p, q, r), m in used)
-                    row.append(total / (-a[0] * (n * (n - 1))))
-                    if abs(row[-1]) > most:
-                        return None
+                local = [[v * h**k for v in part(type(P)([x, h])).coeffs()] for k, part in enumerate(equation)]
+                if not _continued(row, local, variant.tested, most):
+                    return None
                 sizes = [abs(v) for v in row]
                 small = max(v.mid() for v in sizes) * arb((1, -variant.bits))
                 if all(v.rad() <= small for v in sizes):
-                    return row if sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small else None
+                    converges = sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small
+                    return row if converges else None
             prec *= 2
         return None
 
-    return expand
+    def _balls(self, prec: int) -> list[Any]:
+        """P, P' and the equation's coefficients, real polynomials where they are real; P(base) = 1."""
+        if prec not in self.known:
+            constant = self.branch.constant()
+            P, *equation = (embed(part, constant) for part in (self.branch.P, *self.equation))
+            P *= 1 / P(to_acb(self.base))
+            found = [P, P.derivative(), *equation]
+            if all(_all_exactly_real(poly) for poly in found):
+                found = [arb_poly([v.real for v in poly.coeffs()]) for poly in found]
+            self.known[prec] = found
+        return self.known[prec]
+
+
+def _all_exactly_real(polynomial: acb_poly) -> bool:
+    coefficients: list[Any] = polynomial.coeffs()
+    return all(v.imag.is_zero() for v in coefficients)
+
+
+def _continued(row: list[Any], equation: Sequence[list[Any]], count: int, most: Any) -> bool:
+    """Up to so many coefficients, from the first two, by the recurrence; False where one is larger than `most`."""
+    a, b, c = equation
+    _, *columns = itertools.zip_longest(a, [0, *b], [0, 0, *c], fillvalue=0)
+    for n in range(2, count):
+        used = zip(columns, range(n - 1, -1, -1), strict=False)
+        total = sum((p * (m * (m - 1)) + q * m + r) * row[m] for (p, q, r), m in used)
+        row.append(total / (-a[0] * (n * (n - 1))))
+        if abs(row[-1]) > most:
+            return False
+    return True
 
 
 def _all_real(values: list[acb]) -> bool:

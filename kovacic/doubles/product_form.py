@@ -125,7 +125,7 @@ class RationalFunction:
             for _ in range(k):
                 c *= inverse
             terms.append(c)
-        total = sum(terms[1:], terms[0]) if terms else None
+        total = _sum_of(terms)
         return total if total is None or times is None else total * times
 
 
@@ -259,23 +259,24 @@ class ProductForm:
         point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
         if careful:
             point = Complex(*(None if part is None else Pair(part, 0.0 * part) for part in (point.re, point.im)))
-        t, growth, size = point, [self.exponent(point)], max(abs(self.region.low), abs(self.region.high))
+        growth = [self.exponent(point)]
+        t = point
+        size = max(abs(self.region.low), abs(self.region.high))
         if self.conic is not None:
             parameter, s = self.conic.coordinates(point.re)
-            t, size = Complex(parameter), np.max(np.abs(double(parameter)), initial=0.0)
             growth.append(self.sheet(Complex(point.re), Complex(s)))
-        zetas = (f.zeta for f in self.factors)
-        reach = max((math.hypot(z.re.hi, 0.0 if z.im is None else z.im.hi) for z in zetas), default=0.0)
-        product = _Product(t, careful, size + reach)
+            t = Complex(parameter)
+            size = np.max(np.abs(double(parameter)), initial=0.0)
+        product = _Product(t, careful, size + self._reach)
         if self.polynomial is not None:
             numbers, powers = self.polynomial.parts(x)
             if careful:
                 numbers = [v if isinstance(v, Pair) else Pair(v, 0.0 * v) for v in numbers]
-            product.value, product.binary = Complex(*numbers), 0 if powers is None else powers
+            product.value = Complex(*numbers)
+            product.binary = 0 if powers is None else powers
         for f in self.factors:
             product.multiply(f, growth)
-        found = [g for g in growth if g is not None]
-        total = sum(found[1:], found[0]) if found else None
+        total = _sum_of([g for g in growth if g is not None])
         if total is not None and self.is_real:
             total = Complex(total.re)
         one = Complex(np.ones(x.shape) if careful or total is None else 1.0)
@@ -283,6 +284,17 @@ class ProductForm:
             zero = 0.0 * x.real
             total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
         return product.value or one, product.binary, total
+
+    @property
+    def _reach(self) -> float:
+        """The largest modulus of a zero or a singular point."""
+        sizes = [math.hypot(f.zeta.re.hi, 0.0 if f.zeta.im is None else f.zeta.im.hi) for f in self.factors]
+        return max(sizes, default=0.0)
+
+
+def _sum_of(terms: list[Complex]) -> Complex | None:
+    """None for no terms."""
+    return sum(terms[1:], terms[0]) if terms else None
 
 
 class _Product:
@@ -296,32 +308,44 @@ class _Product:
 
     def multiply(self, f: RootFactor, growth: list[Complex | None]) -> None:
         """One factor more."""
-        d, power, whole = self.t - f.zeta, f.power, f.whole
+        d = self.t - f.zeta
+        power = f.power
+        whole = f.whole
         d, e = split(d) if self.careful else (d, 0)
         if f.paired:
             if power.im is not None:
                 growth.append(Complex(angle(d * f.turn.conjugate()) * (power.im * Pair(-2.0))))
-            d, e, power = Complex(d.re * d.re + d.im * d.im), 2 * e, Complex(power.re)
+            d = Complex(d.re * d.re + d.im * d.im)
+            e = 2 * e
+            power = Complex(power.re)
         if d.im is None and (whole is None or whole < 0):
             d = Complex(absolute(d.re))
-        if whole is None and d.im is None and power.im is None and not self.careful:
+        is_real = d.im is None and power.im is None
+        if whole is None and is_real and not self.careful:
             self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
-            return
-        if whole is None or (d.im is not None and whole < 0):
-            if d.im is None:
-                logarithm = Complex(log(d.re))
-            else:
-                logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * f.turn.conjugate()))
-            if self.careful:
-                logarithm += Complex(LOG_2 * Pair(0.0 + e))
-            growth.append(power * logarithm)
-            return
-        self.binary = self.binary + e * whole
+        elif whole is None or (d.im is not None and whole < 0):
+            growth.append(power * self._logarithm(d, e, f.turn))
+        else:
+            self.binary = self.binary + e * whole
+            self._times_power(d, whole, 2 if f.paired else 1)
+
+    def _logarithm(self, d: Complex, e: Any, turn: Complex) -> Complex:
+        """That of 2^e d, continuous along a line."""
+        if d.im is None:
+            logarithm = Complex(log(d.re))
+        else:
+            logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * turn.conjugate()))
+        if self.careful:
+            logarithm += Complex(LOG_2 * Pair(0.0 + e))
+        return logarithm
+
+    def _times_power(self, d: Complex, whole: int, degree: int) -> None:
+        """By multiplication, one factor after the other, or with the reciprocal of them all."""
         pieces = [d] * abs(whole)
         if whole < 0:
             pieces = [math.prod(pieces[1:], start=d).reciprocal()]
         for piece in pieces:
-            self._times(piece, 2 if f.paired else 1)
+            self._times(piece, degree)
 
     def _times(self, piece: Complex, degree: int) -> None:
         self.bits += degree * self.degree_bits

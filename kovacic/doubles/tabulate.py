@@ -397,26 +397,30 @@ def _pieces(
     low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
     untried = [_root(region)]
     promising: list[Cell] = []
-    done: list[tuple[Cell, Any]] = []
+    done: dict[Cell, Any] = {}
     while untried or promising:
         if len(untried) + len(promising) + len(done) > _MAX_PIECES:
             raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
         check_time()
+        too_large: list[Cell] = []
         if untried:
-            no = refused(np.array([float(c) for c, _ in untried]), np.array([math.ldexp(1.0, e) for _, e in untried]))
-            no = [
-                out or not low <= c <= high for out, (c, _) in zip(no, untried, strict=True)
-            ]  # values are inside only
-            promising += [cell for cell, out in zip(untried, no, strict=True) if not out]
-            too_large = [cell for cell, out in zip(untried, no, strict=True) if out]
+            centres = np.array([float(c) for c, _ in untried])
+            scales = np.array([math.ldexp(1.0, e) for _, e in untried])
+            for cell, no in zip(untried, refused(centres, scales), strict=True):
+                is_inside = low <= cell[0] <= high  # values are inside only
+                (promising if is_inside and not no else too_large).append(cell)
         else:
-            found = expand(promising)
-            done += [(cell, item) for cell, item in zip(promising, found, strict=True) if item is not None]
-            too_large = [cell for cell, item in zip(promising, found, strict=True) if item is None]
+            for cell, item in zip(promising, expand(promising), strict=True):
+                if item is None:
+                    too_large.append(cell)
+                else:
+                    done[cell] = item
             promising = []
-        untried = [half for cell in too_large for half in _halves(cell, low, high)]
-    done.sort(key=lambda item: item[0])
-    return [cell for cell, _ in done], [item for _, item in done]
+        untried = []
+        for cell in too_large:
+            untried += _halves(cell, low, high)
+    cells = sorted(done)
+    return cells, [done[cell] for cell in cells]
 
 
 def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:

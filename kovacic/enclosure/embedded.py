@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly
@@ -30,7 +29,6 @@ from kovacic.errors import InputError, LimitExceeded
 
 # Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near
 _EXTRA = 256
-_REAL, _IMAGINARY = attrgetter("real"), attrgetter("imag")
 Integers = tuple[int, ...]
 _UNDEFINED = "the equation isn't defined at these values of the parameters, as far as they are known"
 
@@ -54,16 +52,17 @@ class Embedded:
         bits = 2 * prec + _EXTRA
         with working_precision(2 * bits):
             scaled = [[c * arb((1, bits)) for c in part.coeffs()] for part in self.polynomials()]
-            if not all(c.is_finite() for part in scaled for c in part) or not scaled[1][-1].real != 0:
+            values = [*scaled[0], *scaled[1]]
+            if not all(c.is_finite() for c in values) or not scaled[1][-1].real != 0:
                 raise InputError(_UNDEFINED)
-            re, im = ([[floor(of(c).mid()) for c in part] for part in scaled] for of in (_REAL, _IMAGINARY))
-            re[1][-1] = re[1][-1] or 1
-            triples = (zip(*parts, strict=True) for parts in zip(scaled, re, im, strict=True))
-            errors = (abs(c - acb(x, y)).upper() for triple in triples for c, x, y in triple)
+            num, den = ([floor(c.real.mid()) for c in part] for part in scaled)
+            num_i, den_i = ([floor(c.imag.mid()) for c in part] for part in scaled)
+            den[-1] = den[-1] or 1
+            rounded = zip([*num, *den], [*num_i, *den_i], strict=True)
+            errors = [abs(c - acb(x, y)).upper() for c, (x, y) in zip(values, rounded, strict=True)]
             radius = max((floor(error) + 1 for error in errors), default=0)
-            real = all(c.imag.is_zero() for part in scaled for c in part)
-            num, den, *others = (tuple(part) for part in (*re, *im))
-            return num, den, radius, None if real else (others[0], others[1])
+            imaginary = None if all(c.imag.is_zero() for c in values) else (tuple(num_i), tuple(den_i))
+            return tuple(num), tuple(den), radius, imaginary
 
     def is_real(self, others: Iterable[RatFunc] = ()) -> bool:
         """Are the coefficients of S, of the gauge and of other functions real?"""

@@ -201,27 +201,31 @@ class Prepared:
     def values(self, x: object, *, derivative: bool) -> Any:
         """The same; a warning names the line that called the caller."""
         shape = getattr(x, "shape", None)
-        many = shape != () and isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
-        points: list[Any] = list(x) if many and not shape else [x]  # type: ignore[call-overload]
-        if shape:
-            import numpy as np
+        if shape is None:
+            is_many = isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
+            found = self._at([*x] if is_many else [x], derivative)  # type: ignore[misc]
+            return tuple(found) if is_many else found[0]
 
-            points = list(np.asarray(x, dtype=object).flat)
-        holes = {i for i, p in enumerate(points) if shape is not None and p != p}
-        results = self._question.states([p for i, p in enumerate(points) if i not in holes])
+        import numpy as np
+
+        points = list(np.asarray(x, dtype=object).flat) if shape else [x]
+        holes = [point != point for point in points]  # NaN is no number
+        known = iter(self._at([point for point, hole in zip(points, holes, strict=True) if not hole], derivative))
+        values = [math.nan if hole else next(known) for hole in holes]
+        if shape == ():
+            return values[0]
+        array = np.empty(len(points), dtype=object)
+        for i, value in enumerate(values):
+            array[i] = value
+        return array.reshape(shape)
+
+    def _at(self, points: list[Any], derivative: bool) -> list[Any]:
+        """The values, or pairs with the derivatives; a warning where accuracy was lost."""
+        results = self._question.states(points)
         for result in results:
             if result.note is not None:
-                warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=3)
-        found: list[Any] = [(result.y, result.dy) if derivative else result.y for result in results]
-        if shape is None:
-            return tuple(found) if many else found[0]
-        values = iter(found)
-        if shape == ():
-            return next(values, math.nan)
-        array = np.empty(len(points), dtype=object)
-        for i in range(len(points)):
-            array[i] = math.nan if i in holes else next(values)
-        return array.reshape(shape)
+                warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=4)
+        return [(result.y, result.dy) if derivative else result.y for result in results]
 
 
 @limited

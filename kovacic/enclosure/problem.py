@@ -202,9 +202,7 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     names = _parameters(S, given, right)
     numbers = values_of_parameters(names, params or {}) if params is not None or names else {}
     values = {name: value.re for name, value in numbers.items() if isinstance(value, ExactPoint) and value.is_real()}
-    functions = [S, gauge, None if right is None else right.f]
-    has_algebraic = any(f is not None and isinstance(f.field, AlgebraicField) for f in functions)
-    if has_algebraic or len(values) < len(numbers):
+    if len(values) < len(numbers) or _has_algebraic_constants(S, gauge, right):
         return NumericProblem(System((), (1,)), right=right, embedded=Embedded(S, gauge, numbers)).at(_BITS)
     if not numbers:
         decision = found.decision if isinstance(found, Answer) else None
@@ -213,6 +211,12 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     gauge = None if gauge is None else _specialised(gauge, values)
     right = None if right is None else _right_at(right, values)
     return NumericProblem(System.of(S), S, None, gauge, right)  # a decision was that for generic values
+
+
+def _has_algebraic_constants(S: RatFunc, gauge: RatFunc | None, right: Equation | None) -> bool:
+    """Are there constants that are neither rational nor parameters?"""
+    functions = [S, gauge, None if right is None else right.f]
+    return any(isinstance(f.field, AlgebraicField) for f in functions if f is not None)
 
 
 def _read(equation: object) -> Answer | Parsed:

@@ -96,23 +96,34 @@ def read_start(
     """The start that the arguments of `evaluate` describe."""
     if which not in (None, "regular", "decaying"):
         raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
+    has_values = y0 is not None or dy0 is not None
     if which is not None or frobenius is not None:
-        plain = "an equation {} needs y0 and dy0 at a regular point"
-        if problem.right is not None:
-            raise InputError(plain.format("with a right-hand side"))
-        if problem.embedded is not None:
-            raise InputError(plain.format("whose constants aren't rational"))
+        _check_frobenius_allowed(problem)
     if which == "decaying":
         if dy0 is not None or frobenius is not None:
             raise InputError("the decaying solution is given by y0 alone")
         return Start(as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), ExactPoint(0)), True)
-    if sum((y0 is not None or dy0 is not None, frobenius is not None, which is not None)) != 1:
+    if has_values + (frobenius is not None) + (which is not None) != 1:
         raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
-    if frobenius is None and which is None:
+    if has_values:
         if y0 is None or dy0 is None:
             raise InputError("both y0 and dy0 are needed", hint=_STARTS, shell=_SHELL_STARTS)
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
     place = place_of(problem, x0, "x0")
+    return Start(place, _frobenius_coordinates(place, frobenius))
+
+
+def _check_frobenius_allowed(problem: NumericProblem) -> None:
+    """Raises `InputError` for equations that start with values."""
+    plain = "an equation {} needs y0 and dy0 at a regular point"
+    if problem.right is not None:
+        raise InputError(plain.format("with a right-hand side"))
+    if problem.embedded is not None:
+        raise InputError(plain.format("whose constants aren't rational"))
+
+
+def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) -> tuple[Number, Number]:
+    """The two that are given; without, those of the regular solution.  Raises `InputError` where there is none."""
     if frobenius is None:
         if not place.has_regular:
             said = f"no solution is smaller than all others at {place}"
@@ -125,7 +136,7 @@ def read_start(
             shell="--frobenius C1,C2, the dominant solution first",
         )
     first, second = (as_number(value, "a coordinate") for value in frobenius)
-    return Start(place, (first, second))
+    return first, second
 
 
 def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:

@@ -80,7 +80,9 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     valuations, N = bound
     problem.budget.check_degree(N, f"an invariant of degree {m}")
     R0 = singular_part(problem, valuations[:-1])
-    lifter, margin, recurrence_tried = Lifter(problem.field), _MARGIN, False
+    lifter = Lifter(problem.field)
+    margin = _MARGIN
+    recurrence_tried = False
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
@@ -90,25 +92,22 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
         for h, (space, point) in zip(bundle, spaces, strict=True):
             if not space:
                 return NoInvariant(m, prime=h.p, point=point, degree=N)
-        if len({len(space) for space, _ in spaces}) > 1:
+        bases = [space for space, _ in spaces]
+        if len({len(space) for space in bases}) > 1:
             continue
-        proposal = lifter.add(bundle, [space for space, _ in spaces])
-        if proposal:
-            forms = [Form(m, R0, P) for P in proposal]
-            if all(form.is_form(problem) for form in forms):
-                return forms
-        if not all(_closes(h, problem, m, R0, P) for h, (space, _) in zip(bundle, spaces, strict=True) for P in space):
-            margin, lifter = 2 * margin, Lifter(problem.field)
+        forms = [Form(m, R0, P) for P in lifter.add(bundle, bases) or ()]
+        if forms and all(form.is_form(problem) for form in forms):
+            return forms
+        if not all(_all_close(h, problem, m, R0, space) for h, space in zip(bundle, bases, strict=True)):
+            margin *= 2
+            lifter = Lifter(problem.field)
             continue
-        if (
-            not recurrence_tried
-            and len(spaces[0][0]) == 1
-            and _recurrence_is_cheaper(problem, m, N, lifter.primes_used)
-        ):
+        is_single = len(bases[0]) == 1
+        if is_single and not recurrence_tried and _recurrence_is_cheaper(problem, m, N, lifter.primes_used):
             recurrence_tried = True
             lifted = polynomial_invariant(problem, m, N, valuations)
-            if lifted is not None and (form := Form(m, R0, lifted)).is_form(problem):
-                return [form]
+            if lifted is not None and Form(m, R0, lifted).is_form(problem):
+                return [Form(m, R0, lifted)]
     raise AssertionError("the sequence of primes is infinite")
 
 
@@ -149,6 +148,10 @@ def invariants_modulo(
         P = sum((column.truncate(N + 1) * value for column, value in zip(columns, c, strict=True)), columns[0] * 0)
         space.append(translate(P, -point % p))
     return echelon_by_degree(space), point
+
+
+def _all_close(h: Homomorphism, problem: Problem, m: int, R0: Poly, space: Sequence[Any]) -> bool:
+    return all(_closes(h, problem, m, R0, P) for P in space)
 
 
 def _closes(h: Homomorphism, problem: Problem, m: int, R0: Poly, P: Any) -> bool:

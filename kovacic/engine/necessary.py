@@ -14,6 +14,9 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1, and J. Calmet & F. 
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
 from kovacic.decision import NecessaryCondition, Rule, Structure
 from kovacic.engine.places import Kind, Place, Problem
 
@@ -25,32 +28,41 @@ _ORDERS = {
 }
 
 
+@dataclass(frozen=True)
+class _Failure:
+    """A condition that fails at these places, and what is excluded by it."""
+
+    rule: Rule
+    culprits: list[Place]
+    structures: Sequence[Structure]
+
+
 def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryCondition]:
-    """The structures that can't occur, each with the condition that fails."""
-    places = problem.places
+    """The structures that can't occur, each with the first condition that fails."""
     excluded: dict[Structure, NecessaryCondition] = {}
+    for failure in _failures(problem.places):
+        new = [structure for structure in failure.structures if structure not in excluded]
+        if new:
+            condition = NecessaryCondition(failure.rule, tuple([place.name for place in failure.culprits]))
+            excluded.update(dict.fromkeys(new, condition))
+    return excluded
 
-    def exclude(rule: Rule, culprits: list[Place], *structures: Structure) -> None:
-        condition = NecessaryCondition(rule, tuple([place.name for place in culprits]))
-        for structure in structures:
-            excluded.setdefault(structure, condition)
 
+def _failures(places: Sequence[Place]) -> Iterator[_Failure]:
     ramified = [place for place in places if place.kind is Kind.RAMIFIED]
     if ramified:
-        exclude(Rule.RAMIFIED, ramified, Structure.REDUCIBLE)
+        yield _Failure(Rule.RAMIFIED, ramified, [Structure.REDUCIBLE])
     logarithmic = [place for place in places if place.logarithm]
     if logarithmic:
-        exclude(Rule.LOGARITHM, logarithmic, Structure.IMPRIMITIVE, *_PRIMITIVE)
+        yield _Failure(Rule.LOGARITHM, logarithmic, [Structure.IMPRIMITIVE, *_PRIMITIVE])
     branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
     if sum(place.degree for place in branched) < 2:
-        exclude(Rule.TOO_FEW_BRANCH_POINTS, branched, Structure.IMPRIMITIVE)
+        yield _Failure(Rule.TOO_FEW_BRANCH_POINTS, branched, [Structure.IMPRIMITIVE])
     irregular = [place for place in places if place.kind in (Kind.RAMIFIED, Kind.UNRAMIFIED)]
     if irregular:
-        exclude(Rule.IRREGULAR, irregular, *_PRIMITIVE)
+        yield _Failure(Rule.IRREGULAR, irregular, _PRIMITIVE)
     regular = [place for place in places if place.kind is Kind.REGULAR]
     for structure, orders in _ORDERS.items():
-        if structure not in excluded:
-            culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
-            if culprits:
-                exclude(Rule.EXPONENTS, culprits, structure)
-    return excluded
+        culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
+        if culprits:
+            yield _Failure(Rule.EXPONENTS, culprits, [structure])

@@ -97,38 +97,61 @@ class _Writer:
     def written(self, nodes: list[Node]) -> str:
         written, k = "", 0
         while k < len(nodes):
-            node, following = nodes[k], nodes[k + 1] if k + 1 < len(nodes) else ""
-            k += 1
+            node = nodes[k]
+            following = nodes[k + 1] if k + 1 < len(nodes) else ""
+            is_wide_power = node == "^" and isinstance(following, list) and _width(following) > self.most
             if isinstance(node, list):
                 written += self.written(node) if _width(node) > self.most else _verbatim([node])
-            elif node in _FRACTIONS and _width(nodes[k - 1 : k + 2]) > self.most:
-                written += f"{self._factor(_argument(nodes, k))}/\\allowbreak {self._factor(_argument(nodes, k + 1))}"
-                k += 2
+                k += 1
             elif node == r"\sqrt":
-                end = nodes.index("]", k) + 1 if following == "[" else k
-                index, inside = _verbatim(nodes[k + 1 : end - 1]) or "2", _argument(nodes, end)
-                wide = _width(inside) > self.most
-                root = rf"\bigl({self.written(inside)}\bigr)^{{1/{index}}}"
-                written += root if wide else _verbatim(nodes[k - 1 : end + 1])
+                end = nodes.index("]", k) + 1 if following == "[" else k + 1
+                written += self._root(nodes[k : end + 1])
                 k = end + 1
             elif node == r"\left":
-                end = _closing(nodes, k)
-                inner = nodes[k + 1 : end]
-                wide = following == "(" and _width(inner) > self.most
-                written += rf"\bigl({self._inside(inner)}\bigr)" if wide else _verbatim(nodes[k - 1 : end + 2])
-                k = end + 2
-            elif node == "^" and isinstance(following, list) and _width(following) > self.most and written[-1:] == "e":
+                end = _closing(nodes, k + 1) + 2
+                written += self._parentheses(nodes[k:end])
+                k = end
+            elif is_wide_power and written[-1:] == "e":
+                assert isinstance(following, list)
                 written = rf"{written[:-1]}\exp\bigl({self.written(following)}\bigr)"
-                k += 1
-            elif node in (*_WITH_NAME, *_FRACTIONS, "^"):
-                count = 2 if node in _FRACTIONS else 1
-                written += _verbatim(nodes[k - 1 : k + count])
-                k += count
-            elif node.isdigit() and len(node) > self.most / 2:
-                written += r"\allowbreak ".join(re.findall(r"\d{1,10}", node))
+                k += 2
+            elif node in _FRACTIONS:
+                written += self._fraction(nodes[k : k + 3])
+                k += 3
+            elif node in (*_WITH_NAME, "^"):
+                written += _verbatim(nodes[k : k + 2])
+                k += 2
             else:
-                written += _verbatim([node]) + r"\allowbreak " * (node == ",")
+                written += self._token(node)
+                k += 1
         return written
+
+    def _root(self, nodes: list[Node]) -> str:
+        r"""\sqrt, maybe its index in brackets, and what is under it."""
+        inside = _argument(nodes, len(nodes) - 1)
+        if _width(inside) <= self.most:
+            return _verbatim(nodes)
+        index = _verbatim(nodes[2:-2]) or "2"
+        return rf"\bigl({self.written(inside)}\bigr)^{{1/{index}}}"
+
+    def _parentheses(self, nodes: list[Node]) -> str:
+        r"""\left( ... \right)."""
+        inner = nodes[2:-2]
+        if nodes[1] != "(" or _width(inner) <= self.most:
+            return _verbatim(nodes)
+        return rf"\bigl({self._inside(inner)}\bigr)"
+
+    def _fraction(self, nodes: list[Node]) -> str:
+        r"""\frac, numerator, denominator."""
+        if _width(nodes) <= self.most:
+            return _verbatim(nodes)
+        return f"{self._factor(_argument(nodes, 1))}/\\allowbreak {self._factor(_argument(nodes, 2))}"
+
+    def _token(self, token: str) -> str:
+        """Long numbers in pieces of ten digits; a comma ends a line."""
+        if token.isdigit() and len(token) > self.most / 2:
+            return r"\allowbreak ".join(re.findall(r"\d{1,10}", token))
+        return _verbatim([token]) + (r"\allowbreak " if token == "," else "")
 
     def _inside(self, nodes: list[Node]) -> str:
         """Between parentheses; parameters and argument of a hypergeometric function in one line, with semicolons."""
