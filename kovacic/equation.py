@@ -50,7 +50,13 @@ class Change:
     expression: str
 
     def to_dict(self) -> dict[str, str]:
-        """For JSON; `Change(**data)` is the way back."""
+        """For JSON; `Change(**data)` is the way back.
+
+        Returns
+        -------
+        dict
+            variable and expression.
+        """
         return {"variable": self.variable, "expression": self.expression}
 
 
@@ -127,6 +133,20 @@ class Equation:
         ----------
         caret : bool
             With False, powers are written as Python writes them.  True by default.
+
+        Returns
+        -------
+        str
+            One line.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> equation = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1)*y = x").equation
+        >>> print(equation.text())
+        x^2*y'' + x*y' + (x^2 - 1)*y = x
+        >>> print(equation.text(caret=False))
+        x**2*y'' + x*y' + (x**2 - 1)*y = x
         """
         y = self.unknown
         terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]

@@ -23,6 +23,18 @@ class Conditions(ParametricAnswer):
         ----------
         found : ParametricAnswer
             The data.
+
+        Returns
+        -------
+        Conditions
+            With the same fields.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> type(bessel).of(bessel) == bessel
+        True
         """
         return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
 

@@ -90,6 +90,13 @@ class Solution(Answer):
         -------
         Solution
             With the same fields.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> answer = kovacic.solve("x^2 + 3")
+        >>> kovacic.Solution.of(answer) == answer
+        True
         """
         return cls(**{field.name: getattr(answer, field.name) for field in fields(answer)})
 
@@ -181,6 +188,11 @@ class Solution(Answer):
         limits : Limits
             What the work may cost.
 
+        Returns
+        -------
+        Ball, pair of Ball, or a tuple or an array of these
+            As `kovacic.evaluate` returns it.
+
         Notes
         -----
         See `kovacic.evaluate` for each keyword, and for what is returned, raised and warned of.
@@ -219,6 +231,11 @@ class Solution(Answer):
             False leaves the measurement out.  True by default.
         params, x0, y0, dy0, frobenius, path, limits
             As for `at`: the solution with these initial values, which every equation has.
+
+        Returns
+        -------
+        ProductForm, TabulatedFunction or Combination
+            A function of a number or an array; `measured` is its error.
 
         Notes
         -----
@@ -263,6 +280,11 @@ class Solution(Answer):
             The solution to be drawn; by default y1 and y2 where they are known, else y(x0) = 1, y'(x0) = 0.
         points, digits, params, method, limits
             As for `kovacic.views.plot.plot`, which says what is returned and raised.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            It is not shown; a notebook shows it.
 
         Examples
         --------

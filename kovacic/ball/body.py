@@ -170,6 +170,13 @@ class RollingBall:
         ------
         InputError
             For 0, and for a ball that doesn't fit inside.
+
+        Examples
+        --------
+        >>> from kovacic.ball import RollingBall
+        >>> place = RollingBall(m=1, R=1, a=0, A1="2/5", A3="2/5").on_sphere(2)
+        >>> print(place.ratio)
+        1/2
         """
         radius = exact(R1, "R1")
         if radius == 0:
@@ -180,7 +187,19 @@ class RollingBall:
         return self._rolling(radius)
 
     def on_plane(self) -> BallOnSphere:
-        """The ball on a plane, R1 -> infinity."""
+        """The ball on a plane, R1 -> infinity.
+
+        Returns
+        -------
+        BallOnSphere
+            With the ratio R/R1 = 0.
+
+        Examples
+        --------
+        >>> from kovacic.ball import RollingBall
+        >>> print(RollingBall(m=1, R=1, a=0, A1="2/5", A3="2/5").on_plane().ratio)
+        0
+        """
         return self._rolling(sp.oo)
 
     def _rolling(self, R1: sp.Expr) -> BallOnSphere:

@@ -129,6 +129,20 @@ class Spectrum:
 
         Raises `InputError` where a parameter has no value, and for values that the spectrum excludes.
 
+        Parameters
+        ----------
+        values : mapping
+            A real number for each parameter, by name: {"b": 3}; needed where there are parameters.
+        count : int
+            The most of each formula: 10 by default.
+
+        Returns
+        -------
+        tuple of State
+            In the order of their energies.
+
+        Examples
+        --------
         >>> import kovacic
         >>> morse = kovacic.spectrum("exp(-2*x) - 2*b*exp(-x)", assume={"b": "positive"})
         >>> [state.energy for state in morse.states({"b": 3})]
@@ -162,7 +176,20 @@ class Spectrum:
         return {sympy.Symbol(name): value for name, value in given.items()}
 
     def text(self) -> str:
-        """In lines, as the command prints it."""
+        """In lines, as the command prints it.
+
+        Returns
+        -------
+        str
+            `str` gives the same.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> oscillator = kovacic.spectrum("x^2")
+        >>> print(oscillator.text().splitlines()[0])
+        -y'' + V y = E y, V = x^2, -oo < x < oo
+        """
         known = f" ({self.assumptions})" if self.assumptions else ""
         first, last = map(_text, self.domain)
         lines = [
@@ -193,7 +220,20 @@ class Spectrum:
         return self.text()
 
     def latex(self) -> str:
-        r"""The levels as a LaTeX formula: E_n = ..., n = 0, 1, ..., and the wave functions, in `aligned`."""
+        r"""The levels as a LaTeX formula: E_n = ..., n = 0, 1, ..., and the wave functions, in `aligned`.
+
+        Returns
+        -------
+        str
+            A formula without delimiters.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> oscillator = kovacic.spectrum("x^2")
+        >>> print(oscillator.latex().partition(r" \\ ")[0])
+        \begin{aligned} E_{n} &= 2 n + 1,\quad n = 0, 1, 2, \ldots
+        """
         rows = []
         for levels in self.levels:
             n = as_latex(levels.number)
@@ -214,7 +254,20 @@ class Spectrum:
         return f"${self.latex()}$"
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON object as plain Python values: formulas as text."""
+        """The JSON object as plain Python values: formulas as text.
+
+        Returns
+        -------
+        dict
+            With lists of levels, algebraic levels and ends.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> oscillator = kovacic.spectrum("x^2")
+        >>> oscillator.to_dict()["levels"][0]["energy"]
+        '2*n + 1'
+        """
         return {
             "potential": _text(self.potential),
             "variable": self.variable,
@@ -252,7 +305,21 @@ class Spectrum:
         }
 
     def to_json(self) -> str:
-        """One line of JSON."""
+        """One line of JSON.
+
+        Returns
+        -------
+        str
+            It has no line breaks.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> oscillator = kovacic.spectrum("x^2")
+        >>> import json
+        >>> json.loads(oscillator.to_json()) == oscillator.to_dict()
+        True
+        """
         return json_line(self.to_dict())
 
 

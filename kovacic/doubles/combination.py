@@ -57,7 +57,30 @@ class Combination:
     measured: Measured | None = None
 
     def __call__(self, x: Any) -> Any:
-        """y(x), of the shape of x; raises InputError outside of the interval."""
+        """y(x), of the shape of x; raises InputError outside of the interval.
+
+        Parameters
+        ----------
+        x : number or array
+            Within the interval.
+
+        Returns
+        -------
+        float or array
+            Of the shape of x.
+
+        Raises
+        ------
+        InputError
+            For others.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> f = kovacic.solve("1").lambdify(interval=(0, 2), x0=0, y0=1, dy0=0)      # the hyperbolic cosine
+        >>> print(f"{f(1.0):.12f}")
+        1.543080634815
+        """
         values = [replace(form, careful=self.careful)(x) for form in self.forms]
         if len(values) == 1:
             return 2 * np.real(self.factors[0] * values[0])

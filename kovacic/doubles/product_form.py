@@ -208,6 +208,13 @@ class ProductForm:
         ------
         InputError
             For an argument outside of the region, or one that isn't numerical.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 2))      # x exp(x^2/2)
+        >>> print(f"{f(1.0):.12f}", f([1.0, 2.0]).shape)
+        1.648721270700 (2,)
         """
         return in_blocks(self._values, self.region.points(x))
 
@@ -228,6 +235,14 @@ class ProductForm:
         ------
         InputError
             For an argument outside of the region, or one that isn't numerical.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 100))
+        >>> sign, size = f.log(100.0)
+        >>> print(sign, f"{size:.6f}")
+        1.0 5004.605170
         """
         points = self.region.points(x)
         with np.errstate(all="ignore"):

@@ -170,6 +170,12 @@ class TabulatedFunction:
         ------
         InputError
             For an argument outside of the interval, or one that isn't numerical.
+
+        Examples
+        --------
+        >>> f = tabulate("-1", 0, 10, x0=0, y0=0, dy0=1)                # the sine
+        >>> print(f"{f(1.0):.12f}", f([1.0, 2.0]).shape)
+        0.841470984808 (2,)
         """
         if isinstance(x, float) and self.region.low.real <= x <= self.region.high.real:
             return self._single(float(x))

@@ -143,6 +143,16 @@ class Ball:
         ----------
         mantissa, exponent : int
             Any integers.
+
+        Returns
+        -------
+        Ball
+            With the radius 0.
+
+        Examples
+        --------
+        >>> float(Ball.exact(3, -2))
+        0.75
         """
         m = whole(mantissa, "the mantissa", least=None)
         e = whole(exponent, "the exponent", least=None)
@@ -157,6 +167,11 @@ class Ball:
         value : number
             A number or a ball of any kind that `kovacic.evaluate` takes; constants such as "pi" are taken to 100 digits.
 
+        Returns
+        -------
+        Ball
+            A ball is returned as it is.
+
         Raises
         ------
         InputError
@@ -166,6 +181,8 @@ class Ball:
         --------
         >>> Ball.of("1/3").contains("0.3333333333"), Ball.of("1/3").contains("1/3")
         (False, True)
+        >>> Ball.of(0.5).is_exact(), Ball.of("pi").digits > 100, Ball.of(Ball.exact(2)) == Ball.exact(2)
+        (True, True, True)
         """
         number = as_number(value, "the number")
         parts = (number.re, number.im) if isinstance(number, ExactPoint) else ()
@@ -191,11 +208,33 @@ class Ball:
         return _to_fraction(self.re), _to_fraction(self.im)
 
     def is_exact(self) -> bool:
-        """True if the radius is zero."""
+        """True if the radius is zero.
+
+        Returns
+        -------
+        bool
+            True if the radius is 0.
+
+        Examples
+        --------
+        >>> Ball.of("1/2").is_exact(), Ball.of("1/3").is_exact()
+        (True, False)
+        """
         return self.rad[0] == 0
 
     def contains_zero(self) -> bool:
-        """True if the exact value may be zero."""
+        """True if the exact value may be zero.
+
+        Returns
+        -------
+        bool
+            False proves that it isn't zero.
+
+        Examples
+        --------
+        >>> Ball.of("pi").contains_zero(), (Ball.of("pi") - Ball.of("pi")).contains_zero()
+        (False, True)
+        """
         return self.overlaps(Ball.exact(0))
 
     def contains(self, number: object) -> bool:
@@ -205,6 +244,16 @@ class Ball:
         ----------
         number : number or Ball
             int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational; or a ball, as a whole.
+
+        Returns
+        -------
+        bool
+            True is proven.
+
+        Examples
+        --------
+        >>> Ball.of("pi").contains(3), Ball.exact(1).contains("1.0"), Ball.of("pi").contains(Ball.of("pi"))
+        (False, True, True)
         """
         if isinstance(number, Ball):
             return _reaches(self, number, -1)
@@ -218,6 +267,16 @@ class Ball:
         ----------
         other : number or Ball
             The other one.
+
+        Returns
+        -------
+        bool
+            True where the balls have a number in common.
+
+        Examples
+        --------
+        >>> Ball.of("pi").overlaps("22/7"), Ball.of("sqrt(2)").overlaps(Ball.of("2^(1/2)"))
+        (False, True)
         """
         return _reaches(self, other if isinstance(other, Ball) else Ball.of(other), 1)
 
@@ -245,14 +304,36 @@ class Ball:
         return self.mid
 
     def to_mpmath(self) -> Any:
-        """The midpoint as an mpmath number, exactly (mpf where `real`, else mpc)."""
+        """The midpoint as an mpmath number, exactly (mpf where `real`, else mpc).
+
+        Returns
+        -------
+        mpf or mpc
+            With as many bits as the midpoint has.
+
+        Examples
+        --------
+        >>> print(Ball.of("1/4").to_mpmath(), Ball.of("1 + I").to_mpmath())
+        0.25 (1.0 + 1.0j)
+        """
         import mpmath
 
         parts = [mpmath.mp.make_mpf(mpmath.libmp.from_man_exp(m, e)) for m, e in (self.re, self.im)]
         return parts[0] if self.real else mpmath.mpc(*parts)
 
     def to_interval(self) -> Any:
-        """An mpmath interval, real or complex, that contains the ball."""
+        """An mpmath interval, real or complex, that contains the ball.
+
+        Returns
+        -------
+        mpmath interval
+            At mpmath's working precision.
+
+        Examples
+        --------
+        >>> 2 in Ball.of("sqrt(2)").to_interval() ** 2
+        True
+        """
         import mpmath
 
         parts = [_ends(part, self.rad) for part in ((self.re,) if self.real else (self.re, self.im))]
@@ -260,7 +341,18 @@ class Ball:
         return made[0] if self.real else mpmath.iv.mpc(*made)
 
     def to_flint(self) -> arb | acb:
-        """The ball as python-flint's: arb where `real`, else an acb that contains it."""
+        """The ball as python-flint's: arb where `real`, else an acb that contains it.
+
+        Returns
+        -------
+        flint.arb or flint.acb
+            With the same midpoint; the radius may be larger by its rounding.
+
+        Examples
+        --------
+        >>> type(Ball.of("1/3").to_flint()).__name__, type(Ball.of("I").to_flint()).__name__
+        ('arb', 'acb')
+        """
         value = ball_to_flint(self)
         return value.real if self.real else value
 
@@ -360,6 +452,11 @@ class Ball:
         -------
         bool or None
             False if the balls are apart, True if both are exact and the same, else None.
+
+        Examples
+        --------
+        >>> Ball.exact(1, -1).equals("1/2"), Ball.of("pi").equals(3), Ball.of("pi").equals("pi")
+        (True, False, None)
         """
         second = other if isinstance(other, Ball) else Ball.of(other)
         return (self.is_exact() and second.is_exact()) or None if self.overlaps(second) else False

@@ -169,7 +169,7 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     True
     """
     check_keywords("evaluate", options, Options.__annotations__)
-    return _prepared(equation, x0, options).values(x, derivative=derivative)
+    return _prepared(equation, x0, options)._values(x, derivative=derivative)
 
 
 class Prepared:
@@ -191,14 +191,43 @@ class Prepared:
     @overload
     def __call__(self, x: object, *, derivative: bool = ...) -> Any: ...
     def __call__(self, x: object, *, derivative: bool = False) -> Any:
-        """A ball that contains y(x), or a pair with y'(x), as `evaluate` returns them; a tuple or an array for many points."""
-        return self.values(x, derivative=derivative)
+        """A ball that contains y(x), or a pair with y'(x); a tuple or an array of these for many points.
+
+        Parameters
+        ----------
+        x : number, sequence or array
+            Where, as for `evaluate`.
+        derivative : bool
+            With True pairs of balls, y and y', come back.  False by default.
+
+        Returns
+        -------
+        Ball, pair of Ball, or a tuple or an array of these
+            What `evaluate` returns.
+
+        Raises
+        ------
+        InputError
+            For a point that can't be reached from the start.
+        LimitExceeded
+            Where the limits don't suffice.
+
+        Examples
+        --------
+        >>> sine = prepared("-1", x0=0, y0=0, dy0=1)
+        >>> print(f"{sine('1/2'):.10f}", [f"{value:.10f}" for value in sine([1, 2])])
+        0.4794255386 ['0.8414709848', '0.9092974268']
+        >>> y, slope = sine(1, derivative=True)
+        >>> print(f"{y:.10f} {slope:.10f}")
+        0.8414709848 0.5403023059
+        """
+        return self._values(x, derivative=derivative)
 
     def __repr__(self) -> str:
         start = ", ".join(f"{name}={value}" for name, value in self._start.items() if value is not None)
         return f"<Prepared {start}, {self.digits} digits>"
 
-    def values(self, x: object, *, derivative: bool) -> Any:
+    def _values(self, x: object, *, derivative: bool) -> Any:
         """The same; a warning names the line that called the caller."""
         shape = getattr(x, "shape", None)
         if shape is None:

@@ -79,7 +79,20 @@ class LocalMonodromy:
         return rf"$\text{{around }} {around}\colon\ \begin{{pmatrix}} {matrix} \end{{pmatrix}}$"
 
     def acb_mat(self) -> acb_mat:
-        """The matrix as python-flint's, at the working precision in force."""
+        """The matrix as python-flint's, at the working precision in force.
+
+        Returns
+        -------
+        flint.acb_mat
+            Two by two.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> (point,) = kovacic.monodromy("-2/(9*x^2)")                  # exponents 1/3, 2/3
+        >>> point.acb_mat().det().contains(1)
+        True
+        """
         return acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix])
 
     @property
@@ -101,6 +114,13 @@ class LocalMonodromy:
         -------
         bool
             False proves that it isn't.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> (point,) = kovacic.monodromy("-2/(9*x^2)")                  # exponents 1/3, 2/3
+        >>> point.is_identity_to_the_power(3), point.is_identity_to_the_power(2)
+        (True, False)
         """
         with working_precision(1000):
             m, one = self.acb_mat(), acb_mat([[1, 0], [0, 1]])

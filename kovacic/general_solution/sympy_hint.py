@@ -27,6 +27,13 @@ def register() -> None:
     put in by SymPy itself, as for its own methods (`kovacic.dsolve` has its own way, which knows more: free constants, and
     why there is no solution).  An equation that it can't solve is left to SymPy's methods.  Twice is the same as once.
 
+    Returns
+    -------
+    None
+        SymPy has the hint from then on.
+
+    Examples
+    --------
     >>> import kovacic, sympy
     >>> x, y = sympy.Symbol("x"), sympy.Function("y")
     >>> equation = sympy.Eq(y(x).diff(x, 2), (x**2 + 1) * y(x))
@@ -46,6 +53,13 @@ def register() -> None:
 def unregister() -> None:
     """Undo `register`; nothing happens where it wasn't called.
 
+    Returns
+    -------
+    None
+        SymPy is as it was.
+
+    Examples
+    --------
     >>> import kovacic
     >>> kovacic.unregister()
     """

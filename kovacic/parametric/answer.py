@@ -112,10 +112,22 @@ class ParametricAnswer:
         values : mapping
             A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
 
+        Returns
+        -------
+        ParameterRegion or None
+            The first region whose statement holds there.
+
         Raises
         ------
         InputError
             Where a parameter has no value, or one that contradicts an assumption.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.region_at({"n": "3/2"}), bessel.region_at({"n": "1/3"}))
+        n - 1/2 in Z: case 1 None
         """
         return self.region_of(self.point(values))
 
@@ -126,6 +138,18 @@ class ParametricAnswer:
         ----------
         point : ParameterPoint
             What `point` returned.
+
+        Returns
+        -------
+        ParameterRegion or None
+            The first region whose statement holds there.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.region_of(bessel.point({"n": "3/2"})))
+        n - 1/2 in Z: case 1
         """
         return next((region for region in self.regions if region.statement.holds(point)), None)
 
@@ -184,6 +208,13 @@ class ParametricAnswer:
             Where S isn't defined, or a parameter has no value.
         LimitExceeded
             Where it isn't decided within the limits.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> bessel.case_at({"n": "3/2"}), bessel.case_at({"n": "sqrt(2)"})
+        (1, None)
         """
         point = self.point(values)
         verdict = self.predicted(point)
@@ -204,6 +235,23 @@ class ParametricAnswer:
         ----------
         values : mapping
             A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+
+        Returns
+        -------
+        Answer
+            Its `verified` is True, unless it is undecided.
+
+        Raises
+        ------
+        InputError
+            Where S isn't defined, or a parameter has no value.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> bessel.answer_at({"n": "1/2"}).case
+        1
         """
         point = self.point(values)
         try:
@@ -223,6 +271,18 @@ class ParametricAnswer:
         ----------
         point : ParameterPoint
             What `point` returned.
+
+        Returns
+        -------
+        RegionVerdict or None
+            Its `known` is False where the regions aren't complete and none contains the point.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.predicted(bessel.point({"n": "3/2"})))
+        case 1
         """
         try:
             point.restricted(self.S)
@@ -241,10 +301,22 @@ class ParametricAnswer:
         values : mapping
             A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
 
+        Returns
+        -------
+        ParameterPoint
+            For `region_of` and `predicted`.
+
         Raises
         ------
         InputError
             Where a parameter has no value, or one that contradicts an assumption.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.point({"n": "3/2"}))
+        n = 3/2
         """
         given = {str(name): value for name, value in values.items()}
         missing = ", ".join(name for name in self.parameters if name not in given)
@@ -302,11 +374,38 @@ class ParametricAnswer:
         return CheckReport(**counts, disagreements=tuple(disagreements))
 
     def to_json(self) -> str:
-        """One line of JSON: parameters, generic, regions."""
+        """One line of JSON: parameters, generic, regions.
+
+        Returns
+        -------
+        str
+            `from_json` reads it.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> bessel.to_json()[:40]
+        '{"S": "(-4*x**2 + 4*n**2 - 1)/(4*x**2)",'
+        """
         return json_line(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON object as plain Python values."""
+        """The JSON object as plain Python values.
+
+        Returns
+        -------
+        dict
+            With the keys S, variable, parameters, assumptions, generic, regions, complete, theory, notices, equation.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> data = bessel.to_dict()
+        >>> data["parameters"], [region["condition"] for region in data["regions"]]
+        (['n'], ['n - 1/2 in Z'])
+        """
         return {
             "S": self.S.to_str(self.variable),
             "variable": self.variable,
@@ -329,6 +428,11 @@ class ParametricAnswer:
         ----------
         text : str or mapping
             The line of JSON, or the object that it stands for.
+
+        Returns
+        -------
+        ParametricAnswer
+            Of the class that it is called on.
 
         Raises
         ------
@@ -368,7 +472,20 @@ class ParametricAnswer:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None
 
     def latex(self) -> str:
-        """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
+        r"""The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values.
+
+        Returns
+        -------
+        str
+            A formula without delimiters.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.latex().partition("cases} ")[2])
+        \text{case 1} & n - \frac{1}{2} \in \mathbb{Z} \\ \text{no Liouvillian solution} & \text{otherwise} \end{cases}
+        """
         rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_one_line(self.regions) if r.defined]
         rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
         return rf"y'' = {self.right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
@@ -420,6 +537,16 @@ class ParametricAnswer:
         ------
         InputError
             For more than two parameters, or an empty range.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> axes = kovacic.conditions("n/x^2 + k").plot(steps=8)                       # a map
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('n', 'k')
+        >>> strip = kovacic.conditions("n/x^2 + k").plot(parameters=["n"], ranges=[(0, 2)], steps=8, fixed={"k": 1})
+        >>> strip.get_xlabel(), strip.get_ylabel()
+        ('n', '')
         """
 
         def label_at(values: Mapping[Any, Any]) -> str:
@@ -437,6 +564,23 @@ class ParametricAnswer:
         ----------
         all : bool
             Write every region; by default at most a screen of them.
+
+        Returns
+        -------
+        str
+            `str` gives the same.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.text())
+        y'' = ((-4*x^2 + 4*n^2 - 1)/(4*x^2)) y, parameters n
+          n - 1/2 in Z: case 1
+          otherwise: no Liouvillian solution
+          (proven to be complete; Whittaker's equation in x: Martinet & Ramis)
+        >>> print(kovacic.conditions("n/x^2 + k").text(all=True).splitlines()[0])
+        y'' = ((k*x^2 + n)/x^2) y, parameters n, k
         """
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}{known}"]
@@ -452,7 +596,20 @@ class ParametricAnswer:
         return visible("\n".join(lines))
 
     def explain(self) -> str:
-        """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known."""
+        """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known.
+
+        Returns
+        -------
+        str
+            Lines.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.explain().splitlines()[-1])
+          y = x^(1/2 - n)*exp(-I*x)*assoc_laguerre(n - 1/2, -2*n, 2*I*x) where n - 1/2 is a natural number
+        """
         lines = [self.text(all=True)]
         for region in self.regions:
             lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]

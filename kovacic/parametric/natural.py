@@ -71,7 +71,18 @@ class Determinant:
         return replace(self, factors=factors, system=tuple(map(change, self.system)))
 
     def holds(self, point: ParameterPoint) -> bool:
-        """Is d the degree at the point, and does P exist there?"""
+        """Is d the degree at the point, and does P exist there?
+
+        Parameters
+        ----------
+        point : ParameterPoint
+            What `Conditions.point` returned.
+
+        Returns
+        -------
+        bool
+            True where both hold.
+        """
         if self.factors is None or point.at(self.exponents):
             return False
         in_system = bool(self.system) and not any(point.at(function) for function in self.system)

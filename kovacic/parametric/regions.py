@@ -63,11 +63,34 @@ class RegionVerdict:
         ----------
         decision : Decision
             Of one equation.
+
+        Returns
+        -------
+        RegionVerdict
+            Its `known` is False where it is undecided.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> print(RegionVerdict.of(kovacic.solve("x").decision))
+        no Liouvillian solution
         """
         return cls(decision.structure, decision.status is not Status.UNDECIDED)
 
     def to_dict(self) -> dict[str, Any]:
-        """Its part of the JSON object."""
+        """Its part of the JSON object.
+
+        Returns
+        -------
+        dict
+            structure, known, family.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> kovacic.conditions("n/x^2").generic.to_dict()
+        {'structure': 'reducible', 'known': True, 'family': None}
+        """
         return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
 
     @classmethod
@@ -78,6 +101,18 @@ class RegionVerdict:
         ----------
         data : mapping
             What `to_dict` returned.
+
+        Returns
+        -------
+        RegionVerdict
+            Equal to the one that was written.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> generic = kovacic.conditions("n/x^2").generic
+        >>> RegionVerdict.from_dict(generic.to_dict()) == generic
+        True
         """
         structure = data["structure"]
         return cls(None if structure is None else Structure(structure), data["known"], data["family"])
@@ -207,7 +242,20 @@ class ParameterRegion:
         return self.defined and self.complete is True and self.verdict.known and not self.determinants
 
     def to_dict(self) -> dict[str, Any]:
-        """The region's part of the JSON object."""
+        """The region's part of the JSON object.
+
+        Returns
+        -------
+        dict
+            condition, case, group, complete, defined, statement, verdict, and determinants where there are any.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> (region,) = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions
+        >>> region.to_dict()["condition"], region.to_dict()["case"]
+        ('n - 1/2 in Z', 1)
+        """
         names = ("case", "group", "complete", "defined")
         data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
         data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
