@@ -11,6 +11,7 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 1.1.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -49,15 +50,35 @@ class Change:
     variable: str
     expression: str
 
+    @property
+    def field(self) -> str:
+        """The field whose elements count as rational: `C(exp(2*x))`.
+
+        Kovacic's case and the group are those over it.  Over a smaller one, C(sinh(x)) within C(exp(x)), an equation of case 1
+        can be one of case 2; whether there are Liouvillian solutions, and the identity component of the group, are the same.
+        """
+        return f"C({self.expression.replace('**', '^')})"
+
     def to_dict(self) -> dict[str, str]:
-        """For JSON; `Change(**data)` is the way back.
+        """For JSON.
 
         Returns
         -------
         dict
-            variable and expression.
+            variable, expression and field.
         """
-        return {"variable": self.variable, "expression": self.expression}
+        return {"variable": self.variable, "expression": self.expression, "field": self.field}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, str]) -> Change:
+        """The way back from `to_dict`.
+
+        Parameters
+        ----------
+        data : mapping
+            What `to_dict` returned.
+        """
+        return cls(data["variable"], data["expression"])
 
 
 @dataclass(frozen=True)

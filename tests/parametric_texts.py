@@ -39,9 +39,42 @@ def says(statement: Statement, values: Values) -> bool:
 def numbers_said(statement: Natural, values: Values) -> set[int]:
     """The natural numbers below a bound that the text allows."""
     text, found, _ = statement.written.partition(f", `{statement.letter} in N`")
-    if not found or "the exponents allow" in text:
+    if not found:
         raise NotReadError(text)
+    if " for integers " in text:
+        return _sums_of_exponents(text, values)
+    if " = +-" in text and " +- " in text:
+        return _sums_with_signs(text.strip("`"), statement.letter, values)
     return {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
+
+
+def _sums_of_exponents(text: str, values: Values) -> set[int]:
+    """`d = 6 + j*a + k*b` for integers `j` from -2 to 2, `k` from -6 to 6, not all 0."""
+    formula, _, said = text.partition(" for integers ")
+    limits = {name: int(limit) for name, limit in re.findall(r"`(\w+)` from -\d+ to (\d+)", said)}
+    found: set[int] = set()
+    for numbers in product(*(range(-limit, limit + 1) for limit in limits.values())):
+        if "not all 0" in said and not any(numbers):
+            continue
+        integers = dict(zip(limits, map(sympy.Integer, numbers), strict=True))
+        _, _, sum_of_them = formula.strip("`").partition(" = ")
+        found |= _natural(read(sum_of_them, values | integers))
+    return found
+
+
+def _sums_with_signs(formula: str, letter: str, values: Values) -> set[int]:
+    """`d + 1 = +-a +- b`, for every choice of the signs."""
+    left, _, right = formula.partition(" = +-")
+    shift = read(left, values) - sympy.Symbol(letter)
+    sums = [read(f"{sign}({term})", values) for sign in "+-" for term in [right.partition(" +- ")[0]]]
+    for term in right.split(" +- ")[1:]:
+        sums = [known + sign * read(term, values) for known in sums for sign in (1, -1)]
+    return set[int]().union(*(_natural(known - shift) for known in sums))
+
+
+def _natural(number: Any) -> set[int]:
+    number = sympy.nsimplify(sympy.simplify(number)) if not number.is_Rational else number
+    return {int(number)} if number.is_Integer and 0 <= number < RANGE.stop else set()
 
 
 def read(text: str, values: Values) -> Any:

@@ -362,7 +362,7 @@ def test_a_picture_in_the_users_variable() -> None:
 def test_json_keeps_the_change_of_variable() -> None:
     answer = kovacic.solve("-2/cosh(x)^2 + 1")
     text = answer.to_json()
-    assert json.loads(text)["equation"]["change"] == {"variable": "x", "expression": "exp(2*x)"}
+    assert json.loads(text)["equation"]["change"] == {"variable": "x", "expression": "exp(2*x)", "field": "C(exp(2*x))"}
     again = kovacic.Solution.from_json(text)
     assert again == answer
     assert again.solutions == answer.solutions

@@ -195,6 +195,9 @@ class FunctionPoly(Poly):
         terms = {(0, *e[1:]): c for e, c in self.num.to_dict().items() if e[0] == power}
         return self.field.make(self.field.context.from_dict(terms), self.den)
 
+    def __iter__(self) -> Iterator[FunctionPoly]:
+        return iter(self.coefficients())
+
     def coefficients(self) -> list[FunctionPoly]:
         """The coefficients from low to high."""
         return [self.field.make(c, self.den) for c in self._columns()]

@@ -185,8 +185,8 @@ class Poly(Immutable, ABC):
     def __call__(self, point: Poly | Scalar) -> Poly:
         """The value at a point: a constant, or another polynomial (composition), by Horner's rule."""
         result: Any = self.field.poly([])
-        for power in range(self.degree, -1, -1):
-            result = result * point + self[power]
+        for coefficient in reversed([*self]):
+            result = result * point + coefficient
         return result  # type: ignore[no-any-return]
 
     @property

@@ -585,6 +585,8 @@ class ParametricAnswer:
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
+        if self.equation is not None and self.equation.change is not None:
+            lines.append(f"  cases and groups over {self.equation.change.field}")
         regions = in_one_line(self.regions)
         number = len(regions) if all or len(regions) <= _SCREEN + 1 else _SCREEN
         lines += [f"  {region}" for region in regions[:number]]

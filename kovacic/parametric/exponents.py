@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 
 from kovacic.algebra.extension import AlgebraicField, adjoined_square_root
@@ -19,7 +20,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.engine.invariants import bounds
+from kovacic.engine.degree_bound import irregular_difference_squared
+from kovacic.engine.invariants import bounds, least_valuation
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions
@@ -80,6 +82,54 @@ class Exponents:
             P = P - self.field.poly([0] * k + [factor])
             rest = rest - images[k] * factor
         return P, rest
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """What the exponents allow as a degree of P, or as the number of zeros of a form: constant + sum of k times a root.
+
+    `roots` has the square of each root, and the largest |k|, k an integer; with `only_signs` k is 1 or -1.
+    """
+
+    constant: Fraction
+    roots: tuple[tuple[Poly, int], ...]
+    only_signs: bool = False
+
+
+def degrees_of_solutions(problem: Problem) -> Numbers | None:
+    """The degrees of P in exp(int theta) P; None where the exponents differ at conjugate points."""
+    roots: list[tuple[Poly, int]] = []
+    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    for place in singular:
+        square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
+        if square is None or square.degree > 0:
+            return None
+        roots += [(square / 4, 1)] * place.degree
+    weights = sum(place.weight * place.degree for place in singular)
+    return Numbers(1 - Fraction(weights) / 2, tuple(roots), only_signs=True)
+
+
+def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
+    """The numbers of zeros of rational forms of an even degree m; None where some place leaves none.
+
+    Exponents that differ at conjugate poles are left out.
+    """
+    roots: list[tuple[Poly, int]] = []
+    room = m
+    for place in problem.places:
+        square = place.delta_squared
+        if place.kind is Kind.REGULAR and square is None:
+            continue
+        if place.kind is Kind.REGULAR and square is not None and problem.field.rational_value(square) is None:
+            largest = m // 2 * place.degree
+            roots.append((square, largest))
+            room -= largest
+            continue
+        valuation = least_valuation(place, m, logarithms=False)
+        if valuation is None:
+            return None
+        room -= valuation * place.degree
+    return Numbers(Fraction(room), tuple(roots))
 
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:

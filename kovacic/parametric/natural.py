@@ -10,6 +10,7 @@ References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbin
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
@@ -24,11 +25,20 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.engine.places import Problem, analyse
+from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.exponents import choices_of_degree, form_conditions, has_form, has_solution, with_degree
-from kovacic.parametric.formulas import equation_written, shown, text_of, written
+from kovacic.parametric.exponents import (
+    choices_of_degree,
+    degrees_of_solutions,
+    form_conditions,
+    has_form,
+    has_solution,
+    with_degree,
+    zeros_of_forms,
+)
+from kovacic.parametric.formulas import equation_written, root_written, shown, text_of, written
 from kovacic.parametric.functions import (
     Coset,
     ParameterPoint,
@@ -46,8 +56,10 @@ from kovacic.parametric.statements import Statement
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
-#: Characters up to which the equations for d are written out.
-_WRITTEN_OUT = 300
+#: Characters up to which Delta_d and the equations for d are written out, and those for the zeros of an invariant.
+_WRITTEN_OUT, _EQUATIONS = 300, 100
+#: What is said of Delta_d where the exponents need too large an extension.
+NO_FORMULA = "no polynomial, as the exponents are irrational: at each point the rank of its linear system decides"
 
 
 @dataclass(frozen=True)
@@ -56,7 +68,7 @@ class Determinant:
 
     `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d: none where it is 1, and P
     exists nowhere, or only where all of the polynomials in `system` vanish, since there are more equations than unknowns.
-    `factors` is None where it wasn't computed: the exponents need too large an extension.
+    `factors` is None where it has no formula in the parameters: the exponents need too large an extension of their field.
     """
 
     exponents: FunctionPoly
@@ -90,7 +102,7 @@ class Determinant:
 
     def __str__(self) -> str:
         if self.factors is None:
-            return "not computed"
+            return NO_FORMULA
         single = len(self.factors) == 1 and not self.system
         parts = [shown(f) if single else f"({shown(f)})" for f in self.factors]
         if self.system:
@@ -102,13 +114,14 @@ class Determinant:
 class Natural(Statement):
     """For a natural number that the exponents allow, an invariant of degree m with so many zeros exists.
 
-    The number is a root of one of the `factors`.  m = 1 is a solution with a rational omega, whose zeros are those of P.
-    `structure` is that of the group where the invariant exists and no structure before it has been found.
+    The number is a root of one of the `factors`, None where there are too many sums of exponents to list them.  m = 1 is a
+    solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant exists
+    and no structure before it has been found.
     """
 
     S: RatFunc
     m: int
-    factors: tuple[FunctionPoly, ...]
+    factors: tuple[FunctionPoly, ...] | None
     structure: Structure
     letter: str = field(default="d", compare=False)
     fixed: tuple[str, ...] = field(default=(), compare=False)
@@ -118,17 +131,17 @@ class Natural(Statement):
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
-        return replace(self, S=S, factors=tuple(map(change, self.factors)))
+        return replace(self, S=S, factors=None if self.factors is None else tuple(map(change, self.factors)))
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
-        """The natural numbers that the exponents allow at a point."""
-        roots = {root for factor in self.factors for root in rational_roots(point.at(factor))}
+        """The natural numbers that the exponents allow at a point, as far as they are listed."""
+        roots = {root for factor in self.factors or () for root in rational_roots(point.at(factor))}
         return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
 
     def _holds(self, point: ParameterPoint) -> bool:
         """Decided by the rank of the systems at the point."""
         numbers = self.numbers_at(point)
-        if not numbers:
+        if self.factors is not None and not numbers:
             return False
         S = point.restricted(self.S)
         if self.m > 1:
@@ -137,7 +150,7 @@ class Natural(Statement):
 
     def _given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
         """Where the exponents give the number: a polynomial, its zeros, and S there."""
-        for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors):
+        for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors or ()):
             surface = hypersurface(exponents)
             with suppress(ZeroDivisionError):
                 yield exponents, surface, surface.restricted(self.S)
@@ -189,8 +202,8 @@ class Natural(Statement):
         return f"Delta_{number} = {text if len(text) <= _WRITTEN_OUT else text[:_WRITTEN_OUT] + '...'}"
 
     def sample(self, random: Random) -> list[FunctionPoly]:
-        factor = random.choice(self.factors)
-        if not any(degrees(factor)):
+        factor = random.choice(self.factors) if self.factors else None
+        if factor is None or not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
         found = [d for d in self.determinants(number) if d.factors or d.system] if self.m == 1 else []
@@ -200,13 +213,15 @@ class Natural(Statement):
         return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system)]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
-        return None if self._possible(assumptions) else False
+        return False if self._possible(assumptions) == () else None
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         return replace(self, factors=self._possible(assumptions))
 
-    def _possible(self, assumptions: Assumptions) -> tuple[FunctionPoly, ...]:
+    def _possible(self, assumptions: Assumptions) -> tuple[FunctionPoly, ...] | None:
         """The equations for d that can have a natural root: not those that are positive for all d >= 0."""
+        if self.factors is None:
+            return None
         natural = [Coset(Fraction(0), Fraction(1))]
         return tuple(
             factor
@@ -221,14 +236,48 @@ class Natural(Statement):
     @cached_property
     def written(self) -> str:
         m, factors, d = self.m, self.factors, self.letter
-        if not any(k for factor in factors for k in degrees(factor)):
+        if factors is not None and not any(k for factor in factors for k in degrees(factor)):
             numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
             what = "a solution" if m == 1 else f"an invariant of degree {m}"
             return f"{what} with {numbers} zero{'s' * (numbers != '1')} exists"
-        which = alternatives(factors, Notation(d, self.fixed))
-        if len(text_of(which)) > _WRITTEN_OUT:
-            which = f"the exponents allow a natural number `{d}` of zeros"
-        return f"{which}, `{d} in N`, and `Delta_{d} = 0`{'' if m == 1 else f' for an invariant of degree {m}'}"
+        what = "" if m == 1 else f" for an invariant of degree {m}"
+        return f"{self._numbers_written()}, `{d} in N`, and `Delta_{d} = 0`{what}"
+
+    def _numbers_written(self) -> str:
+        """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
+        listed = None if self.factors is None else alternatives(self.factors, Notation(self.letter, self.fixed))
+        longest = _WRITTEN_OUT if self.m == 1 else _EQUATIONS
+        if listed is not None and len(text_of(listed)) <= longest:
+            return listed
+        sums = self._by_exponents()
+        return min((said for said in (listed, sums) if said is not None), key=len)
+
+    def _by_exponents(self) -> str | None:
+        """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
+        problem = analyse(self.S, Budget())
+        numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
+        if numbers is None:
+            return None
+        field, d = problem.field, self.letter
+        roots = [_in_parentheses(root_written(square)) for square, _ in numbers.roots]
+        if numbers.only_signs:
+            left = written(over_parameters(field.poly([-numbers.constant, 1])), d)
+            return f"`{left} = +-{' +- '.join(roots)}`"
+        names = [d, *parameters_of(field)]
+        letters: list[str] = []
+        for _ in roots:
+            letters.append(free_letter([*names, *letters], "jkmnl"))
+        terms = [str(numbers.constant), *(f"{k}*{root}" for k, root in zip(letters, roots, strict=True))]
+        bounds = [f"`{k}` from -{largest} to {largest}" for k, (_, largest) in zip(letters, numbers.roots, strict=True)]
+        constant = over_parameters(field.poly([-numbers.constant, 1]))
+        without = "" if self.factors is None or constant in self.factors else ", not all 0"
+        return f"`{d} = {' + '.join(terms)}` for integers {', '.join(bounds)}{without}"
+
+
+def _in_parentheses(text: str) -> str:
+    """A sum in parentheses, where it isn't within some."""
+    outside = re.sub(r"[({][^()]*[)}]", "", text)
+    return f"({text})" if re.search(r" [+-] ", outside) else text
 
 
 def _determinant(exponents: FunctionPoly, conditions: RankConditions, *, deficient: bool) -> Determinant:

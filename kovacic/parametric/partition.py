@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -33,7 +34,7 @@ from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
 from kovacic.parametric.solutions import solutions_there
-from kovacic.parametric.statements import ALWAYS, NEVER, Vanishes, both
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 
 #: How completeness begins where a limit was reached.
@@ -60,6 +61,17 @@ class Settings:
     budget: Budget
     variable: str = "x"
     only_theorems: bool = False
+    covered: frozenset[FunctionPoly] = frozenset()
+
+    def also(self, function: FunctionPoly) -> Settings:
+        """Behind the regions of the zeros of a function: what lies in these zeros needn't be examined again."""
+        return replace(self, covered=self.covered | {function})
+
+    def on(self, surface: Hypersurface) -> Settings:
+        """The same for the values on a hypersurface."""
+        values = map(surface.at, self.covered)
+        factors = [irreducible_factors(value) for value in values if isinstance(value, FunctionPoly) and value]
+        return replace(self, covered=frozenset(chain.from_iterable(factors)))
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
@@ -129,9 +141,11 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
     regions: list[ParameterRegion] = []
     findings = Findings("polynomial conditions")
     complete: bool | str = True
+    half_integers: Statement = NEVER
     try:
         regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
         findings = search(problem)
+        half_integers = all_half_integers(problem)
         if expected.structure is Structure.IMPRIMITIVE:
             findings.candidates += _discriminants(problem, settings)
         elif expected.structure not in (None, Structure.REDUCIBLE):
@@ -141,7 +155,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         _add_special(regions, findings.candidates, problem, expected, settings)
     except LimitExceeded as limit:
         complete = as_far_as(limit)
-    _add_natural(regions, findings, problem, expected, settings)
+    _add_natural(regions, findings, half_integers, expected, settings)
     return Partition(expected, together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 
@@ -153,14 +167,17 @@ def _add_special(
     settings: Settings,
 ) -> None:
     """The regions where a candidate vanishes, if something there is other than expected, or isn't known."""
-    known = {r.statement.function for r in regions if isinstance(r.statement, Vanishes)}
+    for region in regions:
+        if isinstance(region.statement, Vanishes):
+            settings = settings.also(region.statement.function)
     for function in dict.fromkeys(candidates):
-        if function in known:
+        if function in settings.covered:
             continue
         settings.budget.check()
         found = _pieces(problem.S, function, settings)
         if not all(_is_as_expected(region, expected) for region in found):
             regions += found
+            settings = settings.also(function)
 
 
 def _is_as_expected(region: ParameterRegion, expected: RegionVerdict) -> bool:
@@ -168,10 +185,13 @@ def _is_as_expected(region: ParameterRegion, expected: RegionVerdict) -> bool:
 
 
 def _add_natural(
-    regions: list[ParameterRegion], findings: Findings, problem: Problem, expected: RegionVerdict, settings: Settings
+    regions: list[ParameterRegion],
+    findings: Findings,
+    half_integers: Statement,
+    expected: RegionVerdict,
+    settings: Settings,
 ) -> None:
     """The regions with a natural number; those of four half-integers before the first that isn't reducible."""
-    half_integers = all_half_integers(problem)
     for statement in findings.natural:
         structure = statement.structure
         is_reducible = structure is Structure.REDUCIBLE
@@ -202,10 +222,13 @@ def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Setting
     """Regions for the values at which the generic theory doesn't apply; what the limits don't allow is unknown."""
     regions: list[ParameterRegion] = []
     for function in functions:
+        if function in settings.covered:
+            continue
         try:
             regions += _pieces(S, function, settings)
         except LimitExceeded as limit:
             regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, as_far_as(limit)))
+        settings = settings.also(function)
     return regions
 
 
@@ -239,7 +262,7 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
             regions += _also(_inside(S, other, settings), first)
             continue
         for factor in irreducible_factors(rest):
-            regions += _also(_pieces(restricted, factor, settings), first, second)
+            regions += _also(_pieces(restricted, factor, settings.on(surface)), first, second)
     return regions
 
 
@@ -257,7 +280,7 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
         restricted = surface.restricted(S)
     except ZeroDivisionError:
         return [ParameterRegion(statement, _UNKNOWN, defined=False)]
-    inner = partition(restricted, settings)
+    inner = partition(restricted, settings.on(surface))
     rest = _rest(statement, surface, restricted, inner, settings)
     special = _special(inner.regions, surface)
     while special and _says_the_same(special[-1], rest):

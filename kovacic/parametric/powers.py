@@ -92,7 +92,7 @@ def _in_factors(statement: Statement) -> Statement:
         return either(*map(Vanishes, irreducible_factors(statement.function)))
     if isinstance(statement, Congruence) and statement.form is None:
         return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
-    if isinstance(statement, Natural):
+    if isinstance(statement, Natural) and statement.factors is not None:
         factors = (over_parameters(f) for equation in statement.factors for f, _ in equation.field.factor(equation))
         return replace(statement, factors=tuple(dict.fromkeys(factors)))
     return statement

@@ -2,7 +2,8 @@
 
 Functions of the parameters are written in Python's syntax.  The kinds: "zero" (a function vanishes), "lattice" (a form is
 congruent to one of the residues, 0 where there are none), "integer root" and "natural number" (equations in an unknown, which
-has a root among these integers; and an invariant of the degree exists there), "schwarz", "and", "or".
+has a root among these integers, null where there are too many; and an invariant of the degree exists there), "schwarz", "and",
+"or".
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         return data if single else data | {"residues": residues}
     if isinstance(statement, Natural):
         letter = statement.letter
-        equations = [factor.to_str(letter) for factor in statement.factors]
+        factors = statement.factors
+        equations = None if factors is None else [factor.to_str(letter) for factor in factors]
         kind = {"kind": "natural number", "unknown": letter, "equations": equations}
         x = free_letter(parameters_of(statement.S.field), "xzt")
         S = {"variable": x, "S": statement.S.to_str(x)}
@@ -85,7 +87,7 @@ def equation_from(data: Mapping[str, Any] | None, variable: str, names: tuple[st
     read = read_input(data["text"], var=variable, unknown=data["unknown"], limits=_LIMITS, equation=True).equation
     if read is None:
         raise InputError(f"{data['text']!r} isn't an equation")
-    change = data["change"] and Change(**data["change"])
+    change = data["change"] and Change.from_dict(data["change"])
     return replace(
         read,
         a=_in_order(read.a, names),
@@ -161,7 +163,8 @@ class StatementReader:
         if kind == "integer root":
             return Congruence(self.polynomial(data["equation"], letter), residues, fraction(data["modulus"]), letter)
         if kind == "natural number":
-            equations = tuple(self.polynomial(text, letter) for text in data["equations"])
+            texts = data["equations"]
+            equations = None if texts is None else tuple(self.polynomial(text, letter) for text in texts)
             S = self.function(data["S"], data["variable"])
             return Natural(S, data["degree"], equations, Structure(data["structure"]), letter)
         if kind == "schwarz":

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain, count
+from itertools import chain, combinations, count
 from math import gcd
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
@@ -39,14 +39,17 @@ def undefined(problem: Problem) -> list[FunctionPoly]:
 
 def confluence(problem: Problem) -> list[FunctionPoly]:
     """Where poles merge or go to infinity."""
-    radical = product([problem.field.poly([1]), *(place.factor for place in problem.finite_places)])
-    return union([undefined(problem), _common_zeros(radical, radical.derivative())])
+    factors = [place.factor for place in problem.finite_places]
+    conjugate = [_common_zeros(factor, factor.derivative()) for factor in factors]
+    others = [_common_zeros(first, second) for first, second in combinations(factors, 2)]
+    return union([undefined(problem), *conjugate, *others])
 
 
 def structure_changes(problem: Problem) -> list[FunctionPoly]:
     """Where poles merge, go to infinity, or change their order."""
-    above, below = problem.S.cleared()
-    return union([confluence(problem), irreducible_factors(_down(above.lc)), _common_zeros(above, below)])
+    above, _ = problem.S.cleared()
+    zeros = [_common_zeros(above, place.factor) for place in problem.finite_places]
+    return union([confluence(problem), irreducible_factors(_down(above.lc)), *zeros])
 
 
 @dataclass(frozen=True)

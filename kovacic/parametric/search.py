@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from itertools import product
 from math import lcm, prod
 
@@ -21,11 +22,9 @@ from kovacic.algebra.extension import AlgebraicField, norm
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Structure
-from kovacic.engine.degree_bound import irregular_difference_squared
-from kovacic.engine.invariants import least_valuation
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.parametric import riemann
-from kovacic.parametric.exponents import form_conditions, with_degree
+from kovacic.parametric.exponents import Numbers, degrees_of_solutions, form_conditions, with_degree, zeros_of_forms
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
@@ -79,12 +78,14 @@ def search(problem: Problem) -> Findings:
         findings = Findings("the exponents, and polynomials of bounded or natural degree")
         _reducible(problem, findings)
         degrees = _degrees_that_are_possible(problem)
-    by_degree: dict[int, tuple[FunctionPoly, ...]] = {}
+    by_degree: dict[int, tuple[FunctionPoly, ...] | None] = {}
     for m, possible in degrees.items():
         factors = _forms(problem, m, findings)
-        if factors is None:
+        if factors == ():
+            continue
+        if _has_conjugate_exponents(problem):
             findings.unproven.append(f"case {possible[0].case}")
-        elif factors:
+        else:
             by_degree[m] = factors
     if any(m > _SHOWS_CASE_1 and Structure.REDUCIBLE in degrees[m] for m in by_degree):
         _reducible(problem, findings)
@@ -144,22 +145,9 @@ def _may_be_branch_point(place: Place) -> bool:
     return place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2)
 
 
-def _differences(problem: Problem) -> list[Poly] | None:
-    """The square of the exponents' difference at every singular point; None where they differ at conjugate points."""
-    found: list[Poly] = []
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY:
-            continue
-        square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
-        if square is None or square.degree > 0:
-            return None
-        found += [square] * place.degree
-    return found
-
-
-def _signed_sums(squares: list[Poly], field: Field) -> Poly:
-    """The squarefree polynomial in Y over Q(t) whose roots are the sums of +- the square roots."""
-    total = field.poly([0, 1])
+def _signed_sums(squares: Sequence[Poly], constant: Fraction, field: Field) -> Poly:
+    """The squarefree polynomial in Y over Q(t) whose roots are the constant plus sums of +- the square roots."""
+    total = field.poly([-constant, 1])
     for square in squares:
         root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
         total = norm(total(root.field.poly([0, 1]) + root))
@@ -172,11 +160,10 @@ def degree_equation(problem: Problem) -> Poly | None:
 
     None where a solution has no rational omega, or the exponents at conjugate points differ.
     """
-    differences = None if _is_ramified(problem) else _differences(problem)
-    if differences is None:
+    numbers = None if _is_ramified(problem) else degrees_of_solutions(problem)
+    if numbers is None:
         return None
-    weights = sum(p.weight * p.degree for p in problem.places if p.kind is not Kind.ORDINARY)
-    return _signed_sums(differences, problem.field)(problem.field.poly([weights - 2, 2]))
+    return _signed_sums([square for square, _ in numbers.roots], numbers.constant, problem.field)
 
 
 def _is_ramified(problem: Problem) -> bool:
@@ -257,41 +244,28 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
 def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
     """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents."""
     complete = findings.add(form_conditions(problem, m))
-    squares: list[Poly] = []  # of the differences that depend on the parameters
-    most: list[int] = []  # how often each can occur in the sum
-    room = m
-    for place in problem.places:
-        if place.kind is Kind.REGULAR and place.delta_squared is None:
-            return None
-        if _depends_on_parameters(place, problem.field):
-            assert place.delta_squared is not None
-            squares.append(place.delta_squared)
-            most.append(m // 2 * place.degree)
-            room -= most[-1]
-            continue
-        v = least_valuation(place, m, logarithms=False)
-        if v is None:
-            return ()
-        room -= v * place.degree
-    if prod(largest + 1 for largest in most) > _COMBINATIONS:
+    numbers = zeros_of_forms(problem, m)
+    if numbers is None:
+        return ()
+    largest = [largest for _, largest in numbers.roots]
+    if prod(k + 1 for k in largest) > _COMBINATIONS:
         return None
-    factors = [] if complete else [over_parameters(problem.field.poly([-room, 1]))]
-    for multiples in product(*(range(largest + 1) for largest in most)):
+    factors = [] if complete else [over_parameters(problem.field.poly([-numbers.constant, 1]))]
+    for multiples in product(*(range(k + 1) for k in largest)):
         if any(multiples):
-            factors += _numbers_of_zeros(multiples, squares, room, problem.field)
+            factors += _numbers_of_zeros(multiples, numbers, problem.field)
     return tuple(dict.fromkeys(factors))
 
 
-def _depends_on_parameters(place: Place, field: Field) -> bool:
-    """Is the exponent difference of a regular singular point no number?"""
-    square = place.delta_squared
-    return place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None
+def _has_conjugate_exponents(problem: Problem) -> bool:
+    """Do the exponents differ at conjugate poles of order 2?"""
+    return any(place.kind is Kind.REGULAR and place.delta_squared is None for place in problem.places)
 
 
-def _numbers_of_zeros(multiples: Sequence[int], squares: Sequence[Poly], room: int, field: Field) -> list[FunctionPoly]:
-    """Equations for room + the sums of +- k times the differences."""
-    chosen = [k * k * square for k, square in zip(multiples, squares, strict=True) if k]
-    sums = _signed_sums(chosen, field)(field.poly([-room, 1]))
+def _numbers_of_zeros(multiples: Sequence[int], numbers: Numbers, field: Field) -> list[FunctionPoly]:
+    """Equations for the constant + the sums of +- k times the roots."""
+    chosen = [k * k * square for k, (square, _) in zip(multiples, numbers.roots, strict=True) if k]
+    sums = _signed_sums(chosen, numbers.constant, field)
     return [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
 
 

@@ -31,7 +31,7 @@ from kovacic.views.sentences import (
 )
 from kovacic.views.steps import DEGREE, Steps
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, anchor, page, say
-from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
+from kovacic.writing.formula import LARGEST_DEGREE, Math, rational_functions, shortened
 from kovacic.writing.omega import constants_math, omega_math
 
 _CASES = {
@@ -153,6 +153,8 @@ class _Writer:
             yield Formula(normal_form(answer, v))
             yield say(f"In the following y stands for {v}.")
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
+        if answer.change is not None:
+            yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
 
     def verdict(self, *, solutions: bool) -> Iterator[Block]:
         """The answer in short."""

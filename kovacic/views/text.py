@@ -69,7 +69,8 @@ def render(
     for notice in answer.notices:
         yield style(f"  note: {visible(notice)}", "faint")
     if answer.equation is not None and not answer.equation.is_normal_form:
-        yield f"  normal form: {normal_form(answer).text}, of which the following speaks"
+        where = "" if answer.change is None else f", over {answer.change.field}"
+        yield f"  normal form: {normal_form(answer).text}, of which the following speaks{where}"
     said, more = verdict_of(answer)
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     yield from (f"  {line}" for line in solutions or ())

@@ -21,14 +21,14 @@ from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.formulas import equation_written, partial_fractions, sentence_of
-from kovacic.parametric.natural import Determinant, Natural
+from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.solutions import Given, PolynomialSolution, general, weight_by_signs
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
-from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy, rational_functions
 
 #: Publications, by a name that the theory of an answer contains.
 _SOURCES = {
@@ -84,6 +84,7 @@ class _Writer:
         if self.is_solvable:
             yield from self._otherwise(cases)
         yield from self._exceptions()
+        yield from self._field()
         yield from self._delta(cases)
         yield from self._proof()
 
@@ -123,6 +124,12 @@ class _Writer:
             )
             if not _is_unequal(region):
                 yield say("Values with ", *_said(region.statement), f" are left out: {why}.")
+
+    def _field(self) -> Iterator[Block]:
+        """Over which field the cases and groups are those, where that isn't C(x)."""
+        change = self.answer.equation and self.answer.equation.change
+        if change:
+            yield say("Cases and groups are those over ", rational_functions(change.expression), ".")
 
     def _assumed(self, name: str) -> list[str | Math]:
         """`, n a nonnegative integer, E > 0`."""
@@ -378,7 +385,7 @@ def _values(natural: Natural, number: int) -> Iterator[Block]:
             found[str(determinant)].append(determinant)
         for value, determinants in found.items():
             places = dict.fromkeys(f"`{equation_written(determinant.exponents)}`" for determinant in determinants)
-            said = value if value == "not computed" else f"`{value}`"
+            said = value if value == NO_FORMULA else f"`{value}`"
             rows.append([str(d), sentence_of(" or ".join(places)), sentence_of(said)])
     if rows:
         delta = Math(f"Delta_{natural.letter}", rf"\Delta_{{{natural.letter}}}")

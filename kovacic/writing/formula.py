@@ -162,6 +162,11 @@ def of_sympy(expression: Any) -> Math:
     return Math(caret(as_text(expression)), as_latex(expression))
 
 
+def rational_functions(generator: str) -> Math:
+    """The field C(f) for an expression f in Python syntax."""
+    return Math(f"C({caret(generator)})", rf"\mathbb{{C}}({latex_text(generator)})")
+
+
 def caret(text: str) -> str:
     """Python's powers as they are read."""
     return text.replace("**", "^")
