@@ -129,7 +129,7 @@ def conditions(
         Where a condition has a natural number d in it, its determinants are shown up to d = `max_degree`, 2 by default;
         `determinant` of the condition computes others.
     limits : Limits
-        Bounds on the input and on the work; without `seconds` the search has 30 s.
+        Bounds on the input and on the work.
 
     Returns
     -------

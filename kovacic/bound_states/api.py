@@ -14,6 +14,7 @@ from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
     Ends,
     Family,
+    constant_families,
     hermite_families,
     jacobi_families,
     laguerre_families,
@@ -37,12 +38,14 @@ from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
 _CLASSES: tuple[tuple[Callable[[Frame, Ends, Any], Iterator[Family]], str], ...] = (
+    (constant_families, "a constant potential"),
     (hermite_families, "Hermite's polynomials"),
     (laguerre_families, "Whittaker's equation"),
     (jacobi_families, "three regular singular points"),
     (no_families, "Bessel's equation"),
 )
-_PROOF = "each solution that is square integrable at both ends has a polynomial in it"
+_PROOF = {"a constant potential": "solutions are waves and exponentials"}
+_POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
 
 
 @dataclass(frozen=True)
@@ -176,9 +179,10 @@ def _question(
     S, parsed, assume = with_values(S, parsed, assume, limits)
     names = parameters_of(parsed.S.field)
     ends = [_end(value) for value in domain]
-    others = sorted({s.name for end in ends for s in end.free_symbols} - {*names})
-    if others:
-        raise InputError(f"{', '.join(others)} in the domain isn't a parameter of the potential")
+    in_the_domain = {symbol.name for end in ends for symbol in end.free_symbols}
+    if in_the_domain & {name, energy}:
+        raise InputError(f"an end of the domain contains {name} or {energy}")
+    names += tuple(sorted(in_the_domain - {*names}))
     known = read_assumptions(assume, V, names)
     for constant in _constants(expression, names):
         known = known.also(constant, ("irrational", "positive"))
@@ -234,9 +238,15 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
         families, name = _families(question, budget)
     except Uncovered as uncovered:
         transformed = _transformed(question, ends, excluded, max_degree, budget)
-        return transformed or _one_by_one(question, ends, excluded, max_degree, str(uncovered), budget)
+        if transformed is not None:
+            return transformed
+        wall = next((end.at for end in ends if end.is_ordinary), None)
+        if wall is not None:
+            reason = f"undecided: {_at_a_wall(question, wall)}"
+            return _spectrum(question, ends, excluded=tuple(excluded), reason=reason)
+        return _one_by_one(question, ends, excluded, max_degree, str(uncovered), budget)
     levels = _merged([_levels(question, family) for family in families])
-    reason = f"{name}: {_PROOF}"
+    reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
 
 
@@ -254,6 +264,14 @@ def _excluded(question: Question, ends: list[End]) -> list[Any]:
         else:
             found[tidied([circle], signs)[0]] = None
     return [*found]
+
+
+def _at_a_wall(question: Question, at: Any) -> str:
+    where = f"{question.variable} = {caret(str(question.plain(at)))}"
+    return (
+        f"the levels are the energies for which a solution vanishes at {where}, an ordinary point; a formula is known "
+        "where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
+    )
 
 
 def _transformed(

@@ -40,6 +40,7 @@ class End:
     point: Any = sympy.oo
     mu: int = 4
     direction: int = 1
+    is_ordinary: bool = False
 
 
 def potential_in_t(S: Any, equation: Equation | None, original: Original, E: Any, t: Any, signs: Signs) -> Any:
@@ -209,7 +210,9 @@ def _finite(at: Any, original: Original, mu: int, j: int, strength: Any, slope: 
             True,
         )
     said = f"y ~ {_power(at, original.x, square)}, both are square integrable (limit circle)"
-    return End(at, True if known else circle, f"{where}: {said}" + ("" if known else f" where {_relation(circle)}"))
+    where_circle = "" if known else f" where {_relation(circle)}"
+    is_ordinary = square == sympy.Rational(1, 4)
+    return End(at, True if known else circle, f"{where}: {said}{where_circle}", is_ordinary=is_ordinary)
 
 
 def _less_than_1(square: Any, signs: Signs) -> Any:

@@ -241,7 +241,7 @@ def _direction(frame: Frame, role: str) -> int:
 
 
 def no_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
-    """S_z = r/z + b/z^2 between 0 and oo, or a constant S on the whole line: no solution is square integrable at both ends.
+    """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
     bounded everywhere and tends to 0: y = 0.
@@ -249,11 +249,27 @@ def no_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
     is_bessel = not sympy.denom(square).has(z) and sympy.degree(sympy.numer(square), z) == 1
-    is_constant = not frame.S.has(z) and frame.original.kind == "x" and all(end.is_infinite for end in frame.domain)
     points = {spot.point for spot in frame.ends}
-    if not is_constant and not (is_bessel and points == {0, sympy.oo} and not sympy.diff(square, z).has(E)):
+    if not (is_bessel and points == {0, sympy.oo} and not sympy.diff(square, z).has(E)):
         raise Uncovered("the equation isn't Bessel's")
     yield from ()
+
+
+def constant_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+    """A constant V: waves between two walls, where y = 0; none where an end is infinite.
+
+    Beside an infinite end one solution decays for E < V, which has no zero, and none for E >= V.
+    """
+    is_in_x = frame.original.kind == "x" and frame.m == 1 and frame.base == sympy.Symbol(frame.problem_variable)
+    if frame.S.has(frame.z) or not is_in_x:
+        raise Uncovered("V isn't constant")
+    first, last = frame.domain
+    if first.is_infinite or last.is_infinite:
+        return
+    n, width = ends.signs.n, last - first
+    number = sympy.pi * (n + 1) / width
+    wave = sympy.sin(number * (frame.x - first))
+    yield Family(sympy.expand(frame.S + E) + number**2, wave, (sympy.Gt(width, 0),), n, width / 2)
 
 
 def hermite_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:

@@ -16,7 +16,7 @@ from kovacic.engine.decide import decide
 from kovacic.equation import PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget, Limits, bounded_work
 from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.functions import ParameterPoint
@@ -30,8 +30,8 @@ from kovacic.parametric.statements import Statement
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
 
-#: Seconds for the search where the limits don't say.
-DEFAULT_SECONDS = 30.0
+#: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
+_STRATA = 4000
 #: The largest d for which the determinants of conditions with a natural number d are computed.
 DEFAULT_DEGREE = 2
 
@@ -62,11 +62,11 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     """The conditions for an input that was read; `max_degree` None: by theorems only."""
     lifted, shown, constant = with_free_constant(parsed.S)
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
-    bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
-    budget = Budget(bounded)
+    budget = Budget(limits)
     settings = Settings(budget, parsed.variable, only_theorems=max_degree is None)
     with budget.watched():
-        found = partition(lifted, settings)
+        with bounded_work(_STRATA):
+            found = partition(lifted, settings)
         if found.complete is not True:
             found = _in_powers(lifted, settings, found)
     field = lifted.field.ground
@@ -94,7 +94,8 @@ def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
     """The partition by powers of the parameters, where it is complete; else the direct one."""
     try:
         powers = in_powers(S)
-        found = direct if powers is None else partition(powers.S, settings)
+        with bounded_work(_STRATA):
+            found = direct if powers is None else partition(powers.S, settings)
     except LimitExceeded as limit:
         return replace(direct, complete=as_far_as(limit))
     if powers is None or found.complete is not True:

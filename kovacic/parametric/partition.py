@@ -26,7 +26,7 @@ from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
-from kovacic.limits import Budget
+from kovacic.limits import Budget, count_work
 from kovacic.parametric import restriction
 from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
@@ -76,6 +76,7 @@ class Settings:
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
+    count_work(1)
     constants = S.field
     decision = decide(S, settings.budget, certify=False)
     verdict = RegionVerdict.of(decision)
