@@ -13,10 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic import Status
+from kovacic import LimitExceeded, Limits, Status
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.lifting import Lifter
 from kovacic.cli.main import run
+from kovacic.limits import Budget
 from tests.parametric_cases import BALL
 
 K = FunctionField(("s", "t"))
@@ -89,6 +90,16 @@ def test_large_coefficients_take_several_primes() -> None:
         if lifter.add(bundle, [[h(f)] for h in bundle]) == [f]:
             return
         assert lifter.primes_used < 400
+
+
+def test_a_search_that_a_limit_breaks_off_begins_anew() -> None:
+    """Its primes are remembered for the field; a generator that was broken off is at its end, and then a gcd was 1."""
+    base = FunctionField(("E",))
+    extended = AlgebraicField(base, base.poly([3, 1, 0, 0, 1]), "c")
+    z, c = extended.poly([0, 1]), extended.generator
+    with Budget(Limits(seconds=0)).watched(), pytest.raises(LimitExceeded):
+        next(extended.bundles())
+    assert ((z - c) * (z - 1)).gcd((z - c) * (z - 2)) == z - c
 
 
 def test_a_linear_functional_that_is_the_identity_on_rational_numbers() -> None:

@@ -303,3 +303,31 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*arguments, "--latex"]) == 0
     assert r"\begin{aligned}" in capsys.readouterr().out
     assert run(["spectrum", "x^4 + x^3"]) == 3
+
+
+def test_a_box_has_the_levels_of_its_waves() -> None:
+    """V = c between walls at a and b: y(b) = 0, n zeros inside, and the norm; none beside an infinite end."""
+    found = kovacic.spectrum("c", domain=("a", "b"), boundary="friedrichs")
+    a, b, c = sympy.symbols("a b c")
+    (levels,) = found.levels
+    assert found.complete
+    assert sympy.simplify(levels.energy - c - (sympy.pi * (n + 1) / (b - a)) ** 2) == 0
+    at = {a: 1, b: sympy.Rational(7, 2), c: -3}
+    for state in found.states(at, count=4):
+        assert state.wave.subs(x, 1) == 0
+        assert state.wave.subs(x, sympy.Rational(7, 2)) == 0
+        assert sympy.simplify(-sympy.diff(state.wave, x, 2) - (state.energy + 3) * state.wave) == 0
+        assert sympy.integrate(state.wave**2, (x, 1, sympy.Rational(7, 2))) == levels.norm.subs(at)
+        assert state.zeros == state.number
+    half = kovacic.spectrum("c", domain=HALF, boundary="friedrichs")
+    assert half.complete
+    assert half.levels == ()
+
+
+@pytest.mark.parametrize(("V", "domain", "where"), [("x^2", (1, "oo"), "x = 1"), ("2/x^2", (0, "L"), "x = L")])
+def test_a_wall_at_an_ordinary_point_is_undecided_and_says_why(
+    V: str, domain: tuple[object, object], where: str
+) -> None:
+    found = kovacic.spectrum(V, domain=domain, boundary="friedrichs")
+    assert not found.complete
+    assert f"a solution vanishes at {where}, an ordinary point" in found.reason

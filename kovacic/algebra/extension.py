@@ -230,11 +230,11 @@ class ExtensionPoly(Poly):
             if len({image[0].degree() for image in images}) > 1:
                 continue
             if images[0][0].degree() == 0:
-                break
+                return self.field.poly([1])
             proposal = lifter.add(bundle, images)
             if proposal and not self % proposal[0] and not other % proposal[0]:
                 return proposal[0]  # type: ignore[return-value]
-        return self.field.poly([1])
+        raise AssertionError("there are infinitely many primes")
 
     def inverse_modulo(self, modulus: Poly) -> ExtensionPoly:
         small = modulus.degree <= _EUCLID_DEGREE or self.field.ground != QQ

@@ -8,9 +8,8 @@ rare; then one root for each prime has to do, and lattice reduction finds the wa
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from copy import copy
 from functools import cache, lru_cache
-from itertools import islice, tee
+from itertools import count, islice
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
@@ -20,9 +19,13 @@ from kovacic.algebra.lifting import chinese_remainders, primes
 from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, RationalHomomorphism
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
 
 #: From this degree on a number field may have too few primes that split completely; so many primes are tried.
 _LARGE_DEGREE, _TRIED_PRIMES = 4, 12
+#: Primes that are tried where a number field of such a degree has parameters.
+_MOST_PRIMES = 20000
 #: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
 _SLACK_BITS = 12
 
@@ -61,7 +64,7 @@ def bundles(
 ) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
     """All homomorphisms over each prime that splits completely; one over each with a simple root where those are rare."""
     if allowed is None:
-        return copy(_remembered(base, modulus))
+        return iter(_remembered(base, modulus))
     return _bundles(base, modulus, allowed)
 
 
@@ -72,8 +75,7 @@ def _bundles(
     values = [base.rational_value(c) for c in modulus]
     if base.ground != QQ and None not in values:
         # c lies over Q while there are parameters: then the prime decides about splitting, not the point.
-        over_q, permitted = QQ.poly([v for v in values if v is not None]), allowed
-        allowed = cache(lambda p: _splits(over_q, p) and (permitted is None or permitted(p)))
+        allowed = _splitting(QQ.poly([v for v in values if v is not None]), allowed)
     for bundle in base.bundles(allowed):
         found: list[ExtensionHomomorphism] = []
         try:
@@ -89,10 +91,53 @@ def _bundles(
             continue
 
 
+def _splitting(modulus: Poly, allowed: Callable[[int], bool] | None) -> Callable[[int], bool]:
+    """Is a prime allowed, and does a polynomial over Q split completely there?
+
+    Raises `LimitExceeded` after many primes: one in 12! does so for a general polynomial of degree 12.
+    """
+    tried = count(1)
+
+    @cache
+    def splits(p: int) -> bool:
+        check_time()
+        if next(tried) > _MOST_PRIMES:
+            raise LimitExceeded(f"{modulus} splits completely for too few primes", limit="work")
+        return _splits(modulus, p) and (allowed is None or allowed(p))
+
+    return splits
+
+
+class _Remembered:
+    """The bundles of a field, searched once.
+
+    A search that a limit or the user has broken off begins anew: its generator is at its end, which isn't that of the bundles.
+    """
+
+    def __init__(self, base: Field, modulus: Poly) -> None:
+        self._field = base, modulus
+        self._found: list[tuple[ExtensionHomomorphism, ...]] = []
+        self._search: Iterator[tuple[ExtensionHomomorphism, ...]] | None = None
+
+    def __iter__(self) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
+        for k in count():
+            while len(self._found) <= k:
+                self._found.append(self._next())
+            yield self._found[k]
+
+    def _next(self) -> tuple[ExtensionHomomorphism, ...]:
+        if self._search is None:
+            self._search = islice(_bundles(*self._field), len(self._found), None)
+        try:
+            return next(self._search)
+        except BaseException:
+            self._search = None
+            raise
+
+
 @lru_cache(maxsize=64)
-def _remembered(base: Field, modulus: Poly) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
-    """An iterator whose copies share what was found, so that primes are searched once for each field."""
-    return tee(_bundles(base, modulus), 1)[0]
+def _remembered(base: Field, modulus: Poly) -> _Remembered:
+    return _Remembered(base, modulus)
 
 
 def coordinates(

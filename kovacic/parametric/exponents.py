@@ -226,7 +226,7 @@ def _places(problem: Problem) -> _Places | None:
         if _degree_over(field, problem.field) > _DEGREE:
             return None
         roots.append(root)
-    S = RatFunc(split.S.num.over(field), split.S.den.over(field))
+    S = RatFunc(split.S.num.over(field), split.S.den.over(field), reduced=True)
     parts = [_local_parts(place, S, root.over(field)) for place, root in zip(singular, roots, strict=True)]
     return _Places(split, field, parts)
 
@@ -245,7 +245,7 @@ def _with_rational_points(problem: Problem) -> Problem | None:
             extension = AlgebraicField(field, factor, "point")
         if _degree_over(extension, base) > _DEGREE:
             return None
-        S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension))
+        S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
         problem = analyse(S, problem.budget)
 
 
