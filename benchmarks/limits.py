@@ -264,6 +264,23 @@ def _sampled(equation: Any, limits: Limits) -> object:
     return sample(equation, "-0.7", "0.6", digits=40, limits=limits)
 
 
+def _batched(equation: Any, limits: Limits) -> object:
+    """What a batch does for one of its equations, in the parent and in a worker, here in one process."""
+    from kovacic.batch.files import item_from
+    from kovacic.batch.records import Job
+    from kovacic.batch.worker import solve_item
+
+    job = Job(limits=limits, group=True)
+    item = item_from(1, equation, var="x", limits=limits)
+    if item.error is not None:
+        raise item.error
+    return solve_item(item, job, job.engine_limits)
+
+
+def _levels(equation: Any, limits: Limits) -> object:
+    return kovacic.spectrum(f"x^2 + ({_text(equation)})", var="x", limits=limits)
+
+
 OF_AN_EQUATION: dict[str, Callable[[Any, Limits], object]] = {
     "solve": lambda S, limits: kovacic.solve(S, var="x", limits=limits),
     "decide": lambda S, limits: kovacic.decide(S, var="x", limits=limits),
@@ -283,6 +300,8 @@ OF_AN_EQUATION: dict[str, Callable[[Any, Limits], object]] = {
     "connection_matrix": lambda S, limits: kovacic.connection_matrix(S, ["2.1", 2.5 + 1j, "2.9"], limits=limits),
     "monodromy": lambda S, limits: kovacic.monodromy(S, limits=limits),
     "sample": _sampled,
+    "solve_many": _batched,
+    "spectrum": _levels,
 }
 
 # Of an answer:
@@ -345,6 +364,9 @@ OF_CONDITIONS: dict[str, Callable[[Any], object]] = {
     "check": lambda found: found.check(10**6),
     "case_at": lambda found: found.case_at(_values(found, 10007)),
     "solve_at": lambda found: found.solve_at(_values(found, 10007)),
+    "determinant": lambda found: found.determinant(30),
+    "conditions: to_json": lambda found: found.to_json(),
+    "conditions: explain": lambda found: found.explain(),
     "conditions.plot": _mapped,
 }
 

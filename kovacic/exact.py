@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import acb, arb, fmpq, fmpz
 
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.numerals import as_text, in_a_message, plain_text
 
 _NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
@@ -222,3 +222,27 @@ def _power(mantissa: Any, exponent: Any, name: str) -> Any:
     if abs(exponent) > 4 * _MAX_EXPONENT:
         raise InputError(f"{name} has a binary exponent beyond {4 * _MAX_EXPONENT}")
     return fmpq(mantissa) * fmpq(2) ** int(exponent)
+
+
+#: Bits of a number of which a root is written: SymPy factors it first, as far as it can, which takes seconds for longer ones.
+_LONGEST_RADICAND = 1600
+
+
+def radical(value: Any, n: int = 2) -> Any:
+    """SymPy's root of an expression, square or of order n.
+
+    Raises `LimitExceeded` where a number comes out of it that is too long for that.
+
+    >>> radical(18)
+    3*sqrt(2)
+    """
+    from sympy import root, sympify
+
+    number, _ = sympify(value).as_coeff_Mul(rational=True)
+    bits = max(int(number.p).bit_length(), int(number.q).bit_length())
+    if bits > _LONGEST_RADICAND:
+        reason = (
+            f"a root of a number of {bits} bits, above the limit of {_LONGEST_RADICAND}, isn't written as a formula"
+        )
+        raise LimitExceeded(reason, limit="digits")
+    return root(value, n)

@@ -279,5 +279,8 @@ def watched_seconds(most: float) -> float:
 def check_duration(seconds: float, what: str) -> None:
     """Raises `LimitExceeded` where a budget is watched and has less time left: before a step that can't be stopped inside."""
     budget = _WATCHED.get()
-    if budget is not None and seconds > budget.seconds_left:
+    if budget is None:
+        return
+    budget.check()
+    if seconds > budget.seconds_left:
         raise LimitExceeded(f"{what} takes about {seconds:.2g} s: more than the time limit allows", limit="seconds")

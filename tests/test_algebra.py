@@ -11,18 +11,21 @@ from math import gcd, prod
 import pytest
 import sympy
 from build import QQ, AlgebraicField, Poly, RatFunc, parametrize
-from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
+from flint import Ordering, fmpz_mpoly_ctx, fmpz_poly, nmod_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from kovacic.algebra import modular
 from kovacic.algebra.extension import norm
 from kovacic.algebra.factors import _remainders, expansions, product, products
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
 from kovacic.algebra.rationals import RationalPoly, _factored
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import _factored_over_q, factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, Limits
 
 P = prime(0)
 small = st.integers(-9, 9)
@@ -409,3 +412,26 @@ def test_a_product_with_the_degree_of_a_power_is_none() -> None:
     a, b = (QQ.poly([c, 1] + [0] * 29 + [1]) for c in (3, 5))
     numerator = (a * b**3).rep.numer()  # type: ignore[attr-defined]
     assert sorted((str(f), k) for f, k in _factored(numerator)) == sorted((str(f), k) for f, k in numerator.factor()[1])
+
+
+@pytest.mark.parametrize("bits", [50, 20_000])
+def test_zeros_however_near_they_are_to_one_another(bits: int) -> None:
+    """(16 N^2 + 3) - 32 N x + 16 x^2 has the zeros N +- i sqrt(3)/4, and 2 N - 3 x that of a rational number."""
+    N = 2**bits + 1
+    quadratic = fmpz_poly([16 * N * N + 3, -32 * N, 16])
+    zeros = complex_zeros(quadratic)
+    assert sorted(round(float(zero.imag.mid()) ** 2 * 16) for zero, _ in zeros) == [3, 3]
+    assert all(quadratic(zero).contains(0) and zero.real.contains(N) for zero, _ in zeros)
+    ((only, multiplicity),) = complex_zeros(fmpz_poly([4 * N * N, -12 * N, 9]))
+    assert multiplicity == 2
+    assert (3 * only).contains(2 * N)
+
+
+def test_zeros_that_take_long_to_isolate_are_isolated_in_a_process() -> None:
+    """Of coefficients with 5,000 bits and degree 3, that lie far apart."""
+    cubic = fmpz_poly([-(2**5001), 2**5000, -2, 1])
+    (first, _), *others = complex_zeros(cubic)
+    assert first.contains(2)
+    assert len(others) == 2
+    with Budget(Limits(seconds=0)).watched(), pytest.raises(LimitExceeded):
+        complex_zeros(cubic + 1)

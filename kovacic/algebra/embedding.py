@@ -14,6 +14,7 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 
@@ -159,7 +160,7 @@ def _roots(modulus: Poly, target: Any) -> list[Any]:
 
 
 def _by_distance(polynomial: fmpz_poly, target: Any) -> list[Any]:
-    return sorted((root for root, _ in polynomial.complex_roots()), key=lambda root: float(abs(root - target).mid()))
+    return sorted((root for root, _ in complex_zeros(polynomial)), key=lambda root: float(abs(root - target).mid()))
 
 
 def _fraction(value: Any) -> Fraction:

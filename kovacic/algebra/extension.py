@@ -21,6 +21,7 @@ from kovacic.algebra.lifting import Lifter, inverse_by_primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import coefficients_from_traces, power_sums
+from kovacic.exact import radical
 from kovacic.limits import check_time
 
 #: Up to this degree of the modulus, Euclid's algorithm is as fast as lifting.
@@ -253,12 +254,12 @@ class ExtensionPoly(Poly):
 
     def to_sympy(self, variable: Any) -> Any:
         """As for every polynomial; the generator is a radical where it is called so, else a symbol."""
-        from sympy import Add, Pow, Rational, Symbol
+        from sympy import Add, Symbol
 
         field = self.field
         generator = Symbol(field.name)
         if field.name == "I" or not field.name.isidentifier():  # sqrt(2), root(2, 5): its power is in the field below
-            generator = Pow(-field.modulus[0].to_sympy(variable), Rational(1, field.modulus.degree))
+            generator = radical(-field.modulus[0].to_sympy(variable), field.modulus.degree)
         return Add(*(part.to_sympy(variable) * generator**i for i, part in enumerate(self.parts) if part))
 
     def rational_coefficients(self) -> tuple[Any, ...]:

@@ -27,12 +27,13 @@ from kovacic.bound_states.signs import Signs
 from kovacic.equation import ENERGY, EULER, PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import exact_text, whole
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
 from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
+from kovacic.reading.symbolic import LIMITS as SYMBOLIC
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.formula import caret
 
@@ -46,6 +47,8 @@ _CLASSES: tuple[tuple[Callable[[Frame, Ends, Any], Iterator[Family]], str], ...]
 )
 _PROOF = {"a constant potential": "solutions are waves and exponentials"}
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
+#: Seconds that SymPy takes to expand a potential at the ends of its domain, over its terms to the power 3/2.
+_END_SECONDS = 4e-4
 
 
 @dataclass(frozen=True)
@@ -205,6 +208,9 @@ def _potential(V: Any, energy: str) -> tuple[Any, Any]:
         S = expression - sympy.Symbol(energy)
     if energy in {s.name for s in expression.free_symbols}:
         raise InputError(f"the potential contains {energy}, the energy", hint="energy= gives it another name")
+    longest = max((max(abs(int(c.p)), int(c.q)) for c in expression.atoms(sympy.Rational)), default=0)
+    if longest.bit_length() > SYMBOLIC.bits:
+        raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
     if expression.has(sympy.I):
         raise InputError("the potential isn't real")
     return expression, S
@@ -369,6 +375,8 @@ def _ends(question: Question) -> list[End]:
     parsed, signs = question.parsed, question.signs
     original = Original.of(parsed.equation, question.x, signs)
     t = sympy.Symbol(parsed.variable)
+    terms = parsed.S.num.degree + parsed.S.den.degree
+    check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
     S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
     V = potential_in_t(S, parsed.equation, original, question.E, t, signs)
     check_inside(V, original, question.domain, t, signs)

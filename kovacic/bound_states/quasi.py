@@ -22,6 +22,7 @@ from flint import acb, acb_poly, arb, fmpq, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.bound_states.ends import End
@@ -186,7 +187,7 @@ def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
     for factor, _ in sympy.factor_list(polynomial, E)[1]:
         exact = sympy.Poly(factor, E)
         scaled = exact.clear_denoms()[1] if exact.domain.is_QQ else exact
-        balls = fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]).complex_roots()
+        balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
         real = sorted((ball.real for ball, _ in balls if ball.imag == 0), key=lambda ball: float(ball.mid()))
         yield from zip(sympy.Poly(factor, E).real_roots(), real, strict=True)
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
+from sympy import Add, Integer, Mul, Rational, Symbol, exp, log
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
@@ -16,6 +16,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.product import Factor, Product, grouped, merged
+from kovacic.exact import radical
 from kovacic.reading.linear import chosen_root
 
 Expr = Any  # SymPy publishes no types
@@ -77,8 +78,8 @@ class Atoms:
         """A square root of a constant; squares of parameters come out of the root once and for all, sqrt(w^2) = w."""
         if isinstance(value, FunctionPoly):
             outer, inner = value.square_part()
-            return outer.to_sympy(self.x) * sqrt(inner.to_sympy(self.x))
-        return sqrt(self.constant(value))
+            return outer.to_sympy(self.x) * radical(inner.to_sympy(self.x))
+        return radical(self.constant(value))
 
     def is_negative(self, value: Poly) -> bool:
         """Is a constant negative?  With parameters: is the first coefficient, so that -w^2 counts as negative?"""
@@ -106,7 +107,7 @@ class Atoms:
         pure = modulus.field.rational_value(-modulus[0])
         principal = field.approximation is None or (field.approximation[0] > 0 and not field.approximation[1])
         if principal and pure is not None and pure > 0 and not any(modulus[k] for k in range(1, modulus.degree)):
-            return Pow(rational(pure), rational(Fraction(1, modulus.degree)))
+            return radical(rational(pure), modulus.degree)
         return chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
@@ -159,7 +160,7 @@ class Atoms:
         square = discriminant(p)
         if square is None or square <= 0:
             return ()
-        centre, half = -self.constant(p[1]) / 2, sqrt(rational(square)) / 2
+        centre, half = -self.constant(p[1]) / 2, radical(rational(square)) / 2
         return centre - half, centre + half
 
     def log_sum(self, residue: Residue) -> Expr:
@@ -173,7 +174,7 @@ class Atoms:
             centre, slope, root = (
                 -self.constant(p[1]) / 2,
                 self.constant(value[1]),
-                sqrt(-rational(discriminant(p) or 0)),
+                radical(-rational(discriminant(p) or 0)),
             )
             mean = self.constant(value[0]) + slope * centre
             angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))

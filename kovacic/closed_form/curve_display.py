@@ -11,13 +11,14 @@ from dataclasses import replace
 from fractions import Fraction
 
 import sympy
-from sympy import Add, Integer, Mul, asin, asinh, atan, cos, exp, log, sin, sqrt
+from sympy import Add, Integer, Mul, asin, asinh, atan, cos, exp, log, sin
 
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, rational
 from kovacic.closed_form.curve import CurveIntegral, Unit, unit
 from kovacic.closed_form.structure import OnCurve
+from kovacic.exact import radical as sqrt
 
 #: int r dx/sqrt(g) = sum of coefficient * log(base) for the first + sum of the second; notes on what was left as an integral.
 _Terms = tuple[list[tuple[Expr, Expr]], list[Expr], tuple[str, ...]]

@@ -32,7 +32,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
-from sympy import asin, atan, atanh, elliptic_e, elliptic_f, elliptic_pi, sqrt
+from sympy import asin, atan, atanh, elliptic_e, elliptic_f, elliptic_pi
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
@@ -40,6 +40,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
+from kovacic.exact import radical as sqrt
 
 
 def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:

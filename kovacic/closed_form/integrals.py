@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 import sympy
-from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
+from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi
 
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
@@ -25,6 +25,7 @@ from kovacic.closed_form.primitive import (
 )
 from kovacic.closed_form.product import Power, Product, gathered
 from kovacic.closed_form.structure import Triangular
+from kovacic.exact import radical as sqrt
 
 Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
 Factors = tuple[Expr, list[Expr]]  # a constant and factors: y1 as `Atoms.factors` gives it

@@ -23,6 +23,7 @@ import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.closed_form.balls import BallEvaluator, Value
 
 Number = Any  # flint's acb
@@ -136,7 +137,7 @@ class _Evaluator(BallEvaluator):
                 precise = _Evaluator({})
                 return _with_real_roots(acb_poly([precise(c) for c in coefficients]), tolerance)
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
-        return [root for root, _ in fmpz_poly([int(c) for c in integers]).complex_roots()]
+        return [root for root, _ in complex_zeros(fmpz_poly([int(c) for c in integers]))]
 
 
 def _lifted(value: Value) -> Value:

@@ -19,7 +19,7 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Add, Integer, Mul, cos, sin, sqrt
+from sympy import Add, Integer, Mul, cos, sin
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Residue
@@ -29,6 +29,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, rational
 from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import Conjugate
 from kovacic.engine.places import rational_square_root
+from kovacic.exact import radical as sqrt
 
 
 @dataclass(frozen=True)

@@ -40,8 +40,8 @@ recessive one."""
 _NOISE = 2.0**-40
 """Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
-#: So many coefficients around a point are found by derivatives.
-_FEW_TERMS = 2
+#: So many coefficients around a point are found by derivatives: two, or one for so many degrees.
+_FEW_TERMS, _DEGREES_A_TERM = 2, 40
 
 
 @dataclass(frozen=True)
@@ -276,13 +276,18 @@ def _real_problem(equation: object, params: Mapping[str, object] | None, constan
 
 def _expanded(polynomial: Any, line: Any, terms: int) -> list[Any]:
     """The first coefficients of the composition with a line: of a few ones, the powers of a long one are never made."""
-    if terms > _FEW_TERMS:
+    degree = polynomial.degree()
+    centre = line[0]
+    scale = line[1]
+    if terms > max(_FEW_TERMS, degree // _DEGREES_A_TERM):
         if isinstance(line, fmpq_poly):
-            foresee_move(polynomial.degree(), max(int(line[0].height_bits()), int(line[1].height_bits())))
+            bits = max(int(polynomial.numer().height_bits()), int(polynomial.denom()).bit_length())
+            foresee_move(degree, bits, max(int(centre.height_bits()), int(scale.height_bits())))
         return polynomial(line).coeffs()[:terms]  # type: ignore[no-any-return]
-    centre, scale = line[0], line[1]
-    found, factor = [], scale**0
-    for k in range(min(terms, polynomial.degree() + 1)):
+    found = []
+    factor = scale**0
+    for k in range(min(terms, degree + 1)):
+        check_time()
         found.append(polynomial(centre) * factor)
         polynomial = polynomial.derivative()
         factor = factor * scale / (k + 1)

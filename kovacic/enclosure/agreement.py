@@ -41,6 +41,7 @@ from kovacic.limits import Limits
 _LARGEST = 400  # the largest finite group that is enumerated
 _WORDS = 12  # the number of products that are compared with one another
 _BITS = 400
+_LARGEST_POWER = 1 << 60  # of a matrix of balls, which says nothing any more
 _TWO = acb(2)
 _HIGHEST_ORDER = 120  # eigenvalues are compared with roots of unity up to this order
 _DIAGONAL = (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE)
@@ -250,8 +251,9 @@ def _may_be_smaller(possible: _Possible, group: Group) -> bool:
     if group.kind is GroupKind.MULTIPLICATIVE:
         return possible.torsion()
     if group.kind is GroupKind.ADDITIVE:
-        powers = [word ** (group.n or 1) for word in possible.words]
-        return possible.commuting and all(_may_be_identity(power) for power in powers)
+        order = group.n or 1
+        unipotent = order >= _LARGEST_POWER or all(_may_be_identity(word**order) for word in possible.words)
+        return possible.commuting and unipotent
     if group.kind is GroupKind.BOREL:
         return possible.commuting or possible.torsion()
     if group.kind is GroupKind.INFINITE_DIHEDRAL:
@@ -260,7 +262,9 @@ def _may_be_smaller(possible: _Possible, group: Group) -> bool:
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:
-    """Can the eigenvalues be k-th roots of unity?"""
+    """Can the eigenvalues be k-th roots of unity?  With balls that isn't refuted for a large k."""
+    if k >= _LARGEST_POWER:
+        return True
     return bool((m**k).trace().overlaps(_TWO))
 
 

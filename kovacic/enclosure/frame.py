@@ -23,7 +23,7 @@ from flint import acb_poly, arb, arb_poly, fmpq_poly
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
-from kovacic.limits import check_time
+from kovacic.limits import check_duration
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
 Parts = tuple[list[int], list[int] | None]
@@ -32,6 +32,9 @@ _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LONG, _HALVINGS, _FEW_HALVINGS = 100, 60, 6  # of the way, for a lower bound of the growth; few for degrees above 100
+_PIECE_SECONDS = (
+    1e-8  # that it takes to move a long polynomial to the middle of a piece of the way, over its degree squared
+)
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
@@ -220,7 +223,7 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
         marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
         for first, last in itertools.pairwise(marks):
             if degree > _LONG:
-                check_time()
+                check_duration(_PIECE_SECONDS * degree**2, f"a bound for a polynomial of degree {degree}")
             middle, half = step * (first + last) / 2, length * (last - first) / 2
             p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
             total += _growth_near(p, q, half)

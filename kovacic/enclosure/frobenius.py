@@ -114,7 +114,10 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
 
 def _first(delta: arb) -> int:
     """Terms before which the bound isn't used."""
-    return int(2 * float(delta.upper())) + 8
+    difference = float(delta.upper())
+    if math.isinf(difference):
+        raise LimitExceeded("the exponents differ by more than 1e308: so many terms", limit="unknown_degree")
+    return int(2 * difference) + 8
 
 
 def junction(point: Singular, towards: ExactPoint, prec: int) -> tuple[ExactPoint, Majorant]:

@@ -20,6 +20,7 @@ from flint import acb, acb_poly, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
@@ -43,7 +44,7 @@ def _conjugates(field: AlgebraicField) -> list[acb | None]:
 def _roots(poly: Poly) -> tuple[tuple[acb, int], ...]:
     """Certified isolation of the zeros of a polynomial over Q."""
     assert isinstance(poly, RationalPoly)
-    return tuple((root, int(k)) for root, k in poly.rep.numer().complex_roots())
+    return complex_zeros(poly.rep.numer())
 
 
 def embed(poly: Poly, c: acb | None) -> acb_poly:

@@ -163,7 +163,10 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
             shell="for a regular singular point at infinity: --x0 oo --regular",
         )
     roots = [root.real for which in ("num", "den") for root, _ in system.roots(which, 64)]
-    first = max(math.ceil(max((float(root.upper()) for root in roots), default=0.0)) + 1, math.ceil(x0.re))
+    rightmost = max((float(root.upper()) for root in roots), default=0.0)
+    if math.isinf(rightmost):
+        raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
+    first = max(math.ceil(rightmost) + 1, math.ceil(x0.re))
     step, growth, bits = 1, arb(0), (prec + 20) * math.log(2) / 2
     num, den = (acb_poly(list(part)) for part in (system.num, system.den))
     while growth < bits:  # about int S^(1/2) from `first` to `first + step`

@@ -16,14 +16,15 @@ from typing import Literal
 
 from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, to_fraction
 from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration, check_time
 
-_ISOLATION = 4e-6  # seconds that it takes to isolate the zeros of a polynomial, over the square of its degree
-_MOVE_SECONDS = 2e-9  # that it takes at least to move a polynomial to a point, per bit of its coefficients
+# Seconds that it takes to write down a polynomial around a rational point, over a power of the bits of all coefficients.
+_MOVE_SECONDS, _MOVE_POWER = 2e-10, 1.21
 _SHARP = 40  # relative bits to which the distances of singular points are known
 _SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
 _EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
@@ -108,21 +109,21 @@ class System:
 
 @lru_cache(maxsize=64)
 def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
-    poly = fmpz_poly(list(coefficients))
-    check_duration(
-        _ISOLATION * poly.degree() ** 2, f"the isolation of the zeros of a polynomial of degree {poly.degree()}"
-    )
     with working_precision(prec):
-        return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
+        return complex_zeros(fmpz_poly(list(coefficients)))
 
 
-def foresee_move(degree: int, bits: int) -> None:
-    """Raise `LimitExceeded` where there isn't the time to write down a polynomial around a point of so many bits."""
-    check_duration(_MOVE_SECONDS * degree**2 * bits, f"a polynomial of degree {degree} around a point of {bits} bits")
+def foresee_move(degree: int, bits: int, point_bits: int) -> None:
+    """Raise `LimitExceeded` where there isn't the time to write down a polynomial, whose coefficients have so many bits, around
+    a point."""
+    written = degree * (bits + degree * point_bits)
+    what = f"a polynomial of degree {degree} around a point of {point_bits} bits"
+    check_duration(_MOVE_SECONDS * float(written) ** _MOVE_POWER, what)
 
 
 def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
-    foresee_move(len(coefficients), max(a.height_bits(), step.height_bits()))
+    bits = max((c.bit_length() for c in coefficients), default=0)
+    foresee_move(len(coefficients), bits, max(a.height_bits(), step.height_bits()))
     lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
     if lines[1] == 0:
         return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])

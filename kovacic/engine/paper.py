@@ -203,8 +203,20 @@ def _may_succeed(family: Family, m: int) -> bool:
 
 def is_natural(d: Number) -> bool:
     """Is it 0, 1, 2, ...?"""
-    value = d.field.rational_value(d) if isinstance(d, Poly) else Fraction(d)
+    value = _rational(d)
     return value is not None and value >= 0 and value.denominator == 1
+
+
+def natural(d: Number) -> int:
+    """The number 0, 1, 2, ... that it is."""
+    value = _rational(d)
+    assert value is not None
+    assert value.denominator == 1
+    return value.numerator
+
+
+def _rational(number: Number) -> Fraction | None:
+    return number.field.rational_value(number) if isinstance(number, Poly) else Fraction(number)
 
 
 def in_sympy(value: Any, x: Any) -> Any:
@@ -365,7 +377,7 @@ class _Trial:
         self.factors = [X - p.at if p.at is not None else p.place.factor.over(field) for p in points[1:]]
 
     def degree(self, family: Family) -> int:
-        return int(in_sympy(family.d, self.x))
+        return natural(family.d)
 
     def work(self, family: Family) -> int:
         """Multiplications, about."""

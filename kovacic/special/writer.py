@@ -19,6 +19,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
+from kovacic.exact import radical
 from kovacic.special.numbers import HALF, Number, multiplicities, root
 
 
@@ -125,7 +126,7 @@ class Writer:
     def _constant(self, value: Number | Poly) -> Expr:
         if isinstance(value, Number):
             return sympy.Add(
-                self.constant(value.part), *(self.constant(c) * sympy.sqrt(self.constant(s)) for s, c in value.roots)
+                self.constant(value.part), *(self.constant(c) * radical(self.constant(s)) for s, c in value.roots)
             )
         shown = self.atoms.constant(value)
         return sympy.cancel(shown) if value.field.height and value.field.ground != QQ else shown
@@ -169,7 +170,7 @@ class Writer:
             return self.constant(inside)
         if n == 3 and self.is_negative(value):
             return -self.root(-value, n)
-        return sympy.root(self.constant(value), n)
+        return radical(self.constant(value), n)
 
     # ------------------------------------------------------------------------------------- functions
 

@@ -344,7 +344,7 @@ def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]
         here = coefficients(chart, [ExactPoint(low + (high - low) * Fraction(k, 200)) for k in range(201)])
         growth = np.sqrt(np.maximum(here.S, 0.0))
         total += float(np.trapezoid(growth, here.x))
-    return min(5000, int(2 * total / np.log(10)))
+    return int(min(5000.0, 2 * total / np.log(10)))
 
 
 def _draw(axes: Axes, curve: SampledCurve, label: str, colour: int) -> int:

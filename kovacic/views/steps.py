@@ -10,7 +10,7 @@ from sympy import Add, Symbol
 
 from kovacic.answer import Answer
 from kovacic.decision import Status
-from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, search
+from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, natural, search
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget
@@ -196,7 +196,7 @@ class Steps:
         return "not tried" if is_natural(family.d) else ""
 
     def _trial(self, family: Family) -> Iterator[Block]:
-        d = int(in_sympy(family.d, self.x))
+        d = natural(family.d)
         yield Formula(Math("theta", r"\theta").equals(self._shown(family.theta)))
         unknowns = set(family.unknowns)
         impossible = next((condition for condition in family.conditions if not unknowns & condition.free_symbols), None)

@@ -1,0 +1,92 @@
+"""The complex zeros of an integer polynomial: balls, pairwise disjoint, one zero in each, with their multiplicities.
+
+FLINT isolates them, by a call that can't be stopped.  It is short for coefficients of a few words, and its time can't be
+foreseen for long ones, which may have zeros as near to each other as 1 and 1 + 10^-5000: those of degree 2 are written down,
+and for those of a higher degree FLINT works in a process of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from math import inf
+from typing import Any
+
+from flint import acb, arb, ctx, fmpz, fmpz_poly
+
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_duration, check_time, watched_seconds
+
+#: Seconds that FLINT takes, over the square of the degree.
+_SECONDS = 4e-6
+#: Bits of coefficients for which it takes no longer, beside so many for each degree.
+_SHORT, _SHORT_PER_DEGREE = 400, 4
+
+Zeros = tuple[tuple[Any, int], ...]
+
+
+def complex_zeros(polynomial: fmpz_poly) -> Zeros:
+    """The zeros, at the working precision in force; raises `LimitExceeded` where there isn't the time.
+
+    >>> complex_zeros(fmpz_poly([1, 2, 1]))
+    ((-1.00000000000000, 2),)
+    """
+    degree = polynomial.degree()
+    if degree < 1:
+        return ()
+    check_duration(_SECONDS * degree**2, f"the isolation of the zeros of a polynomial of degree {degree}")
+    if degree == 1 or polynomial.height_bits() <= _SHORT + _SHORT_PER_DEGREE * degree:
+        return _isolated(polynomial)
+    if degree == 2:
+        return _of_quadratic(polynomial)
+    found = _isolated_apart(tuple([int(c) for c in polynomial.coeffs()]), ctx.prec)
+    return tuple((acb(_ball(real), _ball(imaginary)), k) for real, imaginary, k in found)
+
+
+def _isolated(polynomial: fmpz_poly) -> Zeros:
+    return tuple((root, int(k)) for root, k in polynomial.complex_roots())
+
+
+def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
+    """Where the zeros differ, they do by more than the coefficients' square."""
+    c, b, a = polynomial.coeffs()
+    square = b * b - 4 * a * c
+    with ctx.workprec(ctx.prec + 4 * int(polynomial.height_bits()) + 20):
+        middle = arb(-b) / (2 * a)
+        if square == 0:
+            return ((acb(middle), 2),)
+        distance = arb(abs(square)).sqrt() / (2 * abs(a))
+        if square > 0:
+            return (acb(middle - distance), 1), (acb(middle + distance), 1)
+        return (acb(middle, distance), 1), (acb(middle, -distance), 1)
+
+
+@lru_cache(maxsize=16)
+def _isolated_apart(coefficients: tuple[int, ...], prec: int) -> tuple[tuple[Any, Any, int], ...]:
+    """Midpoints and radii, found where it can be stopped."""
+    from kovacic.process import last_of
+
+    found = last_of(_yield_zeros, coefficients, prec, seconds=watched_seconds(inf))
+    if found is None:
+        check_time()
+        reason = f"a process of its own didn't isolate the zeros of a polynomial of degree {len(coefficients) - 1}"
+        raise LimitExceeded(reason, limit="seconds")
+    return tuple(found)
+
+
+def _yield_zeros(coefficients: tuple[int, ...], prec: int) -> Iterator[list[tuple[Any, Any, int]]]:
+    with ctx.workprec(prec):
+        zeros = _isolated(fmpz_poly(list(coefficients)))
+        yield [(_dyadic(root.real), _dyadic(root.imag), k) for root, k in zeros]
+
+
+def _dyadic(ball: arb) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Mantissa and exponent of the midpoint and of the radius."""
+    middle, radius = ((int(part) for part in value.man_exp()) for value in (ball.mid(), ball.rad()))
+    first, second = tuple(middle), tuple(radius)
+    return (first[0], first[1]), (second[0], second[1])
+
+
+def _ball(dyadic: tuple[tuple[int, int], tuple[int, int]]) -> arb:
+    middle, radius = dyadic
+    return arb((fmpz(middle[0]), fmpz(middle[1])), (fmpz(radius[0]), fmpz(radius[1])))
