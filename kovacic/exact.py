@@ -239,10 +239,21 @@ def radical(value: Any, n: int = 2) -> Any:
     from sympy import root, sympify
 
     number, _ = sympify(value).as_coeff_Mul(rational=True)
-    bits = max(int(number.p).bit_length(), int(number.q).bit_length())
+    bits = _bits(number)
     if bits > _LONGEST_RADICAND:
         reason = (
             f"a root of a number of {bits} bits, above the limit of {_LONGEST_RADICAND}, isn't written as a formula"
         )
         raise LimitExceeded(reason, limit="digits")
     return root(value, n)
+
+
+def has_long_numbers(expression: Any) -> bool:
+    """Has it numbers so long that SymPy would take seconds for a root of them, which may come up when a value is put in?"""
+    from sympy import Rational as Number
+
+    return any(_bits(number) > _LONGEST_RADICAND for number in expression.atoms(Number))
+
+
+def _bits(number: Any) -> int:
+    return max(int(number.p).bit_length(), int(number.q).bit_length())

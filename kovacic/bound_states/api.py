@@ -314,7 +314,7 @@ def _transformed(
             states = () if question.parameters else (State(0, energy, wave, 0),)
             E = sympy.Symbol(question.energy)
             algebraic = [Algebraic(0, sympy.Integer(0), E - energy, wave, (), states)]
-        shown = caret(str(plain(sympy.factor(V))))
+        shown = caret(as_text(plain(sympy.factor(V))))
         reason = f"Darboux' transformation of V = {shown}; {simpler.reason}"
         return _spectrum(question, ends, levels=tuple(levels), algebraic=tuple(algebraic), complete=True, reason=reason)
     return None

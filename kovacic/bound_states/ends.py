@@ -18,6 +18,7 @@ from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import Equation
 from kovacic.errors import InputError
+from kovacic.numerals import as_text
 from kovacic.writing.formula import caret
 
 
@@ -69,7 +70,7 @@ def check_inside(V: Any, original: Original, domain: tuple[Any, Any], t: Any, si
             if is_between(angle, angles[0], angles[1], signs):
                 where = (angle - original.offset) / original.rate
                 raise InputError(
-                    f"V isn't regular at {original.x} = {caret(str(where))}, inside the domain",
+                    f"V isn't regular at {original.x} = {caret(as_text(where))}, inside the domain",
                     hint="choose the domain between its poles",
                 )
 
@@ -157,7 +158,7 @@ def _infinite(at: Any, x: Any, mu: int, j: int, strength: Any, signs: Signs) -> 
     if j < 0 or strength == 0:
         return End(at, False, f"{where}: V -> 0, continuous spectrum from 0", threshold=sympy.Integer(0))
     if j == 0:
-        shown = caret(str(strength))
+        shown = caret(as_text(strength))
         return End(at, False, f"{where}: V -> {shown}, continuous spectrum from there", threshold=strength)
     sign = signs.sign(strength)
     if sign == 1:
@@ -172,22 +173,22 @@ def _infinite(at: Any, x: Any, mu: int, j: int, strength: Any, signs: Signs) -> 
         return End(
             at, True, f"{where}: V -> -oo so fast that both solutions are square integrable (limit circle)", True
         )
-    return End(at, falls, f"{where}: one solution decays where {caret(str(strength))} > 0", True)
+    return End(at, falls, f"{where}: one solution decays where {caret(as_text(strength))} > 0", True)
 
 
 def _irregular(at: Any, original: Original, strength: Any, signs: Signs) -> End:
-    where = f"{original.x} -> {caret(str(at))}"
+    where = f"{original.x} -> {caret(as_text(at))}"
     sign = signs.sign(strength)
     if sign == 1:
         return End(at, False, f"{where}: V -> oo, one solution decays")
     if sign == -1:
         said = "V -> -oo so fast that both solutions are square integrable (limit circle)"
         return End(at, True, f"{where}: {said}", True)
-    return End(at, sympy.Lt(strength, 0), f"{where}: one solution decays where {caret(str(strength))} > 0", True)
+    return End(at, sympy.Lt(strength, 0), f"{where}: one solution decays where {caret(as_text(strength))} > 0", True)
 
 
 def _finite(at: Any, original: Original, mu: int, j: int, strength: Any, slope: Any, u: Any, signs: Signs) -> End:
-    where = f"{original.x} -> {caret(str(at))}"
+    where = f"{original.x} -> {caret(as_text(at))}"
     if mu >= 2:
         raise Uncovered(f"the coordinate isn't regular at {where}")
     # u ~ (x - a)^p with p = 2/(2 - mu), and (du/dx)^2 ~ C u^mu, so that u is (x - a)^p (C/p^2)^(p/2)
@@ -229,7 +230,7 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
 
 
 def _relation(relation: Any) -> str:
-    return f"{caret(str(relation.lhs))} {relation.rel_op} {caret(str(relation.rhs))}"
+    return f"{caret(as_text(relation.lhs))} {relation.rel_op} {caret(as_text(relation.rhs))}"
 
 
 def _power(at: Any, x: Any, square: Any) -> str:
@@ -237,6 +238,6 @@ def _power(at: Any, x: Any, square: Any) -> str:
     nu = sympy.sqrt(square) if root is None else root
     base = x - at
     if square == sympy.Rational(1, 4):
-        return f"{caret(str(base))} or 1"
-    first, second = (caret(str(base ** sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)))) for s in (1, -1))
+        return f"{caret(as_text(base))} or 1"
+    first, second = (caret(as_text(base ** sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)))) for s in (1, -1))
     return f"{first} or {second}"

@@ -179,7 +179,7 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
             yield from (SHORTER,) if k else ()
             yield f"{'  ' if k else ''}{solution.lhs} = {caret(as_text(solution.rhs))}"
             if needed := validity(solution):
-                yield f"  real and valid for {caret(str(needed))}"
+                yield f"  real and valid for {caret(as_text(needed))}"
 
 
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:

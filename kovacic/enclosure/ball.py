@@ -32,6 +32,7 @@ from kovacic.exact import whole
 Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero
 _DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals
 _FRACTION_BITS = 10_000_000  # largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory
+_DECIMAL_EXPONENT = 18  # characters of an exponent that Python's decimals can have
 _SHOWN = 40  # digits in the representation, and of exact numbers
 
 
@@ -503,6 +504,9 @@ def _rounded_up(radius: arb) -> str:
     text: str = radius.str(2, radius=False)
     if arb(text).lower() >= radius:
         return text
+    mantissa, _, exponent = text.partition("e")
+    if len(exponent) > _DECIMAL_EXPONENT:
+        return f"{Decimal(mantissa) + Decimal('0.1')}e{exponent}"
     near = Decimal(text)
     unit = Decimal((0, (1,), int(near.as_tuple().exponent)))
     with localcontext(Context(prec=_SHOWN, Emax=MAX_EMAX, Emin=MIN_EMIN)):

@@ -14,6 +14,7 @@ import sympy
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.numerals import as_text
 from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.natural import Natural
@@ -57,7 +58,7 @@ class _Powers:
             return expression.xreplace(values)
 
         conditions = tuple(map(raised, solution.conditions))
-        where = ", ".join(f"{caret(str(sympy.factor(condition)))} = 0" for condition in conditions)
+        where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in conditions)
         is_said = bool(solution.where) and not conditions
         return PolynomialSolution(
             raised(solution.y), raised(solution.degree), conditions, solution.where if is_said else where

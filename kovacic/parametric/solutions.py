@@ -25,6 +25,7 @@ from kovacic.closed_form.product import product as product_of_powers
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem
 from kovacic.equation import Equation
+from kovacic.exact import has_long_numbers
 from kovacic.limits import Budget
 from kovacic.numerals import as_text
 from kovacic.parametric.exponents import Exponents, local_parts
@@ -106,7 +107,9 @@ class PolynomialSolution:
 
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
-        return f"y = {caret(str(self.y))} where {self.where or f'{caret(str(self.degree))} is a natural number'}"
+        return (
+            f"y = {caret(as_text(self.y))} where {self.where or f'{caret(as_text(self.degree))} is a natural number'}"
+        )
 
 
 #: From the degree d, if there is one to be chosen.
@@ -240,7 +243,8 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
 
 
 def _constant(field: Field, below: Field) -> Any:
-    """The generator of an extension by a square root as a radical, 0 where there is no extension; None for any other.
+    """The generator of an extension by a square root as a radical, 0 where there is no extension; None for any other, and for
+    that of a long number.
 
     Its name isn't used: it can be that of a parameter.
     """
@@ -251,7 +255,8 @@ def _constant(field: Field, below: Field) -> Any:
         return None
     x = sympy.Symbol("x")
     half, rest = (field.modulus[1] / 2).to_sympy(x), field.modulus[0].to_sympy(x)
-    return sympy.sqrt(sympy.factor(half**2 - rest)) - half
+    square = sympy.factor(half**2 - rest)
+    return None if has_long_numbers(square) else sympy.sqrt(square) - half
 
 
 def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:

@@ -10,7 +10,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
-from kovacic.numerals import as_latex
+from kovacic.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
@@ -73,7 +73,7 @@ class SpecialFunctions:
         return self.pullback is not None
 
     def __repr__(self) -> str:
-        return f"<SpecialFunctions: {f'{self.y1}, {self.y2}' if self else 'none was found'}>"
+        return f"<SpecialFunctions: {f'{as_text(self.y1)}, {as_text(self.y2)}' if self else 'none was found'}>"
 
     def _repr_latex_(self) -> str | None:
         if self.pullback is None:
@@ -82,7 +82,7 @@ class SpecialFunctions:
 
     def __str__(self) -> str:
         if self.pullback is not None:
-            return f"y1 = {self.y1}\ny2 = {self.y2}"
+            return f"y1 = {as_text(self.y1)}\ny2 = {as_text(self.y2)}"
         if self.stopped:
             return f"no special function was found: {self.stopped}"
         return f"no special function was found; searched: {'; '.join(self.searched)}"

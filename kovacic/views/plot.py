@@ -33,7 +33,7 @@ from kovacic.enclosure.problem import Coefficients, change_of
 from kovacic.enclosure.variable import with_variable
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
-from kovacic.exact import whole
+from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import Limits, limited, limits_of
 from kovacic.reading.read import read_input
 from kovacic.views.sentences import equation_of
@@ -315,6 +315,8 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
 
     form = derived.closed_form(answer)
     expressions = tuple(derived.special(answer) if form is None else form)
+    if any(has_long_numbers(y) for y in expressions):
+        return []
     if any(y.has(sympy.Integral) or y.free_symbols - {sympy.Symbol(answer.variable)} for y in expressions):
         return []
     a, b = _ends(start, stop)
