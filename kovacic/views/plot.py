@@ -132,7 +132,8 @@ def sample(
         return chart.states(list(places), digits, limits, path="above", **asked)
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
-    return SampledCurve(tuple(runs), tuple(map(complex, chart.singular)), x0)
+    near = tuple(complex(point) for point in chart.singular if _is_a_double(point))
+    return SampledCurve(tuple(runs), near, x0)
 
 
 def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
@@ -337,6 +338,10 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
         name = f"y{k}"
         found.append((f"{name} = {text}" if len(text) <= _LONGEST_LABEL else name, curve))
     return found
+
+
+def _is_a_double(point: ExactPoint) -> bool:
+    return bool(max(abs(point.x), abs(point.y)) < 10**300)
 
 
 def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> int:
