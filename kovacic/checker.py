@@ -62,7 +62,7 @@ from flint import (
 )
 from flint import nmod_poly as nmod
 
-LONGEST = 6000  # the largest degrees, and the most terms of a series, that are computed with
+LONGEST = 10_000  # the largest degrees, and the most terms of a series, that are computed with
 PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
 
 

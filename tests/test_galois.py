@@ -183,10 +183,11 @@ def test_large_orders_and_large_multiples_on_curves(f: RatFunc, difference: tupl
     assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
 
 
-@pytest.mark.parametrize(("constant", "order"), [(6, 8), (-6, None)])
+@pytest.mark.parametrize(("constant", "order"), [(6, 24), (-6, None)])
 def test_the_same_divisor_with_another_holomorphic_part(constant: int, order: int | None) -> None:
-    """On z^2 = (x+2)^2 - x^3, -(x + c)/(2x) dx/z has the same residues for c = 6 and -6 after the sign; one is a logarithm."""
-    solution = kovacic.solve(transform.from_squared_product(((X + 2) ** 2 - X**3) * 4 * X**2 / (X + constant) ** 2, 1))
+    """On z^2 = (x+2)^2 - x^3, -(x + c)/(6x) dx/z has the same residues for c = 6 and -6 after the sign; one is a logarithm."""
+    g = ((X + 2) ** 2 - X**3) * 4 * X**2 / (X + constant) ** 2
+    solution = kovacic.solve(transform.from_squared_product(g, Fraction(1, 9)))
     group = solution.group
     assert group.order == order
     assert group.function is not None
@@ -194,7 +195,7 @@ def test_the_same_divisor_with_another_holomorphic_part(constant: int, order: in
     assert solution.verify()
     assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
     without = replace(group.function, rest=group.function.rest * 0)
-    family, n = ("dicyclic", 2) if order is None else ("infinite dihedral", None)
+    family, n = ("dicyclic", 6) if order is None else ("infinite dihedral", None)
     for function in (group.function, without):
         claim = replace(group.claim, family=family, n=n, function=function)
         assert not verify(solution.S, solution.decision, claim)
@@ -251,6 +252,15 @@ def test_large_multiples_of_a_divisor_of_infinite_order(h: RatFunc, multiple: Fr
     (p, k), other = group.orders
     for orders in (((p, k + 1), other), ((p, 2 * k), other), ((p, k), (p, k)), ((p, other[1]), other)):
         assert not verify(solution.S, solution.decision, replace(group.claim, orders=orders))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("h", [X**6 + X**5 + X + 4, X**8 + X**5 + X + 4], ids=["genus 2", "genus 3"])
+def test_whole_multiples_are_checked_to_four_thousand(h: RatFunc) -> None:
+    """The invariant is x^8002 beside powers of the branch points."""
+    solution = kovacic.solve(transform.from_squared_difference((8002 / X) ** 2 / h))
+    assert solution.group.ground is Ground.NOT_TORSION
+    assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
 
 
 @pytest.mark.parametrize("m", [3, 4, 5, 6, 12])
@@ -696,3 +706,15 @@ def test_a_gauge_with_its_poles_where_the_exponents_of_a_dicyclic_group_are(
         N = lcm(2 * n, 2 * m, 2 * r.denominator)
         characters = {tuple((a * p + b * q) % 1 for p, q in rows) for a in range(N) for b in range(N)}
         assert group.order == 2 * len(characters)
+
+
+@pytest.mark.parametrize("multiple", [13, 61])
+def test_of_three_pairs_of_lines_the_one_with_the_fewest_zeros_is_taken(multiple: int) -> None:
+    """u + 1/u and u - 1/u are products of solutions of a quaternion equation, too, with more and more zeros; y1 y2 has none."""
+    f = (X**4 - X + 3) / (X**2 + 2)
+    half = Fraction(1, 2)
+    solution = kovacic.solve(transform.pull_back(transform.hypergeometric(half, half, Fraction(multiple, 2)), f))
+    assert solution.decision.semi_invariant.P.degree == 0
+    assert solution.group.name == "dicyclic of order 8"
+    assert solution.verify()
+    assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))

@@ -22,14 +22,16 @@ def decide(problem: Problem) -> Outcome:
         return (Exclusion(Structure.IMPRIMITIVE, (quartic,)),)
 
     def form() -> Form:
-        square = quartic[0] if len(quartic) == 1 else _square_in_pencil(problem, quartic)
-        return root(square, 2, problem)
+        squares = quartic if len(quartic) == 1 else _squares_in_pencil(problem, quartic)
+        roots = [root(square, 2, problem) for square in squares]
+        return min(roots, key=lambda f: f.P.degree)
 
     return Found(Structure.IMPRIMITIVE, form, quartic[0])
 
 
-def _square_in_pencil(problem: Problem, basis: list[Form]) -> Form:
-    """A member F1 + lambda F2 (or F2) that is the square of a quadratic form; lambda has degree 1, 2 or 3 over K.
+def _squares_in_pencil(problem: Problem, basis: list[Form]) -> list[Form]:
+    """The members F1 + lambda F2 (and F2) over K that are squares of quadratic forms; if there are none, one with a lambda of
+    the degree 2 or 3 over K.
 
     The Hessian of a member lies in the pencil again: Hess(F1 + lambda F2) = a(lambda) F1 + b(lambda) F2 with quadratic
     polynomials a and b, and lambda is a root of b - lambda a.
@@ -41,13 +43,17 @@ def _square_in_pencil(problem: Problem, basis: list[Form]) -> Form:
     both = _coordinates(problem, hessian(Form(4, F1.R, F1.P + F2.P), problem), basis)
     mixed = tuple(s - u - v for s, u, v in zip(both, pure1, pure2, strict=True))
     (a0, b0), (a1, b1), (a2, b2) = pure1, mixed, pure2
-    if not a2:
-        return F2
     field = problem.field
     cubic = field.poly([b0, b1 - a0, b2 - a1, -a2])
-    modulus = field.factor(cubic)[0][0]
-    value = -modulus[0] if modulus.degree == 1 else AlgebraicField(field, modulus).generator
-    return Form(4, F1.R, F1.P + value * F2.P)
+    moduli = [factor for factor, _ in field.factor(cubic)] if cubic.degree > 0 else []
+    values = [-modulus[0] for modulus in moduli if modulus.degree == 1]
+    squares = [Form(4, F1.R, F1.P + value * F2.P) for value in values]
+    if not a2:
+        squares.append(F2)
+    if squares:
+        return squares
+    value = AlgebraicField(field, moduli[0]).generator
+    return [Form(4, F1.R, F1.P + value * F2.P)]
 
 
 def _coordinates(problem: Problem, H: Form, basis: list[Form]) -> tuple[Poly, Poly]:
