@@ -49,7 +49,7 @@ def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryConditi
 
 
 def _failures(places: Sequence[Place]) -> Iterator[_Failure]:
-    ramified = [place for place in places if place.kind is Kind.RAMIFIED]
+    ramified = _of_kinds(places, Kind.RAMIFIED)
     if ramified:
         yield _Failure(Rule.RAMIFIED, ramified, [Structure.REDUCIBLE])
     logarithmic = [place for place in places if place.logarithm]
@@ -58,11 +58,15 @@ def _failures(places: Sequence[Place]) -> Iterator[_Failure]:
     branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
     if sum(place.degree for place in branched) < 2:
         yield _Failure(Rule.TOO_FEW_BRANCH_POINTS, branched, [Structure.IMPRIMITIVE])
-    irregular = [place for place in places if place.kind in (Kind.RAMIFIED, Kind.UNRAMIFIED)]
+    irregular = _of_kinds(places, Kind.RAMIFIED, Kind.UNRAMIFIED)
     if irregular:
         yield _Failure(Rule.IRREGULAR, irregular, _PRIMITIVE)
-    regular = [place for place in places if place.kind is Kind.REGULAR]
+    regular = _of_kinds(places, Kind.REGULAR)
     for structure, orders in _ORDERS.items():
         culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
         if culprits:
             yield _Failure(Rule.EXPONENTS, culprits, [structure])
+
+
+def _of_kinds(places: Sequence[Place], *kinds: Kind) -> list[Place]:
+    return [place for place in places if place.kind in kinds]

@@ -81,15 +81,15 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
     if len(first_two) < 2 or not all(condition.is_value for condition in first_two):
         return None
     (first,), (second,) = (condition.terms for condition in first_two)
-    if first.point != second.point or first.order == second.order or first.point in limits:
+    is_one_point = first.point == second.point and first.point not in limits
+    if not is_one_point or first.order == second.order:
         return None
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
     if determinant.is_Rational:
         return determinant
     sign = 1 if first.order == 0 else -1
     W = sign * question.own(value_at(basis.wronskian, basis.x, first.point))
-    is_known = W.has(sympy.mathieuc)  # by theory, for functions that can't be evaluated
-    return W if is_known or agree(W, determinant) else determinant
+    return W if agree(W, determinant) else determinant
 
 
 # ------------------------------------------------------------------------------------------------------------- limits
@@ -113,21 +113,33 @@ def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, questi
     """`functions` are y1, y2, y0 in the user's symbols."""
     (term,) = condition.terms
     x = question.x
+    is_bound = condition.value is None
     try:
         found = [behaviour(e.diff(x) if term.order else e, x, place) for e in functions]
-        rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=condition.value is not None)]
+        rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=not is_bound)]
     except UnknownBehaviour as unknown:
         raise NotImplementedError(f"undecided: the solutions' behaviour at {place.point}: {unknown}") from None
-    is_irregular = any(m.growth for expansion in found for m in (*expansion.terms, *expansion.errors))
-    whole = _growth(question.own(basis.wronskian), x, place) if is_irregular else None
-    reasons = [_uncertainty(expansion, whole, condition) for expansion in found]
-    if reasons[2]:
-        raise NotImplementedError(f"undecided: the behaviour of a particular solution at {place.point}: {reasons[2]}")
-    if condition.value is not None:
+    whole = None
+    if any(_is_irregular(expansion) for expansion in found):
+        whole = _growth(question.own(basis.wronskian), x, place)
+    of_y1, of_y2, of_particular = (_uncertainty(expansion, whole, condition) for expansion in found)
+    if of_particular:
+        raise NotImplementedError(
+            f"undecided: the behaviour of a particular solution at {place.point}: {of_particular}"
+        )
+    if not is_bound:
         rows.append(_coefficients(CONSTANT, found, condition.value))
     t = "1/|x|" if place.is_infinite else f"|x - {place.point}|"
-    said = {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(reasons) if reason}
+    said = {}
+    for k, reason in enumerate((of_y1, of_y2)):
+        if reason:
+            said[k] = f"the solutions' behaviour, t = {t}: {reason}"
     return Limit(tuple(rows), said)
+
+
+def _is_irregular(expansion: Expansion) -> bool:
+    """Is there an exponential?"""
+    return any(m.growth for m in (*expansion.terms, *expansion.errors))
 
 
 def _growth(wronskian: Expr, x: Expr, place: Approach) -> Growth | None:
@@ -149,13 +161,13 @@ def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Mon
     The coefficients of the smaller ones follow: the series after one exponential is determined up to a factor.
     """
     least = 0 if oscillating else 1
-    seen = []
+    seen: set[Monomial] = set()
     for expansion in found:
         large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least) is True]
         for m in large:
-            smaller = m.growth_sign > 0 and any(_is_before(other, m) for other in large)
-            if not smaller and m not in seen:
-                seen.append(m)
+            follows = m.growth_sign > 0 and any(_is_before(other, m) for other in large)
+            if not follows and m not in seen:
+                seen.add(m)
                 yield m
 
 
@@ -180,10 +192,12 @@ def _uncertainty(expansion: Expansion, whole: Growth | None, condition: Conditio
     known = {m.growth for m in expansion.terms}
     least = 1 if condition.value is None else 0
     for error in expansion.errors:
-        is_simple = whole is not None and Monomial(error.growth).power(sympy.Integer(2)).growth != whole
-        if is_simple and error.growth in known and _is_large(Monomial(error.growth), 1):
-            continue
-        if _is_large(error, least) is not False:
+        series = Monomial(error.growth)
+        are_two = whole is not None and series.power(sympy.Integer(2)).growth != whole
+        is_known = are_two and error.growth in known and _is_large(series, 1)
+        if not is_known and _is_large(error, least) is not False:
             return f"terms beyond {error} aren't known"
-    unknown = [m for m in expansion.terms if _is_large(m, least) is None]
-    return f"whether {unknown[0]} is bounded isn't known" if unknown else None
+    for m in expansion.terms:
+        if _is_large(m, least) is None:
+            return f"whether {m} is bounded isn't known"
+    return None

@@ -14,6 +14,7 @@ import sympy
 
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.expansion import UnknownBehaviour
@@ -125,15 +126,13 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     for point in given_points(question):
         if point not in limits:
             return point
-    place = next(iter(limits.values()))
-    for other in limits.values():
-        if not other.is_infinite:
-            place = other
+    finite = [approach for approach in limits.values() if not approach.is_infinite]
     poles = [*_rational_poles(question)]
-    if place.is_infinite:
-        return _beyond(place, poles)
+    if not finite:
+        return _beyond(next(iter(limits.values())), poles)
+    place = finite[-1]
     ends = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
-    ends += [point for point in limits if point not in _INFINITIES and point != place.point]
+    ends += [other.point for other in finite if other.point != place.point]
     if not ends:
         return place.point + place.direction
     nearest = min(ends, key=lambda end: abs(end - place.point).evalf())
@@ -152,22 +151,29 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
 
     Solutions that are written with functions that are analytic everywhere may be continued.
     """
-    points = [point for point in [*given_points(question), *jump_points(question)] if point not in _INFINITIES]
+    points = [point for point in _points(question) if point not in _INFINITIES]
     if len(points) < 2 or not all(point.is_real and point.is_number for point in points):
         return
     if all(_is_entire(question.own(y), question.x) for y in solutions):
         return
-    first, last = sympy.Min(*points), sympy.Max(*points)
+    first = sympy.Min(*points)
+    last = sympy.Max(*points)
     for pole in [*_rational_poles(question), *_changed_poles(question, first, last)]:
         if pole.is_number and first < pole < last:
             raise _apart(pole, points)
 
 
+def _points(question: Question) -> list[Expr]:
+    """Those of conditions, and those of jumps."""
+    return [*given_points(question), *jump_points(question)]
+
+
 def _is_entire(y: Expr, x: Expr) -> bool:
+    """Is it made of functions that are analytic everywhere, by sums, products and natural powers?"""
     for e in sympy.preorder_traversal(y):
-        if not e.has(x) or e == x or e.is_Add or e.is_Mul or isinstance(e, _ENTIRE):
-            continue
-        if not (e.is_Pow and e.exp.is_Integer and e.exp > 0):
+        is_simple = e == x or e.is_Add or e.is_Mul or isinstance(e, _ENTIRE)
+        is_power = e.is_Pow and e.exp.is_Integer and e.exp > 0
+        if e.has(x) and not is_simple and not is_power:
             return False
     return True
 
@@ -192,16 +198,23 @@ def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr
         return
     if not is_of_a_line(equation):
         raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
-    t = sympy.Symbol(equation.variable)
     value = function_of_x(equation)
     rates = _rates_in_x(question, value)
-    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
-    dens = [Atoms(t).poly(q.den) for q in quotients if q.den.degree > 0]
-    roots = {root for den in dens if den.free_symbols == {t} for root in sympy.roots(den, t)}
-    for root in sorted(roots, key=str):
+    for root in _poles_in_t(equation):
         for x0 in _preimages(value, root, question.x, first, last):
             if not _is_analytic(rates, question.x, x0):
                 yield x0
+
+
+def _poles_in_t(equation: Equation) -> list[Expr]:
+    """Those without parameters of b/a, c/a and f/a in the variable of the equation."""
+    t = sympy.Symbol(equation.variable)
+    found: set[Expr] = set()
+    for part in (equation.b, equation.c, equation.f):
+        den = Atoms(t).poly((part / equation.a).den)
+        if den.free_symbols == {t}:
+            found.update(sympy.roots(den, t))
+    return sorted(found, key=str)
 
 
 def _poles_of_a_power(question: Question) -> Iterator[Expr]:
@@ -217,19 +230,22 @@ def _poles_of_a_power(question: Question) -> Iterator[Expr]:
 
 
 def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The x between two points with f(k x + c) = root."""
+    """The x between two points with f(k x + c) = root; for a function with a period that isn't real, of each kind one."""
     inverse, period = _INVERSES[value.func]
     inner = value.args[0]
     slope = inner.diff(x)
+    step = None if period is None else period / slope
     for base in inverse(root):
         x0 = sympy.expand((base - inner.subs(x, 0)) / slope)
         if not x0.is_number or abs(sympy.im(x0).evalf(30)) > 1e-20:
             continue
-        step = None if period is None or not (period / slope).is_real else abs(period / slope)
-        low = 0 if step is None else int(sympy.ceiling((first - x0) / step))
-        high = 0 if step is None else int(sympy.floor((last - x0) / step))
+        if step is None or not step.is_real:
+            yield x0
+            continue
+        low = int(sympy.ceiling((first - x0) / abs(step)))
+        high = int(sympy.floor((last - x0) / abs(step)))
         for m in range(low, min(high, low + _MOST_POINTS) + 1):
-            yield x0 + (m * step if step is not None else 0)
+            yield x0 + m * abs(step)
 
 
 def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
@@ -274,9 +290,12 @@ def real_particular_at(question: Question, basis: Basis, particular: Expr, start
 
 def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
     """Raises `InputError` where roots or logarithms have arguments of both signs at the points."""
-    points = [point for point in [*given_points(question), *jump_points(question)] if point.is_real]
-    ordinary = [point for point in points if not is_singular(question, point)]
-    sides = {frozenset(e for y in solutions for e in negative_arguments(y, question.x, p)) for p in ordinary}
+    points = [point for point in _points(question) if point.is_real]
+    sides = set()
+    for point in points:
+        if not is_singular(question, point):
+            negative = [negative_arguments(y, question.x, point) for y in solutions]
+            sides.add(frozenset().union(*negative))
     if len(sides) > 1:
         said = ", ".join(map(str, points))
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")

@@ -77,7 +77,8 @@ def validity(solution: Any) -> Validity:
     >>> bool(kovacic.validity(kovacic.dsolve("y'' + y = x")))
     False
     """
-    function, value = getattr(solution, "lhs", None), getattr(solution, "rhs", None)
+    function = getattr(solution, "lhs", None)
+    value = getattr(solution, "rhs", None)
     arguments: tuple[Any, ...] = getattr(function, "args", ())
     if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
         raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
@@ -85,16 +86,18 @@ def validity(solution: Any) -> Validity:
     real: dict[Expr, None] = {}
     nonzero: dict[Expr, None] = {}
     for needed in _needs(value, x):
-        if needed in (True, sympy.true):
-            continue
         if isinstance(needed, sympy.Ne) and not needed.has(x):
             nonzero |= dict.fromkeys(_exceptions(needed.lhs))
-        else:
+        elif needed not in (True, sympy.true):
             real[needed] = None
     nonzero |= dict.fromkeys(_exceptions(_wronskian(value, x)))
-    positive = {relation.lhs for relation in real if isinstance(relation, sympy.StrictGreaterThan)}
-    kept = [r for r in real if isinstance(r, sympy.StrictGreaterThan) or r.lhs not in positive]
+    positive = {relation.lhs for relation in real if _is_positivity(relation)}
+    kept = [relation for relation in real if _is_positivity(relation) or relation.lhs not in positive]
     return Validity(tuple(kept), tuple(nonzero))
+
+
+def _is_positivity(relation: Expr) -> bool:
+    return isinstance(relation, sympy.StrictGreaterThan)
 
 
 def _needs(e: Expr, x: Expr) -> Iterator[Expr]:
@@ -105,21 +108,28 @@ def _needs(e: Expr, x: Expr) -> Iterator[Expr]:
         yield from _needs(argument, x)
     if e.is_Pow and not isinstance(e, sympy.exp):
         yield from _needs_of_power(e.base, e.exp)
-    elif isinstance(e, sympy.log):
-        yield e.args[0] > 0
-    elif isinstance(e, _BRANCHED) or (isinstance(e, sympy.besselj | sympy.besseli) and not e.args[0].is_integer):
+    elif isinstance(e, sympy.log) or _is_branched(e):
         yield e.args[-1] > 0
 
 
+def _is_branched(e: Expr) -> bool:
+    """Is it one of Bessel's functions with a branch point at 0?"""
+    if isinstance(e, sympy.besselj | sympy.besseli):
+        return not e.args[0].is_integer
+    return isinstance(e, _BRANCHED)
+
+
 def _needs_of_power(base: Expr, exponent: Expr) -> Iterator[Expr]:
-    if base.is_number:
+    if base.is_number or (exponent.is_integer and not exponent.is_Integer):
         return
-    if exponent.is_Integer or (exponent.is_Rational and exponent.q % 2):
+    is_odd_root = exponent.is_Rational and exponent.q % 2
+    if is_odd_root:
         if exponent < 0:
             yield sympy.Ne(base, 0)
-    elif not exponent.is_integer:
-        is_root = exponent.is_Rational and exponent > 0
-        yield base >= 0 if is_root else base > 0
+    elif exponent.is_Rational and exponent > 0:
+        yield base >= 0
+    else:
+        yield base > 0
 
 
 def _wronskian(value: Expr, x: Expr) -> Expr:
@@ -133,11 +143,13 @@ def _wronskian(value: Expr, x: Expr) -> Expr:
         return sympy.S.One
     for point in (0, 1):
         found = finite_value(W, x, sympy.Integer(point))
-        if found is None or not {f.func for f in found.atoms(sympy.Function)} <= _ELEMENTARY:
-            continue
-        if found.is_zero is not True:
+        if found is not None and found.is_zero is not True and _is_elementary(found):
             return found
     return sympy.S.One
+
+
+def _is_elementary(e: Expr) -> bool:
+    return {f.func for f in e.atoms(sympy.Function)} <= _ELEMENTARY
 
 
 def _exceptions(value: Expr) -> Iterator[Expr]:

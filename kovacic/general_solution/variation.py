@@ -79,16 +79,23 @@ class Basis:
             return known
         if self.equation.change is not None:
             return self._changed or self._by_definition
-        if not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
-            kernel = display(product(self.equation.gauge * 2), Atoms(self.x), around_zero=True).xreplace(NUMBERS)
-            for c in self._quotients(kernel):
-                known = c.is_finite is not False and not c.has(sympy.nan, sympy.zoo)
-                if c != 0 and known and {f.func for f in c.atoms(sympy.Function)} <= {sympy.gamma}:
-                    W = sympy.radsimp(sympy.gammasimp(c) if c.has(sympy.gamma) else c) * kernel
-                    if self._is_wronskian(W):
-                        return W
-                    break
-        return self._by_definition
+        if self.y1.has(*_UNKNOWN) or self.y2.has(*_UNKNOWN):
+            return self._by_definition
+        return self._by_abel or self._by_definition
+
+    @property
+    def _by_abel(self) -> Expr | None:
+        """c exp(-int b/a dx), with the first c that is a number or made of gamma functions; None where it isn't found."""
+        kernel = display(product(self.equation.gauge * 2), Atoms(self.x), around_zero=True).xreplace(NUMBERS)
+        for c in self._quotients(kernel):
+            functions = {f.func for f in c.atoms(sympy.Function)}
+            if c == 0 or _is_infinite(c) or not functions <= {sympy.gamma}:
+                continue
+            if functions:
+                c = sympy.gammasimp(c)
+            W = sympy.radsimp(c) * kernel
+            return W if self._is_wronskian(W) else None
+        return None
 
     @cached_property
     def rates(self) -> tuple[Expr, Expr]:
@@ -105,8 +112,11 @@ class Basis:
         """From that in t = t(x), the variable of the equation, for solutions that are functions of t."""
         own, t = sympy.Symbol(self.equation.variable), sympy.Dummy()
         value = function_of_x(self.equation)
-        whole = value.func is not sympy.exp  # else roots of t are exponentials
-        old, new = (value, t) if whole else (self.x, sympy.log(t) / value.exp.diff(self.x))
+        old = value
+        new = t
+        if value.func is sympy.exp:  # a root of it is an exponential
+            old = self.x
+            new = sympy.log(t) / value.exp.diff(self.x)
         y1, y2 = (y.subs(old, new) for y in (self.y1, self.y2))
         if y1.has(self.x) or y2.has(self.x):
             return None
@@ -154,41 +164,48 @@ class Basis:
         return self._checked(parts, right, rates(self.equation, self.x))
 
     def _checked(self, parts: Sequence[Any], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:
+        """y2 times the second integral minus y1 times the first, in the shortest form, if that is a solution."""
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
+        forms = [whole]
+        if whole.has(sin, cos):
+            forms.append(expand(TR8(whole)))  # products of waves as waves
         candidates = []
-        for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
+        for form in forms:
             for total in (form, _gathered(form, self.x)):
-                terms = sympy.Add.make_args(total)
-                other = (e for e in terms if not any(_is_constant(e / y, self.x) for y in (self.y1, self.y2)))
-                candidates.append(sympy.factor_terms(sympy.Add(*other)))
+                terms = [term for term in sympy.Add.make_args(total) if not self._is_homogeneous(term)]
+                candidates.append(sympy.factor_terms(sympy.Add(*terms)))
         found = one_exponential(min(candidates, key=size))
         return found if is_solution(found, coefficients, right, self.x) else None
+
+    def _is_homogeneous(self, term: Expr) -> bool:
+        """Is it a multiple of y1 or y2?"""
+        return _is_constant(term / self.y1, self.x) or _is_constant(term / self.y2, self.x)
 
     def with_integrals(self, right: Expr, start: Expr | None) -> Expr:
         """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
         coefficients = rates(self.equation, self.x)  # while there is time
+        is_changed = self.equation.change is not None
         integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
         known: list[Any] = [None, None]
         with suppress(LimitExceeded):
             known = [antiderivative(integrand, self.x) for integrand in integrands]
-        if None not in known and self.equation.change is None:
+        if None not in known and not is_changed:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
                 return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, self.x, start))
-        direct = [y * right / self._by_definition for y in (self.y2, self.y1)]
-        for forms, done in ((integrands, known), (direct, (None, None))):  # known integrals may have other branches
-            first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(forms, done, strict=True))
-            found = self.y2 * second - self.y1 * first
-            if forms is direct or self.equation.change is not None or is_solution(found, coefficients, right, self.x):
-                break
-        return found
+        first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(integrands, known, strict=True))
+        found = self.y2 * second - self.y1 * first
+        if is_changed or is_solution(found, coefficients, right, self.x):
+            return found
+        # Integrals that are known may have other branches.
+        first, second = (_open(y * right / self._by_definition, self.x, start) for y in (self.y2, self.y1))
+        return self.y2 * second - self.y1 * first
 
 
 def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
-    """W = P^2 z' (C1 C2' - C1' C2)(z) for pairs P C1(z), P C2(z) of functions that are known here; None for others.
+    """W for pairs P C1(z), P C2(z) of Airy, Bessel or Legendre functions: P^2 z' (C1 C2' - C1' C2)(z); None for others.
 
-    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1, 14.2.3; 28.2(i): Mathieu's equation has no y', and
-    there is an even and an odd solution.
+    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1, 14.2.3.
 
     >>> x = sympy.Symbol("x")
     >>> print(special_wronskian(x * sympy.besselj(0, x**2), x * sympy.bessely(0, x**2), x))
@@ -199,11 +216,14 @@ def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
         return None
     (function,) = found
     partner, value = _PAIRS[function.func]
-    P, z = y1 / function, function.args[-1]
+    P = y1 / function
+    z = function.args[-1]
     if P.has(*_PAIRS) or y2 / partner(*function.args) != P:
         return None
     W = P**2 * z.diff(x) * value(*function.args)
-    return None if W == 0 else sympy.cancel(W) if W.is_rational_function(x) else W
+    if W == 0:
+        return None
+    return sympy.cancel(W) if W.is_rational_function(x) else W
 
 
 def _is_constant(quotient: Expr, x: Expr) -> bool:
@@ -220,8 +240,17 @@ def _gathered(form: Expr, x: Expr) -> Expr:
     for term in sympy.Add.make_args(form):
         rest = sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if not factor.is_rational_function(x)))
         groups.setdefault(rest, []).append(term / rest)
-    fractions = {rest: sympy.Add(*parts) for rest, parts in groups.items()}
-    return sympy.Add(*(rest * (f if f.is_polynomial(x) else sympy.factor(f)) for rest, f in fractions.items()))
+    found = []
+    for rest, parts in groups.items():
+        fraction = sympy.Add(*parts)
+        if not fraction.is_polynomial(x):
+            fraction = sympy.factor(fraction)
+        found.append(rest * fraction)
+    return sympy.Add(*found)
+
+
+def _is_infinite(c: Expr) -> bool:
+    return c.is_finite is False or c.has(sympy.nan, sympy.zoo)
 
 
 def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:
@@ -256,11 +285,13 @@ def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) 
     given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
     if given:  # the formula holds for any function: it is tried with one
         sample = {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in enumerate(sorted(given, key=str)) if f.has(x)}
-        y, right = y.xreplace(sample), right.xreplace(sample)
+        y = y.xreplace(sample)
+        right = right.xreplace(sample)
     with ctx.workdps(DIGITS + 15):
         for point in _points():
             try:
-                (value, first, second), (force, p, q) = jet(y, x, point), (jet(e, x, point)[0] for e in (right, b, c))
+                value, first, second = jet(y, x, point)
+                force, p, q = (jet(e, x, point)[0] for e in (right, b, c))
             except NotImplementedError:
                 return False
             terms = [second, p * first, q * value, -force]

@@ -18,12 +18,13 @@ _DIGITS = 15
 
 def free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[Expr, Expr]:
     """C1 and C2, or the next of these names that nothing else has."""
-    taken = set(question.symbols)
-    for e in (basis.y1, basis.y2, particular):
-        taken |= _names_in(e)
+    used: list[Any] = [basis.y1, basis.y2, particular]
     for condition in question.conditions:
-        for e in (condition.value, *condition.points, *(term.coefficient for term in condition.terms)):
-            taken |= _names_in(e)
+        used += [condition.value, *condition.points]
+        used += [term.coefficient for term in condition.terms]
+    taken = set(question.symbols)
+    for e in used:
+        taken |= _names_in(e)
     c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(name) for name in taken]), 2)
     return c1, c2
 
@@ -35,8 +36,9 @@ def _names_in(e: Any) -> set[str]:
 def combination(question: Question, basis: Basis, particular: Expr, constants: tuple[Expr, Expr]) -> Expr:
     """c1 y1 + c2 y2 + y0 in the user's symbols, factors that y1 and y2 share before the sum; in the variable of `basis`."""
     factors = [sympy.Mul.make_args(y) for y in (basis.y1, basis.y2)]
-    both = 0 not in constants
-    common = [factor for factor in factors[0] if factor in factors[1]] if both else []
+    common = []
+    if 0 not in constants:
+        common = [factor for factor in factors[0] if factor in factors[1]]
     summands = []
     for constant, own in zip(constants, factors, strict=True):
         if constant != 0:
@@ -66,14 +68,20 @@ def with_floats(e: Expr) -> Expr:
     >>> print(with_floats(sympy.sqrt(2) * x**2 * sympy.exp(-x / 5)))
     1.4142135623731*x**2*exp(-0.2*x)
     """
-    if e.is_Integer or e.is_Symbol:
+    if e.is_Integer or e.is_Symbol or isinstance(e, sympy.Integral):
         return e
     if e.is_number and not e.has(sympy.Integral):
-        return sympy.Float(str(e.evalf(_DIGITS)), _DIGITS) if e.is_real else e.evalf(_DIGITS)
-    if e.is_Pow and not isinstance(e, sympy.exp) and e.exp.is_Rational and e.exp.q <= 2:
+        value = e.evalf(_DIGITS)
+        return sympy.Float(str(value), _DIGITS) if e.is_real else value
+    if _is_root_or_power(e):
         return with_floats(e.base) ** e.exp
     if e.is_Function and len(e.args) > 1:  # the argument is the last one
         return e.func(*e.args[:-1], with_floats(e.args[-1]), evaluate=False)
-    if isinstance(e, sympy.Integral):
-        return e
     return e.func(*map(with_floats, e.args))
+
+
+def _is_root_or_power(e: Expr) -> bool:
+    """Is the exponent an integer, or half an integer?"""
+    if not e.is_Pow or isinstance(e, sympy.exp):
+        return False
+    return bool(e.exp.is_Rational and e.exp.q <= 2)
