@@ -172,7 +172,7 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
             half, rest = (place.factor[k].to_sympy(x) for k in (1, 0))
             for sign in (1, -1):
                 c = (-half + sign * sympy.sqrt(sympy.factor(half**2 - 4 * rest))) / 2
-                points.append((c, sympy.sqrt(sympy.simplify(square.to_sympy(x).subs(x, c)))))
+                points.append((c, _square_root(sympy.simplify(square.to_sympy(x).subs(x, c)))))
     if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
         points.append((None, sympy.Integer(1)))
     if len(points) != 3:
@@ -194,6 +194,15 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
         return PolynomialSolution(weight * powers * jacobi(degree, f * first, g * second, argument), degree)
 
     return by_signs
+
+
+def _square_root(square: Any) -> Any:
+    """Without a radical where it is a square over Q(i)."""
+    if square.has(sympy.I) and square.is_polynomial():
+        constant, factors = sympy.factor_list(square, extension=sympy.I)
+        if factors and all(k % 2 == 0 for _, k in factors):
+            return sympy.sqrt(constant) * sympy.prod(factor ** (k // 2) for factor, k in factors)
+    return sympy.sqrt(square)
 
 
 def _power(base: Any, n: int, c: Any, exponent: Any, own: Any) -> Any:

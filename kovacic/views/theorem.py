@@ -21,6 +21,7 @@ from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.formulas import equation_written, partial_fractions, sentence_of
+from kovacic.parametric.integers import free_letter
 from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
@@ -224,18 +225,24 @@ class _Writer:
             one_by_one = region.solution()
             together = general(region.origin, self.signs) if len(one_by_one) > _ONE_BY_ONE else None
             if together is not None:
-                yield from self._with_signs(together)
+                yield from self._with_degree(together)
                 continue
             for solution in one_by_one:
-                yield Formula(_named_solution(solution))
-                if solution.degree.free_symbols:
-                    yield say("where ", of_sympy(solution.degree), " is a natural number.")
+                yield from self._with_degree(solution)
 
-    def _with_signs(self, solution: PolynomialSolution) -> Iterator[Block]:
-        """A formula with symbols for the signs, where its degree is a natural number."""
+    def _with_degree(self, solution: PolynomialSolution) -> Iterator[Block]:
+        """A formula, with symbols for signs maybe, where its degree, which gets a name, is a natural number."""
+        if not solution.degree.free_symbols:
+            yield Formula(_named_solution(solution))
+            return
+        letter = sympy.Symbol(free_letter([*map(str, solution.y.free_symbols), *self.answer.parameters]))
+        y = solution.y.xreplace({solution.degree: letter})
+        degree = of_sympy(solution.degree)
+        if y.has(letter):
+            degree = _name(letter.name).equals(degree)
         used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
-        yield Formula(_named_solution(solution))
-        yield say("where ", of_sympy(solution.degree), " is a natural number", *_chosen(used), ".")
+        yield Formula(_named_solution(replace(solution, y=y)))
+        yield say("where ", degree, " is a natural number", *_chosen(used), ".")
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
         """exp(int theta) P for the exponents of the region; P has the degree d."""

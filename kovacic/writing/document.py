@@ -17,8 +17,8 @@ from kovacic import shown
 from kovacic.writing.breaking import LINE, breakable, pieces, width
 from kovacic.writing.formula import Math
 
-#: Characters in a line of a LaTeX table.
-_PAGE = 66
+#: Characters in a line of a LaTeX table, and the most that count of a column's width: others beside it need some.
+_PAGE, _COLUMN = 66, 120
 
 Sentence = str | Math | Sequence[str | Math]
 
@@ -102,7 +102,7 @@ def _markdown_table(rows: list[list[str]]) -> str:
 
 def _latex_table(rows: list[list[str]]) -> str:
     """Columns as wide as they are, or with lines that are broken where they would be wider than the page together."""
-    widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
+    widths = [min(max(map(width, column)), _COLUMN) for column in zip(*rows, strict=True)]
     broken = [w if sum(widths) > _PAGE and w > _PAGE / 6 else 0 for w in widths]
     share = max(0.3, 0.9 - (sum(widths) - sum(broken)) / _PAGE) / max(1, sum(broken))  # of the line
     columns = "".join(rf"p{{{share * w:.2f}\linewidth}}" if w else "l" for w in broken)
