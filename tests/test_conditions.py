@@ -30,6 +30,7 @@ from kovacic.parametric.riemann import kimura
 from kovacic.parametric.statements import Statement, Vanishes, both
 from kovacic.views.text import render
 from tests.parametric_cases import FAMILIES, Family, hypergeometric, with_squares
+from tests.parametric_formulas import misread
 from tests.strategies import parametric_equations
 
 F = Fraction
@@ -902,3 +903,55 @@ def test_points_of_a_rational_curve() -> None:
     for n, m in ((1, 1), (0, 0), (8, 4), (-8, 4), (1, 2)):
         assert answer.case_at({"n": n, "m": m}) == answer.solve_at({"n": n, "m": m}).case
     assert answer.check(60)
+
+
+def test_each_stratum_is_examined_once() -> None:
+    """Three moving simple poles: what lies on a hypersurface before isn't said again."""
+    answer = kovacic.conditions("a/(x-p) + b/(x-q) + c/(x-r)", var="x", max_degree=0)
+    assert answer.complete is True
+    assert answer.check(30)
+    before: set[str] = set()
+    for region in answer.regions:
+        parts = region.statement.text().split(", and ")
+        assert not before & set(parts[1:])
+        before |= {parts[0]} if len(parts) == 1 else set()
+
+
+@pytest.mark.long
+def test_exponents_are_summed_where_equations_are_long() -> None:
+    """Regge and Wheeler's equation: no condition asks for a number that isn't said."""
+    regge = "(l*(1 - 1/x)*(l + 1)/x^2 - w^2 + (1 - s^2)*(1 - 1/x)/x^3)/(1 - 1/x)^2"
+    answer = kovacic.conditions(regge, var="x", max_degree=0)
+    assert "d + 1 = +-sqrt(4*s^2 - 3)/2 +- sqrt(-4*w^2 + 1)/2 +- w*I, d in N" in str(answer)
+    assert "at each point the rank of its linear system decides" in str(answer)
+    _, wrong = misread(answer, 4)
+    assert not wrong
+
+
+@pytest.mark.slow
+def test_more_sums_of_exponents_than_are_listed() -> None:
+    """Four regular points with irrational differences: 7^4 sums for an invariant of degree 12."""
+    heun = "a/x^2 + b/(x-1)^2 + c/(x-2)^2 + e/(x*(x-1)) + q/(x*(x-1)*(x-2))"
+    answer = kovacic.conditions(heun, var="x", max_degree=0)
+    assert answer.complete is True
+    assert "`" not in str(answer)
+    assert "an invariant of degree 12" in answer.regions[-1].statement.text()
+    assert Conditions.from_json(answer.to_json()) == answer
+    assert answer.check(10)
+
+
+@pytest.mark.parametrize(("V", "field"), [("a*exp(2*x) - E", "C(exp(2*x))"), ("x^n", "C(x^(n + 2))")])
+def test_cases_are_those_over_the_field_that_is_said(V: str, field: str) -> None:
+    answer = kovacic.conditions(V, var="x")
+    assert f"cases and groups over {field}" in str(answer)
+    assert json.loads(answer.to_json())["equation"]["change"]["field"] == field
+    assert f"Cases and groups are those over {field}." in answer.theorem()
+    assert Conditions.from_json(answer.to_json()) == answer
+
+
+def test_exponents_at_conjugate_points_are_sums_of_roots() -> None:
+    """Scarf's hyperbolic potential: (A + 1/2 +- I B)^2 at t = +-I."""
+    scarf = "(B^2 - A*(A+1))/cosh(x)^2 + B*(2*A+1)*sinh(x)/cosh(x)^2 - E"
+    answer = kovacic.conditions(scarf, var="x", max_degree=0)
+    assert "two of 2*sqrt(-E), (2*A + 1)/2 + B*I, (2*A + 1)/2 - B*I are half-integers" in str(answer)
+    assert answer.check(20)

@@ -208,9 +208,14 @@ def local_parts(problem: Problem) -> list[list[LocalPart]] | None:
     return None if places is None else places.parts
 
 
+def is_too_large(field: Field) -> bool:
+    """Is it that of a hypersurface of too high a degree, for which no exponents are looked for?"""
+    return field.ground != QQ and field.absolute_degree > _SURFACE
+
+
 def _places(problem: Problem) -> _Places | None:
     """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
-    if problem.field.ground != QQ and problem.field.absolute_degree > _SURFACE:
+    if is_too_large(problem.field):
         return None
     split = _with_rational_points(problem)
     if split is None:

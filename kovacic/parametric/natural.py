@@ -35,6 +35,7 @@ from kovacic.parametric.exponents import (
     form_conditions,
     has_form,
     has_solution,
+    is_too_large,
     with_degree,
     zeros_of_forms,
 )
@@ -159,6 +160,9 @@ class Natural(Statement):
         """Delta for one natural number, for each way in which the exponents give it."""
         found: list[Determinant] = []
         for exponents, surface, S in self._given(number):
+            if self.m == 1 and is_too_large(S.field):
+                found.append(Determinant(exponents))
+                continue
             problem = analyse(S, Budget())
             for conditions in self._conditions(problem, number):
                 determinant = _determinant(exponents, conditions, deficient=conditions.deficient and self.m == 1)
@@ -182,7 +186,7 @@ class Natural(Statement):
             return ()
         found: dict[PolynomialSolution, None] = {}
         for exponents, surface, S in self._given(number):
-            if surface.curve:
+            if surface.curve or is_too_large(S.field):
                 continue
             for choice in choices_of_degree(analyse(S, Budget()), number) or ():
                 solution = solution_of_degree(choice, number, variable, exponents)

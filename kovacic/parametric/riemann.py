@@ -243,11 +243,27 @@ def _two_half_integers(names: list[str]) -> str:
 
 
 def differences(cubic: FunctionPoly) -> list[str]:
-    """The exponent differences where they are square roots over Q(t), else one text that says what they are."""
-    factors = cubic.field.factor(cubic)
-    if any(factor.degree > 1 for factor, _ in factors):
-        return [f"(the square roots of the roots of {shown(cubic, 'Z')})"]
-    return [root_written(-factor[0]) for factor, k in factors for _ in range(k)]
+    """The exponent differences where they are sums of square roots over Q(t), else one text that says what they are."""
+    found: list[str] = []
+    for factor, k in cubic.field.factor(cubic):
+        roots_of_it = _square_roots_of_roots(factor)
+        if roots_of_it is None:
+            return [f"(the square roots of the roots of {shown(cubic, 'Z')})"]
+        found += roots_of_it * k
+    return found
+
+
+def _square_roots_of_roots(factor: Poly) -> list[str] | None:
+    """Those of Z - a: sqrt(a); of Z^2 + b Z + r^2: sqrt((-b + 2 r)/4) +- sqrt((-b - 2 r)/4); None for any other."""
+    if factor.degree == 1:
+        return [root_written(-factor[0])]
+    r = factor.field.sqrt(factor[0]) if factor.degree == 2 else None
+    if r is None:
+        return None
+    first, second = (root_written((-factor[1] + sign * 2 * r) / 4) for sign in (1, -1))
+    if " + " in second or " - " in second:
+        second = f"({second})"
+    return [f"{first} + {second}", f"{first} - {second}"]
 
 
 def is_fuchsian(problem: Problem) -> bool:
