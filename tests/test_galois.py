@@ -236,6 +236,13 @@ def test_a_unit_beside_a_differential_of_the_first_kind(genus: int, field: Field
             assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
 
 
+def test_a_unit_itself_beside_a_differential_of_the_first_kind() -> None:
+    """log u is d log(a + y) and 5 dx/y: no multiple has to be taken."""
+    solution = kovacic.solve(pell(1, QQ, 5, Fraction(1)))
+    assert (solution.group.name, solution.group.function.multiple) == ("N(T)", 1)
+    assert solution.verify()
+
+
 @pytest.mark.parametrize("multiple", [Fraction(401), Fraction(4001, 1000)], ids=str)
 @parametrize(
     "h", [X**3 - X + 4, X**5 - X + 4, X**6 + X**5 + X + 4], ordinary=1, ids=["genus 1", "genus 2", "genus 2, even"]

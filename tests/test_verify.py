@@ -281,7 +281,7 @@ def test_an_order_on_a_curve_of_positive_genus_needs_its_function() -> None:
     for n in (1, 2, 4, 6):
         assert not verify(S, answer.decision, replace(group.claim, n=n))
     assert not verify(S, answer.decision, replace(group.claim, family="infinite dihedral"))
-    for k in (2, 3, 4):  # a power of the function, which a smaller order explains
+    for k in (2, 3, 4, 5):  # a power of the function, which a smaller order explains
         pieces = tuple(replace(piece, exponent=k * piece.exponent) for piece in function.pieces)
         power = replace(function, multiple=3 * k, pieces=pieces)
         assert not verify(S, answer.decision, replace(group.claim, n=3 * k, function=power))
@@ -430,7 +430,9 @@ SOLVABLE = {
     "x^2 + 3": Structure.REDUCIBLE,
     "x^2 + 1": Structure.REDUCIBLE,
     "x^2 - 1 + 2/x^2": Structure.REDUCIBLE,
+    "(x+1)^2 + 3": Structure.REDUCIBLE,  # at infinity, the second term of sqrt(S) isn't zero
     "1/x^4": Structure.REDUCIBLE,
+    "1/x^2": Structure.REDUCIBLE,  # an irrational exponent difference
     "2": Structure.REDUCIBLE,
     "3/(4*x^2)": Structure.REDUCIBLE,
     "-1/(4*x^2)": Structure.REDUCIBLE,
@@ -455,6 +457,17 @@ def test_no_evidence_with_the_kernels_own_bounds_excludes_the_structure_of_the_g
     inspector = Inspector(S, Budget())
     for evidence in forged_evidence(S, SOLVABLE[text]):
         assert not inspector.excludes(SOLVABLE[text], evidence), evidence
+
+
+def test_a_prime_at_which_two_places_meet_shows_nothing() -> None:
+    """omega = 1/(3x) + 1/(5(x - 101)) + 1 is there, and modulo 101 the places x and x - 101 are one."""
+    S = transform.from_omega(Fraction(1, 3) / X + Fraction(1, 5) / (X - 101) + 1)
+    inspector = Inspector(S, Budget())
+    largest = inspector.zero_counts.largest
+    for name in ("x", "x - 101", "infinity"):
+        evidence = (NoInvariant(2), NoRationalOmega(largest, 101, name))
+        assert not inspector.excludes(Structure.REDUCIBLE, evidence)
+        assert not inspector._holds(evidence[1], Structure.REDUCIBLE)
 
 
 @pytest.mark.parametrize(
