@@ -323,3 +323,15 @@ def test_a_box_has_the_levels_of_its_waves() -> None:
     half = kovacic.spectrum("c", domain=HALF, boundary="friedrichs")
     assert half.complete
     assert half.levels == ()
+
+
+@pytest.mark.parametrize("V", ["(x^8 + a*x^3 + b)/(x^6 + c^2 + 1)", "x^30 + x^2/(x^20 + 1)", "x^2/(x^4 + x^2 + 1) + a"])
+def test_a_denominator_without_real_zeros_is_no_pole(V: str) -> None:
+    """Whether its roots are real isn't seen by their radicals."""
+    assert "isn't regular" not in kovacic.spectrum(V, max_degree=0).reason
+
+
+def test_poles_of_which_it_isnt_known_whether_they_are_real() -> None:
+    assert "isn't known" in kovacic.spectrum("1/(x^2 - c)").reason
+    with pytest.raises(kovacic.InputError, match=r"isn't regular at x = -?sqrt"):
+        kovacic.spectrum("1/(x^2 - c)", assume={"c": "positive"})

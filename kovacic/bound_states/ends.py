@@ -56,12 +56,7 @@ def potential_in_t(S: Any, equation: Equation | None, original: Original, E: Any
 def check_inside(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs) -> None:
     """Raises `InputError` where V has a pole inside the domain, and `Uncovered` where that isn't known."""
     denominator = sympy.Poly(sympy.denom(V), t)
-    roots = sympy.roots(denominator)
-    if sum(roots.values()) < denominator.degree():
-        if any(not c.is_number for c in denominator.coeffs()):
-            raise Uncovered("whether V has a pole inside the domain isn't known")
-        roots = dict.fromkeys(denominator.real_roots())
-    points = [root for root in roots if root.is_real is not False]
+    points = _real_zeros(denominator, signs)
     if original.kind == "tan" and sympy.degree(sympy.numer(V), t) > denominator.degree():
         points.append(sympy.oo)
     angles = [original.theta_at(end, signs) for end in domain] if points else []
@@ -73,6 +68,19 @@ def check_inside(V: Any, original: Original, domain: tuple[Any, Any], t: Any, si
                     f"V isn't regular at {original.x} = {caret(as_text(where))}, inside the domain",
                     hint="choose the domain between its poles",
                 )
+
+
+def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
+    """Each once.  Raises `Uncovered` where it isn't known which zeros are real."""
+    if all(c.is_Rational for c in polynomial.coeffs()):
+        return [*dict.fromkeys(polynomial.real_roots())]
+    at_a_real_point = polynomial.as_expr().xreplace({polynomial.gen: sympy.Dummy("t", real=True)})
+    if signs.sign(at_a_real_point) is not None:
+        return []
+    roots = sympy.roots(polynomial)
+    if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
+        raise Uncovered("whether V has a pole inside the domain isn't known")
+    return [root for root in roots if root.is_real]
 
 
 def _angles(kind: str, point: Any, ends: list[Any]) -> list[Any]:
