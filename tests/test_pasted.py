@@ -221,3 +221,73 @@ def test_values_behind_the_equation_are_taken(text: str, solution: str) -> None:
 def test_values_in_two_places_are_refused() -> None:
     with pytest.raises(kovacic.InputError, match="apart from it"):
         kovacic.dsolve("y''+y=0, y(0)=1", ics={"y'(0)": 1})
+
+
+@parametrize(
+    ("text", "meant"),
+    [
+        ("y'' + ky = 0", "k*y"),
+        ("y'' = xy", "x*y"),
+        ("x'' + kx = 0", "k*x"),
+        ("y'' + y = cos(kx)", "k*x"),
+        ("y'' + y = exp(-at)", "a*t"),
+        ("y' = 1 + x^2 - 2xy + y^2", "x*y"),
+        ("y'' + 4*y = sin2x", "sin(2*x)"),
+        ("y'' + 4*y = cos3t", "cos(3*t)"),
+        ("mx'' + k*x = 0", "m*x''"),
+        ("my'' + c*y = 0", "m*y''"),
+    ],
+    ordinary=10,
+)
+def test_a_product_without_its_sign_is_refused_with_what_was_meant(text: str, meant: str) -> None:
+    var = "t" if "t" in text else None
+    with pytest.raises(kovacic.InputError) as refused:
+        kovacic.dsolve(text, var=var)
+    assert meant in str(refused.value.hint)
+    glued = meant.replace("*", "").replace("sin(2x)", "sin2x").replace("cos(3t)", "cos3t")
+    kovacic.dsolve(text.replace(glued, meant), var=var)
+
+
+def test_wave_vectors_and_words_are_names() -> None:
+    for name in ("k_x", "kappa", "hbar", "omega_0", "mass", "xi"):
+        assert name in str(kovacic.dsolve(f"y'' + {name}*y = 0"))
+
+
+def test_beside_a_frequency_zeta_is_the_damping_ratio() -> None:
+    time, zeta, omega = sympy.symbols("t zeta omega")
+    for text in (
+        "x'' + 2*zeta*omega*x' + omega^2*x = 0",
+        "\\ddot{x} + 2\\zeta\\omega\\dot{x} + \\omega^2 x = 0",
+    ):
+        found = kovacic.dsolve(text).rhs
+        residual = found.diff(time, 2) + 2 * zeta * omega * found.diff(time) + omega**2 * found
+        assert sympy.simplify(residual) == 0
+    greek = kovacic.dsolve("x'' + 2ζω x' + ω²x = 0").rhs
+    assert sympy.simplify(greek.subs({"ζ": zeta, "ω": omega}) - kovacic.dsolve(text).rhs) == 0
+    assert kovacic.dsolve("y'' + zeta*y = 0").lhs.args[0].name == "zeta"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"\ddot{y} + 4y = 0, y(0)=1, \dot{y}(0)=2",
+        r"y'' + 4y = 0, \quad y(0)=1, \quad y'(0) = 2",
+        r"y^{\prime\prime} + 4 y = 0, y(0) = \frac{2}{2}, y^{\prime}(0) = 2",
+        "y'' + 4y = 0; y(0) = 1; y'(0) = 2",
+        "$y'' + 4y = 0$, $y(0) = 1$, $y'(0) = 2$",
+        r"\frac{\mathrm{d}^2y}{\mathrm{d}x^2} + 4y = 0, y(0) = 1, y'(0) = 2",
+        r"y^{(2)} + 4y = 0, y(0) = 1, y^{\prime}(0) = 2",
+    ],
+)
+def test_values_in_the_notation_of_their_equation(text: str) -> None:
+    found = kovacic.dsolve(text)
+    argument = found.lhs.args[0]
+    assert found.rhs == sympy.cos(2 * argument) + sympy.sin(2 * argument)
+
+
+@pytest.mark.parametrize(
+    "text", ["x y' = y^2 + y + x^2", r"x\frac{dy}{dx} = y^2 + y + x^2", "x*diff(y, x) = y^2 + y + x^2"]
+)
+def test_riccati_equations_in_any_notation(text: str) -> None:
+    constant = sympy.Symbol("C1")
+    assert kovacic.dsolve(text).rhs == x * sympy.tan(constant + x)

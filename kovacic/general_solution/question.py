@@ -21,6 +21,7 @@ from kovacic.general_solution.conditions import Condition, ConditionReader, as_m
 from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.reading.notation import plain
 from kovacic.reading.parser import listed
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import function_of, functions_in
@@ -115,12 +116,30 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
     if not isinstance(eq, str):
         return eq, ics
-    equation, *values = listed(eq)
+    equation, *values = listed(eq.replace("$", " ") if eq.lstrip().startswith("$") else eq.replace(";", ","))
+    values = [_plain_value(value) for value in values if value.strip()]
     if not values or not all(_VALUE.match(value) for value in values):
         return eq, ics
     if ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
     return equation, ", ".join(values)
+
+
+def _plain_value(text: str) -> str:
+    """y'(pi) = 0 for \\dot{y}(\\pi) = 0: a value may be in LaTeX, as its equation is."""
+    if "\\" not in text and "^{" not in text:
+        return text
+    text = re.sub(r"\\(?:quad|qquad|,|;|:|!)", " ", text)
+    text = re.sub(r"\\(d?)dot\s*\{?\s*(\w)\s*\}?", lambda found: found[2] + ("''" if found[1] else "'"), text)
+    text = re.sub(r"\^\s*\{?\s*\\prime\s*\}?", "'", text)
+    parts = _LATEX_VALUE.match(text)
+    if parts is None:
+        return text
+    return f"{parts['function']}({plain(parts['point']).text}) = {plain(parts['value']).text}"
+
+
+#: y'(a) = b, with LaTeX in a and b alone.
+_LATEX_VALUE = re.compile(r"\s*(?P<function>\w+'*)\s*\((?P<point>[^=]*)\)\s*=(?P<value>.*)", re.DOTALL)
 
 
 def _has_floats(given: Any) -> bool:

@@ -123,9 +123,6 @@ class EquationReader(RationalReader):
             import sympy
 
             return sympy.E if name == "e" else sympy.pi
-        if self.unknown and name in (self.variable + self.unknown, self.unknown + self.variable):
-            hint = f"did you mean {self.variable}*{self.unknown}?"
-            raise ParseError(f"{name} is one name", hint=hint)
         if name == UNKNOWN and self.unknown:  # the unknown function has another name
             return self.constants.parameter(name)
         return super().name(name)

@@ -6,6 +6,7 @@ operation.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, Protocol
 
@@ -176,7 +177,15 @@ def usage(name: str) -> str:
 
 
 def as_function(name: str) -> str | None:
-    """sin(x) for sinx and sin: what a name probably means that looks like a function without parentheses; None for others."""
+    """sin(x) for sinx, sin(2*x) for sin2x, sin(...) for sin: what a name probably means; None for other names."""
     if name in _FUNCTIONS:
-        return f"{name}(x)"
-    return f"{name[:-1]}({name[-1]})" if name[:-1] in _FUNCTIONS and name[-1] in "xtz" else None
+        return f"{name}(...), a power of it {name}(...)^2"
+    found = _GLUED.fullmatch(name)
+    if found is None or found["function"] not in _FUNCTIONS:
+        return None
+    factors = [part for part in (found["number"], found["letter"], found["plain"]) if part]
+    return f"{found['function']}({'*'.join(factors)})"
+
+
+#: sinx, sin2x, cos3omega: a function, a number and a letter.
+_GLUED = re.compile(r"(?P<function>[A-Za-z]+?)(?:(?P<number>\d+)(?P<letter>[a-z]+)|(?P<plain>[xtz]))")

@@ -22,7 +22,13 @@ _FUNCTIONS = """
 FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
 RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
 FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
-FUNCTION_NAMES |= {"abs": "Abs", "sign": "sign", "Gamma": "gamma"}  # gamma(...) may be a product
+FUNCTION_NAMES |= {
+    "heaviside": "Heaviside",
+    "dirac": "DiracDelta",
+    "abs": "Abs",
+    "sign": "sign",
+    "Gamma": "gamma",
+}  # gamma(...) may be a product
 
 #: What to do with a transcendental number.
 TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"

@@ -117,7 +117,8 @@ def _unicode(text: str) -> str:
             pieces.append(index if before.isdigit() else f"_{index}")
         else:
             pieces.append(character)
-    return "".join(pieces)
+    # A small Greek letter is a name of its own: two of them, or one and a Latin letter behind it, are factors.
+    return re.sub(r"(?<=[α-ω])(?=[A-Za-zα-ω])", " ", "".join(pieces))
 
 
 #: Letters that functions have; others with dots are letters of an alphabet.
@@ -298,6 +299,9 @@ _SPACES |= {
     "\\limits",
     "\\mathrm",
     "\\mathit",
+    "\\text",
+    "\\rm",
+    "\\operatorname",
     "~",
 }
 _COMMANDS = {
@@ -391,6 +395,8 @@ class _Latex:
         if piece == "^":
             exponent = self.group()
             primes = exponent.replace(" ", "")
+            if primes in ("(1)", "(2)"):  # y^{(2)}
+                return "'" * int(primes[1])
             return primes if primes and not primes.strip("'") else f"^( {exponent} )"
         if piece == "_":
             return f"_{self.group().replace(' ', '')}"
@@ -433,7 +439,7 @@ class _Latex:
         """A derivative, or a quotient."""
         above = self.group()
         below = self.group()
-        written = f"{above.replace(' ', '')}/{below.replace(' ', '')}".replace("(2)", "2")
+        written = f"{above.replace(' ', '')}/{below.replace(' ', '')}".replace("(2)", "2").replace("(d)", "d")
         second = re.fullmatch(rf"d\^2({_LETTER})?(?:\(\w+\))?/d({_LETTER})\^2", written)
         first = re.fullmatch(rf"d({_LETTER})?(?:\(\w+\))?/d({_LETTER})", written)
         found = second or first

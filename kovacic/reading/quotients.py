@@ -13,8 +13,9 @@ from typing import Any
 import sympy
 from sympy.core.function import AppliedUndef
 
+from kovacic.errors import InputError
 from kovacic.limits import Limits
-from kovacic.reading.lexer import PRIMES
+from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.parser import Site
 from kovacic.reading.source import Source
 from kovacic.reading.symbolic import SymbolicReader
@@ -68,7 +69,22 @@ class _TextReader(SymbolicReader):
     def equation(self, left: Any, right: Any) -> Any:
         return self.arithmetic.sum([left, self.arithmetic.negate(right)])
 
+    def follows_without_sign(self, name: str) -> bool:
+        return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
+
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
+        if head in DERIVATIVES:
+            return self._differentiated(arguments, site)
         if head.rstrip(PRIMES) != self.unknown or arguments != [self.x]:
             return super().call(head, arguments, site)
         return self.function if head == self.unknown else self.derivative(head)
+
+    def _differentiated(self, arguments: list[Any], site: Site) -> Any:
+        """diff(y, x), diff(y, x, 2): what is differentiated may be any expression."""
+        function, *rest = [
+            None if isinstance(argument, tuple) else self.arithmetic.expression(argument) for argument in arguments
+        ]
+        order = rest[1] if len(rest) == 2 else 1
+        if function is None or rest[:1] != [self.x] or len(rest) > 2 or order not in range(1, _HIGHEST + 1):
+            raise InputError(f"{self.what} can't contain {site.text()}", hint="for example diff(y, x) or diff(y, x, 2)")
+        return function.diff(self.x, order)

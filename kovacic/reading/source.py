@@ -17,11 +17,15 @@ from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader, as_function
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, check_length, is_equation, tokens_of
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
-from kovacic.reading.notation import plain
+from kovacic.reading.notation import GREEK, plain
 from kovacic.reading.parser import evaluate
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 _USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
+
+#: Beside a frequency zeta is the damping ratio: x'' + 2 zeta omega x' + omega^2 x = 0.
+_DAMPING_RATIOS = frozenset({"zeta", "ζ"})
+_FREQUENCIES = ("omega", "ω")
 
 
 class Source(NamedTuple):
@@ -55,8 +59,10 @@ def source_of(
         if x is None:
             x, taken = _variable_of(tokens, y, written.variable)
             notes += taken
+        _refuse_glued_names(tokens, x, y)
         return Source(walk, x, y, written.text, notes)
     x = _variable_of_S(tokens, variable)
+    _refuse_glued_names(tokens, x, "")
     if variable is None:
         notes += _only_name(tokens, x)
     return Source(walk, x, notes=notes)
@@ -143,12 +149,36 @@ def _variable_of_S(tokens: Tokens, variable: str | None) -> str:
     return variable
 
 
+#: Letters that unknown functions have: mx'' is a product in which the sign is missing, no function mx.
+_USUAL_UNKNOWNS = frozenset("xyzuvwq")
+#: So many letters before or behind the variable may be factors without a sign; a longer name is a word.
+_FACTORS = 2
+
+
+def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str) -> None:
+    """Raises `ParseError` where a name looks like a product without its signs: ky, kx."""
+    for name, k in tokens.names().items():
+        if name in (variable, unknown) or name in NUMBER_NAMES or as_function(name) is not None or name in GREEK:
+            continue
+        meant = _as_product(name, variable, unknown)
+        if meant is not None:
+            raise tokens.error(ParseError, f"{name} is one name", k, k + 1, hint=f"did you mean {meant}?")
+
+
+def _as_product(name: str, variable: str, unknown: str) -> str | None:
+    """k*y for ky, and x*y for xy: single letters, the unknown function or the variable at one end."""
+    if not (name.isascii() and name.isalpha() and 2 <= len(name) <= _FACTORS + 1):
+        return None
+    ends = {name[0], name[-1]}
+    return "*".join(name) if ends & ({variable, unknown} - {""}) else None
+
+
 def _unknown_of(tokens: Tokens) -> str:
     """The name that has primes, or that is differentiated; else y."""
     for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
         bare = piece.rstrip(PRIMES)
         if kind in ("PRIMED", "HEAD") and bare != piece:
-            if bare[-1] == UNKNOWN and bare[:-1] in _USUAL_VARIABLES:  # xy'' isn't x*y''
+            if len(bare) == 2 and bare[-1] in _USUAL_UNKNOWNS and bare.isalpha():  # mx'' isn't m*x''
                 k = tokens.pieces.index(piece)
                 raise tokens.error(
                     ParseError, f"{bare} is one name", k, k + 1, hint=f"write {bare[:-1]}*{piece[len(bare) - 1 :]}"
@@ -186,7 +216,8 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
         return DEFAULT_VARIABLE, ()
     if default in names or not names:
         return default, ()
-    usual = [name for name in names if name in _USUAL_VARIABLES]
+    damped = any(name.startswith(_FREQUENCIES) for name in names)
+    usual = [name for name in names if name in _USUAL_VARIABLES and not (damped and name in _DAMPING_RATIOS)]
     if len(usual) > 1:
         hint = f"write {unknown}''(x) for the derivative, or name the variable:"
         k = tokens.names()[usual[-1]]
