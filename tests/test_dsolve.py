@@ -744,6 +744,23 @@ def test_special_functions_where_nothing_is_proven() -> None:
         (sympy.log(x) / (x + 1), {sympy.log, sympy.polylog}),
         (sympy.log(x + 1) / x, {sympy.polylog}),
         (x**sympy.pi * exp(-(x**2)), {sympy.uppergamma}),
+        (sin(x) * sympy.tan(2 * x), {sympy.log}),  # the angles x, 2 x and 2 x have the common one x
+        ((1 + x**2) ** Rational(-3, 2), set()),
+        (1 / sqrt(1 + x) ** 3, set()),
+        (1 / (sqrt(x) * (1 + x)), {sympy.atan}),
+        (sqrt(x**2 - 1), {sympy.log}),
+        (x * sympy.asin(x / 2) ** 2, {sympy.asin}),
+        (sympy.log(x + sqrt(1 + x**2)), {sympy.log}),
+        (x / sympy.cosh(x) ** 2, {sympy.log}),
+        (x * exp(x) * sin(exp(x)), {sympy.Ci}),
+        (cos(x) * (2 - cos(2 * x)) ** Rational(-3, 2), set()),
+        (sin(x) * sqrt(cos(x) + 2), set()),
+        (sympy.log(1 + exp(-x)), {sympy.polylog}),
+        (x / (1 + exp(x)), {sympy.log, sympy.polylog}),
+        (exp(x) / sqrt(1 + exp(2 * x)), {sympy.asinh}),
+        (sqrt(1 + exp(-x)), {sympy.log}),
+        (sqrt(1 + x) * cos(x), {sympy.fresnels, sympy.fresnelc}),
+        (sin(x**2) * cos(x), {sympy.fresnels, sympy.fresnelc}),
         (2 * exp(sympy.I * x) / ((exp(2 * sympy.I * x) + 4 * exp(sympy.I * x) + 1) * cos(x)), {sympy.log, sympy.atan}),
     ],
     ordinary=5,
@@ -1127,3 +1144,34 @@ def test_right_hand_sides_beside_functions_of_x(equation: str, integrals: int) -
         residual = residual.subs(function, sympy.Rational(5, 11))
     for point in ("0.37", "1.1", "2.2", "-0.8", "4.1", "-2.6"):
         assert abs(sympy.N(residual.subs(variable, sympy.Float(point, 40)), 20)) < 1e-12
+
+
+def test_quadratics_with_parameters_have_formulas() -> None:
+    a, b = sympy.symbols("a b")
+    found = dsolve(sympy.Eq(D2, 1 / (x**2 + a * x + b))).rhs
+    assert not found.has(sympy.RootSum)
+    for values in ({a: 1, b: 3}, {a: 3, b: 1}):
+        residual = (found.diff(x, 2) - 1 / (x**2 + a * x + b)).subs(values).subs(x, 2)
+        assert abs(sympy.N(residual, 30)) < 1e-20
+
+
+def test_powers_with_symbols_are_combined() -> None:
+    a = sympy.Symbol("a")
+    assert dsolve(sympy.Eq(D2, x * x**a)).rhs == C1 + C2 * x + x ** (a + 3) / ((a + 2) * (a + 3))
+
+
+def test_right_hand_sides_of_textbooks_without_integrals() -> None:
+    problems = [
+        sympy.Eq(D2 + y(x), cos(2 * x) ** Rational(-3, 2)),
+        sympy.Eq(D2 - y(x), 1 / sqrt(1 - exp(2 * x))),
+        sympy.Eq(D2, 1 / sympy.cosh(x) ** 2),
+        sympy.Eq(D2 + y(x), sympy.tan(2 * x)),
+        sympy.Eq(x**2 * D2 + x * D1 - y(x), abs(x)),
+    ]
+    assert not any(dsolve(problem).rhs.has(sympy.Integral) for problem in problems)
+
+
+def test_an_integral_is_easier_to_read_than_many_complex_functions() -> None:
+    found = dsolve("y'' - y' + exp(2*x)*y = tanh(x)").rhs
+    assert found.has(sympy.Integral)
+    assert len(str(found)) < 200

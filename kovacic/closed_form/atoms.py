@@ -48,11 +48,13 @@ def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> 
 class Atoms:
     """Conversions for one variable.  Algebraic constants become radicals if they are quadratic, else a `CRootOf`.
 
-    A `CRootOf` is the first root in SymPy's order, which is real if there is a real one.
+    A `CRootOf` is the first root in SymPy's order, which is real if there is a real one.  Roots of x^2 - a, a > 0, are
+    written so that they are real around 0, unless they are to be real beyond the zeros.
     """
 
-    def __init__(self, variable: Symbol) -> None:
+    def __init__(self, variable: Symbol, *, beyond_zeros: bool = False) -> None:
         self.x = variable
+        self.beyond_zeros = beyond_zeros
         self._generators: dict[tuple[Any, ...], Expr] = {}
         self.notes: list[str] = []
 
@@ -179,18 +181,50 @@ class Atoms:
             mean = self.constant(value[0]) + slope * centre
             angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
             return angle + (mean * log(self.primitive(p)[1]) if mean else 0)
+        if p.degree == 2:
+            return self._log_sum_of_quadratic(p, value)
         a = self.root
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
 
+    def _log_sum_of_quadratic(self, p: Poly, value: Poly) -> Expr:
+        """The same for x^2 + b x + c with parameters: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
+
+        For negative 4 c - b^2 it is -k u log((2 x + b - u)/(2 x + b + u)) with u^2 = b^2 - 4 c, up to its sign.
+        """
+        c, b = (self.constant(p[i]) for i in (0, 1))
+        slope, mean = self.constant(value[1]), sympy.cancel(self.constant(value[0]) - self.constant(value[1]) * b / 2)
+        square = sympy.factor(4 * c - b**2)
+        twice = 2 * self.x + b
+        total = mean * log(self.primitive(p)[1]) if mean else Integer(0)
+        if square.could_extract_minus_sign() and not square.is_positive:
+            root = sqrt(-square)
+            return total + sympy.cancel(slope / 2) * root * log((twice - root) / (twice + root))
+        root = sqrt(square)
+        return total - slope * root * sympy.atan(twice / root)
+
     def is_real_beyond_zero(self, base: Poly) -> bool:
-        """Is it x^2 - a, a > 0, whose roots aren't real around 0?"""
-        return base.degree == 2 and not base[1] and bool(self.constant(base[0]).is_negative)
+        """Is it x^2 - a, a > 0, whose roots aren't real around 0, and is that wanted?"""
+        return not self.beyond_zeros and base.degree == 2 and not base[1] and bool(self.constant(base[0]).is_negative)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
         over = sympy.Poly(polynomial, self.root)
+        roots = _quadratic_roots(*over.all_coeffs()) if over.degree() == 2 else ()
+        if roots and not any(map(_has_symbols_under_roots, roots)):
+            return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
+
+
+def _has_symbols_under_roots(e: Expr) -> bool:
+    return any(power.free_symbols and not power.exp.is_Integer for power in e.atoms(sympy.Pow))
+
+
+def _quadratic_roots(a: Expr, b: Expr, c: Expr) -> tuple[Expr, Expr]:
+    """The roots of a t^2 + b t + c."""
+    half = sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
+    middle = -b / (2 * a)
+    return sympy.expand_mul(middle + half), sympy.expand_mul(middle - half)
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

@@ -14,6 +14,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 from math import lcm
 from typing import Any
 
@@ -97,9 +98,11 @@ def _of_term(term: Expr, x: Expr) -> Expr | None:
         fresnel,
         _beside_waves,
         _beside_tangents,
-        _powers_beside_waves,
+        _powers_by_parts,
+        _in_a_linear_argument,
         in_complex_exponentials,
         incomplete_gamma,
+        _in_roots_of_x,
     )
     for rule in rules:
         found = rule(term, x)
@@ -153,6 +156,30 @@ def _index_of_root(term: Expr, x: Expr) -> int:
     return q
 
 
+def _in_roots_of_x(term: Expr, x: Expr) -> Expr | None:
+    """A rational function of a root of x."""
+    powers = [p for p in term.atoms(sympy.Pow) if p.base == x and p.exp.is_Rational]
+    q = lcm(*(int(p.exp.q) for p in powers))
+    t = sympy.Dummy(positive=True)
+    inner = term.subs(x, t**q) * q * t ** (q - 1)
+    found = None if q == 1 else integral_of_fraction(sympy.cancel(inner), t)
+    return None if found is None else found.subs(t, sympy.root(x, q))
+
+
+def _in_a_linear_argument(term: Expr, x: Expr) -> Expr | None:
+    """In u = a x + b, where a root of that alone stands beside functions."""
+    roots = {p.base for p in term.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.base.has(x)}
+    if len(roots) != 1 or not _functions(term):
+        return None
+    (base,) = roots
+    if not base.is_Add or not base.is_polynomial(x) or sympy.degree(base, x) != 1:
+        return None
+    u = sympy.Dummy()
+    inner = term.subs(x, sympy.expand(x - (base - u) / base.diff(x))) / base.diff(x)
+    found = None if inner.has(x) else _known(inner, u)
+    return None if found is None else found.subs(u, base)
+
+
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
     """In an argument u of a function, beside whose slope the term is one of u."""
     u = sympy.Dummy()
@@ -178,15 +205,25 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     k = _common_rate(list(rates.values()))
     if k is None:
         return None
+    inner_rates = [rates[e] for argument in _arguments_of_roots_and_logarithms(term) for e in argument.atoms(exp)]
+    if inner_rates and all((rate / k).is_negative for rate in inner_rates):  # with polynomials there
+        k = -k
     u = sympy.Dummy()
     inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
     if inner.has(x):
         return None
-    inner = sympy.expand(inner.xreplace({u: x}))
+    inner = prepared(inner.xreplace({u: x}))
     found = integral_of_fraction(inner, x)
     if found is None:
         found = _by_coefficients(inner, x)
+    if found is None and not inner.has(log(x)):
+        found = _known(inner, x)
     return None if found is None else found.subs(x, exp(k * x))
+
+
+def _arguments_of_roots_and_logarithms(term: Expr) -> list[Expr]:
+    roots = [p.base for p in term.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
+    return [*roots, *(f.args[0] for f in term.atoms(log))]
 
 
 def _common_rate(rates: list[Expr]) -> Expr | None:
@@ -196,7 +233,7 @@ def _common_rate(rates: list[Expr]) -> Expr | None:
     ratios = [rate / rates[0] for rate in rates]
     if not all(ratio.is_Rational for ratio in ratios):
         return None
-    k = rates[0] * sympy.gcd_list(ratios)
+    k = rates[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
     # One u for all terms, or logarithms that cancel would stay.
     return -k if k.could_extract_minus_sign() else k
 
@@ -210,8 +247,11 @@ class _Change:
     u: Expr
 
     def integral(self, slope: Expr, x: Expr) -> Expr | None:
-        """In theta, whose derivative is `slope`; None where it isn't rational in u."""
-        found = integral_of_fraction(sympy.cancel(self.integrand.subs(self.waves) / slope), x)
+        """In theta, whose derivative is `slope`; None where it isn't known in u."""
+        inner = self.integrand.subs(self.waves) / slope
+        found = integral_of_fraction(sympy.cancel(inner), x)
+        if found is None:  # beside a root of a wave
+            found = _known(inner, x)
         if found is None:
             return None
         if self.u.func is not tan:
@@ -244,7 +284,7 @@ def _common_angle(waves: list[Expr]) -> Expr | None:
     ratios = [sympy.cancel(wave.args[0] / first) for wave in waves]
     if not all(ratio.is_Rational for ratio in ratios):
         return None
-    return first * sympy.gcd_list(ratios)
+    return first * reduce(sympy.gcd, ratios)
 
 
 def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
@@ -292,11 +332,25 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         if found is not None:
             return found
     G = antiderivative(g, x)
-    if G is None or not _functions(G) <= _SIMPLE:
+    if G is None:
         return None
-    slopes = [m * sympy.cancel(function.diff(x)) * inverse / function for function, m in powers]
+    (function, m), *others = powers
+    share = sympy.expand(G).coeff(function)
+    if not others and share != 0 and not share.has(x):  # int (k l' + H') l^m dx
+        whole = share * function ** (m + 1) / (m + 1)
+        rest = _by_parts(inverse, sympy.expand(g - share * function.diff(x)), x)
+        return None if rest is None else whole + rest
+    if not _functions(G) <= _SIMPLE:
+        return None
+    slopes = [m * _slope(function, x) * inverse / function for function, m in powers]
     rest = antiderivative(sympy.Add(*(slope * G for slope in slopes)), x)
     return None if rest is None else sympy.expand(G * inverse) - rest
+
+
+def _slope(function: Expr, x: Expr) -> Expr:
+    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
+    slope = sympy.cancel(function.diff(x))
+    return slope if slope.is_rational_function(x) else sympy.powsimp(sympy.radsimp(slope))
 
 
 def _of_one_function(function: Expr, m: Expr, g: Expr, x: Expr) -> Expr | None:
@@ -315,15 +369,22 @@ def _of_one_function(function: Expr, m: Expr, g: Expr, x: Expr) -> Expr | None:
     return None if None in rest else sympy.Add(*rest)
 
 
-def _powers_beside_waves(term: Expr, x: Expr) -> Expr | None:
-    """int P g dx = P G - int P' G dx for a polynomial P and a rational function g of waves, as in x/cos(x)^2."""
+def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
+    """int P g dx = P G - int P' G dx for a polynomial P, as in x/cos(x)^2; g has no functions that go by parts themselves."""
     factors = sympy.Mul.make_args(term)
     P = sympy.Mul(*(factor for factor in factors if factor.is_polynomial(x)))
-    G = _in_waves(term / P, x) if P.has(x) else None
-    if G is None or not _functions(G) <= {sin, cos, tan}:
+    g = term / P
+    if not P.has(x) or not g.has(x) or not _functions(g) <= _SIMPLE:
         return None
-    rest = antiderivative(P.diff(x) * G, x)
-    return None if rest is None else P * G - rest
+    G = _known(g, x)
+    if G is None:
+        return None
+    if _functions(G) <= {exp, sin, cos, tan}:
+        rest = _known(P.diff(x) * G, x)
+    else:  # what goes by parts would come back
+        found = [_of_term(part, x) for part in sympy.Add.make_args(prepared(P.diff(x) * G))]
+        rest = None if None in found else sympy.Add(*found)
+    return None if rest is None or rest.has(sympy.Integral) else P * G - rest
 
 
 def _beside_waves(term: Expr, x: Expr) -> Expr | None:

@@ -32,7 +32,15 @@ def prepared(integrand: Expr) -> Expr:
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
     check_duration(_TERM_SECONDS * _terms(integrand), "expanding an integrand")
-    return sympy.expand(integrand, power_exp=False)
+    # SymPy would multiply (x + 1)^(-3/2) out, in the denominator.
+    kept = {power: sympy.Dummy() for power in integrand.atoms(sympy.Pow) if _is_inverse_root(power)}
+    back = {letter: power for power, letter in kept.items()}
+    return sympy.expand(integrand.xreplace(kept), power_exp=False).xreplace(back)
+
+
+def _is_inverse_root(power: Expr) -> bool:
+    """Is it a sum to a power below -1 that isn't an integer?"""
+    return bool(power.base.is_Add and power.exp.is_Rational and power.exp < -1 and not power.exp.is_Integer)
 
 
 def _terms(expression: Expr) -> float:
@@ -53,15 +61,36 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     """int g dx for a product g of powers and exponentials of rational functions; None for anything else, or unknown."""
     if any(f.func is not exp for f in term.atoms(sympy.Function) if f.has(x)):
         return None
+    if _turns_at_zero(term, x):
+        turned = integral_of_product(term.subs(x, -x), x)
+        return None if turned is None else -turned.subs(x, -x)
     rate = ratfunc(_rate(term, x), x)
     if rate is None:
         return None
-    atoms, h = Atoms(x), product(rate)
+    atoms, h = Atoms(x, beyond_zeros=_is_real_far_away(term, x)), product(rate)
     scale, shown = factors(h, atoms)
     ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
     values = (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5))
     constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
     return None if found is None or constant is None else sympy.expand(constant * found)
+
+
+def _is_real_far_away(term: Expr, x: Expr) -> bool:
+    """Are its roots those of polynomials that are positive for large x, as in sqrt(x^2 - 1)?"""
+    polynomials = _radicands(term, x)
+    return bool(polynomials) and all(polynomial.LC().is_positive for polynomial in polynomials)
+
+
+def _turns_at_zero(term: Expr, x: Expr) -> bool:
+    """Are its roots those of a - x and the like, which are real for x -> -oo?"""
+    polynomials = [polynomial for polynomial in _radicands(term, x) if polynomial.degree() % 2]
+    return bool(polynomials) and all(polynomial.LC().is_negative for polynomial in polynomials)
+
+
+def _radicands(term: Expr, x: Expr) -> list[Expr]:
+    """Polynomials whose roots are factors."""
+    roots = [p.base for p in term.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.base.has(x)]
+    return [sympy.Poly(base, x) for base in roots if base.is_polynomial(x)]
 
 
 def _rate(g: Expr, x: Expr) -> Expr:

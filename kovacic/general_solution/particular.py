@@ -165,7 +165,7 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
 def _response(
     right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]
 ) -> Expr | None:
-    """A solution for a right-hand side with jumps and impulses; None where these are at a singular point.
+    """A solution for a right-hand side with jumps and impulses.  Raises `NotImplementedError` for these at a singular point.
 
     `solved` gives a solution for a right-hand side without them, with integrals from a point on.
     """
@@ -174,7 +174,7 @@ def _response(
     try:
         for step in right.steps:
             p = solved(step.g, step.a)
-            total.append(Heaviside(x - step.a) * _from_rest(p, basis, values_at(p, x, step.a), step.a))
+            total.append(Heaviside(x - step.a) * _begun(p, basis, step.a))
         for a in dict.fromkeys(impulse.a for impulse in right.impulses):
             strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
             for impulse in right.impulses:
@@ -182,7 +182,8 @@ def _response(
                     strengths[impulse.order] += impulse.strength
             total.append(_impulse_response(strengths, basis, a))
     except _SingularError:
-        return None
+        said = "undecided: an impulse at a singular point of the equation"
+        raise NotImplementedError(said) from None
     rest = solved(right.plain, start) if right.plain != 0 else sympy.Integer(0)
     return sympy.Add(rest, *total)
 
@@ -191,13 +192,28 @@ class _SingularError(Exception):
     """A jump is at a singular point of the equation."""
 
 
+def _begun(p: Expr, basis: Basis, a: Expr) -> Expr:
+    """p less the solution that has its values at a; p where a is a singular point, on whose sides solutions are apart."""
+    try:
+        _wronskian_at(basis, a)
+    except _SingularError:
+        return p
+    return _from_rest(p, basis, values_at(p, basis.x, a), a)
+
+
+def _wronskian_at(basis: Basis, a: Expr) -> Expr:
+    """Raises `_SingularError` where it is zero or infinite."""
+    wronskian = tidy(basis.wronskian.subs(basis.x, a))
+    if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
+        raise _SingularError
+    return wronskian
+
+
 def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Expr:
     """p - u for the solution u of the homogeneous equation with u(a), u'(a) = `values`: p(a) and p'(a), for a step."""
     x = basis.x
     value, rate = values
-    wronskian = tidy(basis.wronskian.subs(x, a))
-    if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
-        raise _SingularError
+    wronskian = _wronskian_at(basis, a)
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
     first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
     return sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)

@@ -9,6 +9,7 @@ from typing import Any
 
 import sympy
 from sympy import cos, exp, log, sin
+from sympy.simplify.fu import TR8
 
 from kovacic.general_solution.integrands import integral_of_product
 
@@ -51,10 +52,20 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
 def fresnel(term: Expr, x: Expr) -> Expr | None:
     """int P(x) sin(q(x)) dx, or of the cosine, for a polynomial P and a quadratic q = a t^2 + d, t = x + b/(2a).
 
+    Products of waves are sums of such terms.
+
     >>> x = sympy.Symbol("x")
     >>> print(fresnel(x**2 * cos(x**2), x))
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
+    waves = term.atoms(sin, cos)
+    if len(waves) > 1 and any(wave.args[0].is_polynomial(x) and sympy.degree(wave.args[0], x) == 2 for wave in waves):
+        found = [_fresnel(part, x) for part in sympy.Add.make_args(sympy.expand(TR8(term)))]
+        return None if None in found else sympy.Add(*found)
+    return _fresnel(term, x) if len(waves) == 1 else None
+
+
+def _fresnel(term: Expr, x: Expr) -> Expr | None:
     waves = term.atoms(sin, cos)
     if len(waves) != 1:
         return None

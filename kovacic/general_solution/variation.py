@@ -35,6 +35,9 @@ Expr = Any  # SymPy publishes no types
 _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
+#: Functions that appear with complex arguments, and how many of these are better than an integral.
+_COMPLEX = (sympy.Ei, sympy.erf, sympy.erfi, sympy.uppergamma, sympy.lowergamma)
+_MOST_COMPLEX = 4
 #: C1 with C2 and C1 C2' - C1' C2.
 _PAIRS: dict[Any, tuple[Any, Any]] = {
     sympy.airyai: (sympy.airybi, lambda *args: 1 / sympy.pi),
@@ -159,13 +162,15 @@ class Basis:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
         right = prepared(right)
         parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
-        if any(part is None or part.has(sympy.Integral) for part in parts):
+        if any(part is None or part.has(sympy.Integral) for part in parts) or not _are_readable(parts):
             return None
         return self._checked(parts, right, rates(self.equation, self.x))
 
     def _checked(self, parts: Sequence[Any], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:
         """y2 times the second integral minus y1 times the first, in the shortest form, if that is a solution."""
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
+        if any(power.exp.free_symbols - {self.x} for power in whole.atoms(sympy.Pow)):  # x x^a
+            whole = powsimp(whole)
         forms = [whole]
         if whole.has(sin, cos):
             forms.append(expand(TR8(whole)))  # products of waves as waves
@@ -189,6 +194,8 @@ class Basis:
         known: list[Any] = [None, None]
         with suppress(LimitExceeded):
             known = [antiderivative(integrand, self.x) for integrand in integrands]
+        if not _are_readable(known):
+            known = [None, None]
         if None not in known and not is_changed:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
@@ -243,7 +250,7 @@ def _gathered(form: Expr, x: Expr) -> Expr:
     found = []
     for rest, parts in groups.items():
         fraction = sympy.Add(*parts)
-        if not fraction.is_polynomial(x):
+        if not _is_polynomial_in(fraction, x):
             fraction = sympy.factor(fraction)
         found.append(rest * fraction)
     return sympy.Add(*found)
@@ -251,6 +258,18 @@ def _gathered(form: Expr, x: Expr) -> Expr:
 
 def _is_infinite(c: Expr) -> bool:
     return c.is_finite is False or c.has(sympy.nan, sympy.zoo)
+
+
+def _are_readable(integrals: Sequence[Expr | None]) -> bool:
+    """Are there few special functions of complex arguments?  Else the integrals are easier to read."""
+    found = set().union(*(e.atoms(*_COMPLEX) for e in integrals if e is not None))
+    count = sum(1 for f in found if f.has(sympy.I))
+    return count <= _MOST_COMPLEX
+
+
+def _is_polynomial_in(f: Expr, x: Expr) -> bool:
+    """With x, or without any symbol."""
+    return bool(f.is_polynomial(x) and (f.has(x) or not f.free_symbols))
 
 
 def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:
