@@ -76,8 +76,8 @@ class Atoms:
         parts = value.parts
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
 
-    def sqrt(self, value: Poly) -> Expr:
-        """A square root of a constant; squares of parameters come out of the root once and for all, sqrt(w^2) = w."""
+    def sympy.sqrt(self, value: Poly) -> Expr:
+        """A square root of a constant; squares of parameters come out of the root once and for all, sympy.sqrt(w^2) = w."""
         if isinstance(value, FunctionPoly):
             outer, inner = value.square_part()
             return outer.to_sympy(self.x) * radical(inner.to_sympy(self.x))
@@ -197,9 +197,9 @@ class Atoms:
         twice = 2 * self.x + b
         total = mean * log(self.primitive(p)[1]) if mean else Integer(0)
         if square.could_extract_minus_sign() and not square.is_positive:
-            root = sqrt(-square)
+            root = sympy.sqrt(-square)
             return total + sympy.cancel(slope / 2) * root * log((twice - root) / (twice + root))
-        root = sqrt(square)
+        root = sympy.sqrt(square)
         return total - slope * root * sympy.atan(twice / root)
 
     def is_real_beyond_zero(self, base: Poly) -> bool:
@@ -222,7 +222,7 @@ def _has_symbols_under_roots(e: Expr) -> bool:
 
 def _quadratic_roots(a: Expr, b: Expr, c: Expr) -> tuple[Expr, Expr]:
     """The roots of a t^2 + b t + c."""
-    half = sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
+    half = sympy.sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
     middle = -b / (2 * a)
     return sympy.expand_mul(middle + half), sympy.expand_mul(middle - half)
 
