@@ -76,7 +76,7 @@ class Atoms:
         parts = value.parts
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
 
-    def sympy.sqrt(self, value: Poly) -> Expr:
+    def sqrt(self, value: Poly) -> Expr:
         """A square root of a constant; squares of parameters come out of the root once and for all, sympy.sqrt(w^2) = w."""
         if isinstance(value, FunctionPoly):
             outer, inner = value.square_part()
