@@ -340,7 +340,7 @@ def test_hermite_and_legendre_polynomials(degree: int) -> None:
 def test_a_resonance_is_resolved() -> None:
     # x^2 y'' - 3 x y' + 3 y + (y' - y) has exponents 1 and 3 at infinity; demand the solution of degree 3.
     x = QQ.poly([0, 1])
-    target = QQ.poly([5, -1, 0, 1])
+    target = QQ.poly([5, -1, 7, 1])
     other = QQ.poly([2, 1])
     # The operator with the two polynomial solutions: det(y, target, other; ...).
     w2 = target * other.derivative() - other * target.derivative()
@@ -352,6 +352,20 @@ def test_a_resonance_is_resolved() -> None:
     assert polynomial_solution(w2, w1, w0, 1) == other.monic()
     assert polynomial_solution(w2, w1, w0, 2) is None
     assert x.degree == 1
+
+
+def test_a_resonance_with_a_solution_that_is_no_polynomial() -> None:
+    """x^3 + x and x + 1/x: where the coefficient of x is set to 0, something is left that a multiple of x + 1/x takes away."""
+    x = RatFunc(QQ.poly([0, 1]))
+    y1 = x**3 + x
+    y2 = x + 1 / x
+    first, second = y1.derivative(), y2.derivative()
+    w2 = y1 * second - y2 * first
+    w1 = y2 * first.derivative() - y1 * second.derivative()
+    w0 = first * second.derivative() - second * first.derivative()
+    operator = [(w * x**4).num for w in (w2, w1, w0)]
+    assert polynomial_solution(*operator, 3) == y1.num
+    assert polynomial_solution(*operator, 1) is None
 
 
 @pytest.mark.parametrize(
