@@ -306,6 +306,9 @@ OF_AN_EQUATION: dict[str, Callable[[Any, Limits], object]] = {
 
 # Of an answer:
 
+#: The answers that were prepared, as JSON.
+_WRITTEN: dict[Any, str] = {}
+
 
 def _explained(answer: Any, format: str) -> object:
     return answer.explain(format=format)
@@ -330,7 +333,7 @@ OF_AN_ANSWER: dict[str, Callable[[Any], object]] = {
     "special": lambda answer: answer.special,
     "generic_conditions": lambda answer: answer.generic_conditions,
     "to_json": lambda answer: answer.to_json(full=True),
-    "from_json": lambda answer: kovacic.Solution.from_json(answer.to_json(), limits=answer.limits),
+    "from_json": lambda answer: kovacic.Solution.from_json(_WRITTEN[answer.S], limits=answer.limits),
     "explain": partial(_explained, format="text"),
     "explain: HTML": partial(_explained, format="html"),
     "explain: LaTeX": partial(_explained, format="latex"),
@@ -454,7 +457,7 @@ def _end_after(processor_time: float) -> None:
 
 def prepare() -> None:
     """Everything that is loaded once, is loaded."""
-    small = kovacic.solve("x^2 + 3")
+    small = solved("x^2 + 3")
     for name, call in OF_AN_EQUATION.items():
         measured(partial(call, "a*x^2 + 3" if name == "conditions" else "x^2 + 3", Limits()), 9)
     for of_answer in OF_AN_ANSWER.values():
@@ -468,9 +471,12 @@ def solved(equation: Any) -> Any:
     """The answer, False if it takes too long."""
     try:
         answer = kovacic.solve(equation, var="x", limits=Limits(seconds=PREPARATION))
+        if answer.status is kovacic.Status.UNDECIDED:
+            return False
+        _WRITTEN[answer.S] = answer.to_json()
     except KovacicError:
         return False
-    return answer if answer.status is not kovacic.Status.UNDECIDED else False
+    return answer
 
 
 def conditions_of(equation: Any) -> Any:

@@ -206,6 +206,7 @@ FAULTS: dict[str, tuple[Any, str, Any]] = {
 }
 
 
+@pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_planted_fault_is_seen(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     owner, attribute, wrong = FAULTS[name]

@@ -280,6 +280,7 @@ class FunctionPoly(Poly):
         return max((int(c).bit_length() for c in values), default=0)
 
     def coefficient_strings(self) -> list[str]:
+        check_time()
         texts = (str(c).replace("^", "**") for c in self._columns())
         return [re.sub(r"t(\d+)", lambda match: self.field.names[int(match[1])], text) for text in texts]
 

@@ -32,6 +32,8 @@ _POWER_SECONDS, _GCD_SECONDS = 1.2e-9, 1.2e-11
 _LOOK_DEGREE, _PIECES, _SHORTEST_PIECE = 100, 8, 64
 #: FLINT's time for a long product per bit of its coefficients.
 _PRODUCT_SECONDS, _LONG_PRODUCT = 2e-9, 10**7
+#: The time that it takes to write down a polynomial around a rational point, over a power of the bits of all coefficients.
+_MOVE_SECONDS, _MOVE_POWER = 2e-10, 1.21
 
 
 def to_fmpq(value: Scalar) -> Any:
@@ -146,6 +148,8 @@ class RationalPoly(Poly):
         if type(point) is not RationalPoly:
             return super().__call__(point)
         constant = point.degree <= 0  # evaluation is much faster than composition with a constant
+        if not constant and self.degree > _LONG_DEGREE:
+            foresee_move(self.degree * point.degree, self.height_bits(), point.height_bits())
         return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
@@ -290,6 +294,7 @@ class RationalField(Field):
         return polynomial
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        check_time()
         numerator = polynomial.rep.numer()  # type: ignore[attr-defined]
         if numerator.degree() > _LONG_DEGREE and watched_seconds(inf) < inf:
             factors = [(fmpz_poly(list(factor)), k) for factor, k in _factored_apart(_integers(numerator))]
@@ -316,6 +321,14 @@ class RationalField(Field):
 
     def __str__(self) -> str:
         return "Q"
+
+
+def foresee_move(degree: int, bits: int, point_bits: int) -> None:
+    """Raise `LimitExceeded` where there isn't the time to write down a polynomial, whose coefficients have so many bits, around
+    a point."""
+    written = degree * (bits + degree * point_bits)
+    what = f"a polynomial of degree {degree} around a point of {point_bits} bits"
+    check_duration(_MOVE_SECONDS * float(written) ** _MOVE_POWER, what)
 
 
 def _is_power(polynomial: Any) -> bool:

@@ -16,6 +16,7 @@ from flint import acb, arb, fmpq, fmpz_poly
 
 from kovacic.algebra.embedding import root_near
 from kovacic.errors import InputError
+from kovacic.limits import check_time
 
 Value = Any  # an acb or an acb_series
 
@@ -65,6 +66,7 @@ class BallEvaluator:
         """Raises `InputError` for functions that aren't known here."""
         found = self._known.get(e)
         if found is None:
+            check_time()
             found = self._known[e] = self._evaluated(e)
         return found
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from flint import acb, arb, arb_poly, fmpq_poly
 
+from kovacic.algebra.rationals import foresee_move
 from kovacic.answer import Answer
 from kovacic.doubles.region import Region, region_of
 from kovacic.enclosure.analytic import analytic_question
@@ -28,7 +29,6 @@ from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_tw
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states
-from kovacic.enclosure.system import foresee_move
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
 from kovacic.reading.change_of_variable import function_of_x, without_change

@@ -18,13 +18,11 @@ from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import RationalPoly, to_fraction
+from kovacic.algebra.rationals import RationalPoly, foresee_move, to_fraction
 from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
-from kovacic.limits import check_duration, check_time
+from kovacic.limits import check_time
 
-# Seconds that it takes to write down a polynomial around a rational point, over a power of the bits of all coefficients.
-_MOVE_SECONDS, _MOVE_POWER = 2e-10, 1.21
 _SHARP = 40  # relative bits to which the distances of singular points are known
 _SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
 _EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
@@ -111,14 +109,6 @@ class System:
 def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
     with working_precision(prec):
         return complex_zeros(fmpz_poly(list(coefficients)))
-
-
-def foresee_move(degree: int, bits: int, point_bits: int) -> None:
-    """Raise `LimitExceeded` where there isn't the time to write down a polynomial, whose coefficients have so many bits, around
-    a point."""
-    written = degree * (bits + degree * point_bits)
-    what = f"a polynomial of degree {degree} around a point of {point_bits} bits"
-    check_duration(_MOVE_SECONDS * float(written) ** _MOVE_POWER, what)
 
 
 def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:

@@ -19,6 +19,7 @@ from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
+from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 #: Functions whose values are simplified, in constants of so many subexpressions.
@@ -201,6 +202,7 @@ def vanishing_factors(zero: Expr) -> Expr:
 
 def tidy(value: Any) -> Any:
     """A shorter form of a constant, where that is known at once."""
+    check_time()
     value = sympy.sympify(value, strict=True)
     irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
     functions = {f.func for f in value.atoms(sympy.Function)}

@@ -10,6 +10,7 @@ from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.expansion import UnknownBehaviour
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.zero import Zero, agree, when_zero
+from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]  # f(a), f'(a)
@@ -30,6 +31,7 @@ def values_at(expression: Expr, x: Expr, point: Expr) -> Pair:
 
 def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     """The value of the function (order 0) or of its slope (order 1), as for `values_at`."""
+    check_time()
     e = sympy.sympify(expression, strict=True)
     if not e.has_free(x):
         return _ZERO if order else e

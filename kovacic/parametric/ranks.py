@@ -196,7 +196,10 @@ def _common_zeros(field: FunctionField, minors: list[Any], deficient: bool) -> R
     """Common factors, and the system of what is left of the minors."""
     common = reduce(lambda a, b: a.gcd(b), minors)
     factors = tuple(irreducible_factors(element(field, common)))
-    rest = [irreducible_factors(element(field, minor // common)) for minor in minors]
+    rest = []
+    for minor in minors:
+        check_time()
+        rest.append(irreducible_factors(element(field, minor // common)))
     if [] in rest:
         return RankConditions(factors, deficient=deficient)
     products = dict.fromkeys(reduce(mul, parts) for parts in rest)

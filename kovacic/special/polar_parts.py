@@ -30,11 +30,15 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.errors import LimitExceeded
+from kovacic.limits import check_duration, check_time
 from kovacic.special.numbers import root
 from kovacic.special.pullback import standard_part
 
 #: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
 _WITH_PARAMETERS = 2
+
+# FLINT's time for the gcd of a polynomial and its derivative, over the degree and the square of the bits of coefficients.
+_GCD_SECONDS = 3e-12
 
 
 def irregular_places(problem: Problem) -> list[Place]:
@@ -157,6 +161,7 @@ def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[
 
 def with_constant(S: RatFunc, f: RatFunc, q: Poly, r: Poly) -> tuple[RatFunc, Poly] | None:
     """f + c and M with S0 = q - r/z + M/z^2: the constant c from the poles of S0(f + c) - q, which are zeros of f + c."""
+    check_time()
     if not f.derivative():
         return None
     rest = standard_part(S, f) - q
@@ -172,6 +177,8 @@ def _value_at_poles(f: RatFunc, den: Poly) -> Poly | None:
     """The one value of f at all roots of den, at infinity if there are none; None if there isn't one."""
     if den.degree == 0:
         return None if f.degree > 0 else f.num.lc if f.degree == 0 else f.num * 0
+    bits = den.height_bits()
+    check_duration(_GCD_SECONDS * den.degree * float(bits) ** 2, f"a gcd of polynomials with {bits} bits")
     radical = den // den.gcd(den.derivative())
     if radical.gcd(f.den).degree > 0:
         return None

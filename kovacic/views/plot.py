@@ -35,6 +35,7 @@ from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
 from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import Limits, limited, limits_of
+from kovacic.numerals import as_text
 from kovacic.reading.read import read_input
 from kovacic.views.sentences import equation_of
 from kovacic.writing.formula import of_sympy
@@ -50,6 +51,8 @@ _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 _FARTHEST = 10**300
 #: A formula of more characters isn't written into the legend.
 _LONGEST_LABEL = 50
+#: Characters of a formula that SymPy evaluates where the curves start; powers of long numbers take it minutes.
+_LONGEST_EVALUATED = 2000
 #: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
 _RANGE = 20
 
@@ -316,7 +319,7 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
 
     form = derived.closed_form(answer)
     expressions = tuple(derived.special(answer) if form is None else form)
-    if any(has_long_numbers(y) for y in expressions):
+    if any(has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED for y in expressions):
         return []
     if any(y.has(sympy.Integral) or y.free_symbols - {sympy.Symbol(answer.variable)} for y in expressions):
         return []

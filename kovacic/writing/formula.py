@@ -14,6 +14,7 @@ from typing import Any
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import RationalPoly
 from kovacic.equation import parameters_of
 from kovacic.numerals import as_latex, as_text
 
@@ -148,8 +149,14 @@ def _is_long(function: RatFunc) -> bool:
     return any(
         terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE
         for part in (function.num, function.den)
-        for terms in [part.degree + 1 if part.degree < LARGEST_DEGREE else sum(map(bool, part))]
+        for terms in [part.degree + 1 if part.degree < LARGEST_DEGREE else _number_of_terms(part)]
     )
+
+
+def _number_of_terms(polynomial: Poly) -> int:
+    if isinstance(polynomial, RationalPoly):
+        return sum(map(bool, polynomial.rep.numer().coeffs()))
+    return sum(map(bool, polynomial))
 
 
 def _degrees(function: RatFunc) -> str:
