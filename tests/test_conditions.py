@@ -955,3 +955,9 @@ def test_exponents_at_conjugate_points_are_sums_of_roots() -> None:
     answer = kovacic.conditions(scarf, var="x", max_degree=0)
     assert "two of 2*sqrt(-E), (2*A + 1)/2 + B*I, (2*A + 1)/2 - B*I are half-integers" in str(answer)
     assert answer.check(20)
+
+
+def test_pi_of_sympy_is_that_of_a_text() -> None:
+    """Read in x, in which the coefficient is rational."""
+    z, a = sympy.symbols("x a")
+    assert str(kovacic.conditions(sympy.pi * z**2 + a, var=z)) == str(kovacic.conditions("pi*x^2 + a", var="x"))

@@ -40,6 +40,8 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     a, b, c, rest = parts
     if a == 0:
         return None
+    if (b / a).is_rational_function(x) and (c / a).is_rational_function(x):
+        return None  # what isn't rational is a constant
     waves = [e for e in (b / a).atoms(*_WAVES) | (c / a).atoms(*_WAVES) if e.has(x)]
     found = None
     with suppress(NotRational):

@@ -80,7 +80,7 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
             raise
         return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
     except NotRational as error:
-        if not source.unknown and error.excerpt == PI:
+        if not source.unknown and (error.excerpt == PI or _constants_in(given) == {PI}):
             with suppress(InputError):  # a constant of equations
                 return read_source(source_of(f"y'' = ({given})*y", source.variable, limits), limits)
         if not exponentials:
@@ -101,6 +101,15 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
         if found is None:
             raise reason from None
         return found
+
+
+def _constants_in(given: Any) -> set[str]:
+    """The names of numbers like pi in a SymPy expression."""
+    if not hasattr(given, "atoms"):
+        return set()
+    from sympy import NumberSymbol
+
+    return {str(number) for number in given.atoms(NumberSymbol)}
 
 
 def _multiplied_out(given: Any, source: Source, limits: Limits) -> Any:
