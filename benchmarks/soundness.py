@@ -1,7 +1,8 @@
 """Is the exact value in the ball?  Generated natural calls of `evaluate`, against integrators that share nothing with it.
 
 Regenerate:  python benchmarks/soundness.py 5000 --seed 1     (an hour; nice 19)
-prints, and writes results/soundness.{json,md}.
+prints, and writes results/soundness.{json,md}.  With --rows FILE each call's row is added to that file, and a run that was
+ended goes on after its last one.
 
 Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a
 tolerance of 1e-12, has to agree to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits
@@ -11,12 +12,14 @@ One call in twenty is compared with `odefun` in any case.
 
 from __future__ import annotations
 
+import json
 import random
 import time
 import warnings
 from collections import Counter
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import flint
@@ -220,16 +223,24 @@ def main() -> None:
     arguments = frame.parser(__doc__)
     arguments.add_argument("count", type=int)
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("--rows", type=Path, help="a file that keeps the rows, from which a run goes on")
     given = arguments.parse_args()
     warnings.simplefilter("ignore")
-    rows, begin = [], time.process_time()
-    for seed in range(given.seed * 1_000_000, given.seed * 1_000_000 + given.count):
+    rows: list[dict[str, Any]] = []
+    if given.rows and given.rows.exists():
+        rows = [json.loads(line) for line in given.rows.read_text(encoding="utf-8").splitlines()]
+    first = given.seed * 1_000_000
+    begin = time.process_time()
+    for seed in range(first + len(rows), first + given.count):
         rows.append(check(seed))
+        if given.rows:
+            with given.rows.open("a", encoding="utf-8") as kept:
+                kept.write(json.dumps(rows[-1]) + "\n")
         if rows[-1].get("wrong"):
             print("WRONG", rows[-1], flush=True)
         if len(rows) % 100 == 0:
             print(len(rows), f"{time.process_time() - begin:.0f} s", flush=True)
-            report(rows, given.seed)
+    report(rows, given.seed)
 
 
 def report(rows: list[dict[str, Any]], seed: int) -> None:

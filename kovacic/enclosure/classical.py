@@ -35,9 +35,10 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, bounded_work
+from kovacic.special.prices import Cost
 from kovacic.special.pullback import Pullback
 from kovacic.special.search import find
-from kovacic.special.values import Cost, StandardForm, is_integer
+from kovacic.special.values import StandardForm, is_integer
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
@@ -81,8 +82,12 @@ class Classical:
 
     @cached_property
     def cost(self) -> Cost:
-        """What a target costs."""
+        """What the functions cost."""
         return self.pullback.equation.cost
+
+    def price(self, digits: int) -> float:
+        """That of a target."""
+        return self.cost.target(digits)
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""

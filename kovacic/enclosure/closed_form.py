@@ -36,8 +36,9 @@ from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import check_segment
 from kovacic.engine.decide import decide_reducible
 from kovacic.errors import InputError, VerificationFailed
-from kovacic.limits import Budget, Limits, check_time
+from kovacic.limits import Budget, Limits, bounded_work, check_time
 from kovacic.numerals import in_a_message
+from kovacic.special import prices
 from kovacic.verify import verify
 
 _CHEAP = 400  # degree of P up to which the values of two exponentials cost less than the Taylor steps
@@ -153,10 +154,10 @@ class CaseOneForm:
         poles = sum(factor.degree * e * e for factor, e in self._square or () if e > 0)
         return self.is_elementary and self.first.P.degree**2 + poles / 4 <= 4_000 + 70 * digits
 
-    def ratio(self, digits: int) -> float:
-        """What a target costs, in targets of a Taylor disc, whose polynomials grow with the digits (measured)."""
-        rate = 2.0 if len(self.branches) == 2 else 5.0
-        return (rate + self.first.P.degree / 40) / (1 + digits / 100)
+    def price(self, digits: int) -> float:
+        """That of a target."""
+        one = prices.EXPONENTIALS if len(self.branches) == 2 else prices.INTEGRAL
+        return one(digits) + self.first.P.degree * prices.COEFFICIENT(digits)
 
     @cached_property
     def companion(self) -> Exponential | None:
@@ -207,14 +208,16 @@ def _integrand(closed: CaseOneForm) -> LogDerivative:
 @lru_cache(maxsize=64)
 def decided(problem: NumericProblem, degree: int) -> NumericProblem | None:
     """The problem with the decision of its answer; for an equation that wasn't solved with that of case 1, if this is the case
-    and is seen with a polynomial of at most this degree.  None without a Liouvillian solution."""
+    and is seen with a polynomial of at most this degree, in as much work as it stands for.  None without a Liouvillian
+    solution."""
     decision = problem.decision
     if decision is not None:
         return problem if decision.semi_invariant is not None else None
     if problem.S is None:
         return None
     budget = Budget(Limits(unknown_degree=degree))
-    decision = decide_reducible(problem.S, budget)
+    with bounded_work(int(degree / prices.DEGREES / prices.UNIT)):
+        decision = decide_reducible(problem.S, budget)
     check_time()  # what the clock stopped isn't kept
     if decision is None:
         return None

@@ -12,6 +12,7 @@ from a regular singular point begins with its Frobenius series.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
@@ -27,6 +28,7 @@ from kovacic.enclosure.frobenius import basis, junction, limit
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, real_part
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, to_double
+from kovacic.enclosure.precision import Method
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
@@ -38,6 +40,23 @@ from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 
 _KEPT = 4  # precisions at which the beginning of a journey is kept for the next targets
+
+
+@dataclass
+class Choice:
+    """A closed form that was chosen for a journey, and for how many targets at `most` it is known to be the cheaper way.
+
+    It has `served` so many, the last ones with so many `bits`.
+    """
+
+    closed: Closed
+    most: float = math.inf
+    served: int = 0
+    bits: int = 0
+
+    def pays(self, count: int) -> bool:
+        """Does it for so many targets more?"""
+        return self.served + count <= self.most
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +107,11 @@ class Journey:
     def classical(self, work: int | None) -> Classical | None:
         """The equation that S is pulled back from, if it is found in so much work."""
         return None if self.problem.S is None else classical_of(self.problem.S, work)
+
+    @cached_property
+    def choices(self) -> dict[tuple[Method | None, int], Choice]:
+        """What was chosen, by the method that was asked for and the digits."""
+        return {}
 
     @cached_property
     def _begun(self) -> dict[tuple[Closed | None, int], tuple[Traveller, State]]:
@@ -180,7 +204,8 @@ class Traveller:
         """The user's (z, z') at the ends of straight lines from here."""
         if self.closed is not None:
             return [self.by_closed_form(self.closed, stop, start) for stop in stops]
-        alone = self.forcing is not None or is_split(self.problem.system, self.prec // max(1, len(stops)))
+        split = is_split(self.problem.system, self.prec // max(1, len(stops))) and not all(map(self.knows, stops))
+        alone = self.forcing is not None or split
         if alone or isinstance(self.here, Singular):
             return self._by_rays(stops, start, alone=alone)
         if self.here.is_real() and all(stop.is_real() for stop in stops):

@@ -94,12 +94,12 @@ class Travel(Protocol):
 
 
 def raise_precision(
-    journey: Travel, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits
+    journey: Travel, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits, *, begin: int = 0
 ) -> tuple[PointValue, ...]:
-    """Make the journey at rising precision until every relative radius is small enough."""
+    """Make the journey at rising precision until every relative radius is small enough; not below `begin` bits."""
     exact = journey.is_exact(targets)
-    prec = start_bits(digits)
     ceiling = _Ceiling.of(digits, limits, capped=closed is not None)
+    prec = max(start_bits(digits), min(begin, ceiling.bits // 2))
     previous: _Run | None = None  # the last one with finite balls
     number = 0
     while True:

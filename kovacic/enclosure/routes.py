@@ -1,22 +1,22 @@
-"""Which way a value is computed: what the Taylor steps, the closed form of case 1 and FLINT's functions cost, by counted work.
+"""Which way a value is computed: what Taylor's method, the closed form of case 1 and FLINT's functions cost, by foreseen work.
 
-The unit is what Taylor's method takes for one more target in a disc, some 0.04 ms at 15 digits.  A disc takes _DISC of them.
-How many discs there will be is foreseen by a walk in small balls that looks at the distances of singular points and at
-|S|^(1/2), and ends as soon as the answer is known.  A closed form takes its `ratio` for each target, and next to nothing before
-the first; an equation given as text has to be decided for it.  The numbers were measured; no clock decides.
+The prices stand in `kovacic.special.prices`.  How many discs Taylor's method needs is foreseen by a walk in small balls that
+looks at the distances of singular points and at |S|^(1/2), and ends as soon as the answer is known.  A search for a closed form
+is given up where Taylor's method would be through; an equation given as text has to be decided for case 1.  No clock decides.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from flint import acb, arb
+from flint import acb, acb_poly, arb
 
-from kovacic.enclosure.classical import Classical, Closed
+from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.journey import Journey
+from kovacic.enclosure.journey import Choice, Journey
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.precision import Method, start_bits
 from kovacic.enclosure.problem import NumericProblem
@@ -25,43 +25,58 @@ from kovacic.enclosure.start import middle
 from kovacic.enclosure.transport import growth_of_disc
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS
+from kovacic.special import prices
 
 NO_CLOSED_FORM = (
     "the method 'closed form' is for solutions of case 1 without a quadrature, and pull-backs of Airy's, Bessel's, Whittaker's "
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_DISC = 15.0  # a Taylor disc, in targets
-_DECISION = 4  # discs, as much as a decision costs
+_WORTH = 1.0  # milliseconds that Taylor's method takes where a closed form is sought
 _DEGREE = 40  # of S, up to which an equation given as text is decided
-_UNKNOWN = 400  # degree of a polynomial that is sought for that
+_UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
 _LOG_2 = 0.69
-_LEAST = 1.2  # the ratio of the cheapest of FLINT's functions
-_SEARCH, _MOST_SEARCH = (
-    40,
-    20,
-)  # units of the search for a pull-back that a disc is worth, and up to how many discs count
+_MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
+_SEARCH = 0.6  # what it may take of them: before it the equation was decided
 _BITS = 64
 
 
-def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> Closed | None:
+def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> Choice | None:
     """The closed form, where it is asked for or the cheaper way; None for Taylor's method.
 
+    What was chosen for the journey before is taken again, as long as it pays for all targets together.
     Raises InputError where it is asked for and there is none.
     """
     if method == "taylor":
         return None
+    count, known = len(targets), journey.choices.get((method, digits))
+    if known is None:
+        known = _chosen(journey, targets, method, digits)
+    elif not known.pays(count):
+        known.most = Foreseen(journey, targets, digits, known.served).most(known.closed.price(digits))
+    if known is None or not known.pays(count):
+        journey.choices.pop((method, digits), None)
+        return None
+    known.served += count
+    journey.choices[method, digits] = known
+    return known
+
+
+def _chosen(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> Choice | None:
+    """The choice for the first targets of a journey."""
     if method is not None:
-        return _asked_for(journey)
+        return Choice(_asked_for(journey))
     problem = journey.problem
     if problem.right is not None or problem.S is None:
         return None
     foreseen = Foreseen(journey, targets, digits)
     if not isinstance(journey.start.place, Singular):
         closed = _case_1(problem, foreseen)
-        if closed is not None and closed.is_cheap(digits) and foreseen.pays(closed.ratio(digits)):
-            return closed
+        if closed is not None and closed.is_cheap(digits):
+            choice = foreseen.choice(closed)
+            if choice.pays(len(targets)):
+                return choice
     return _functions(journey, foreseen)
 
 
@@ -82,53 +97,71 @@ def _asked_for(journey: Journey) -> Closed:
 
 
 def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
-    """The closed form of case 1; an equation that wasn't solved is decided only where the Taylor steps would take as long."""
+    """The closed form of case 1; an equation that wasn't solved is decided only as far as Taylor's method takes that long."""
+    degree = _UNKNOWN
     if problem.decision is None:
         assert problem.S is not None
         large = problem.S.num.degree + problem.S.den.degree > _DEGREE
-        if large or not foreseen.discs_reach(_DECISION):
+        if large or not foreseen.reaches(_WORTH):
             return None
-    known = decided(problem, _UNKNOWN)
+        degree = int(prices.DEGREES * foreseen.price(_UNKNOWN / prices.DEGREES))
+    known = decided(problem, degree)
     return None if known is None else closed_form_of(known)
 
 
-def _functions(journey: Journey, foreseen: Foreseen) -> Classical | None:
-    """FLINT's functions, sought for no longer than the Taylor steps would take; beside the real axis they always pay."""
+def _functions(journey: Journey, foreseen: Foreseen) -> Choice | None:
+    """FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on they always pay."""
     from_zero = isinstance(journey.start.place, Singular)
-    beside = not all(isinstance(target, ExactPoint) and target.is_real() for target in foreseen.targets)
-    if not (from_zero or beside or foreseen.pays(_LEAST)):
+    if not (from_zero or foreseen.reaches(_WORTH)):
         return None
-    classical = journey.classical(foreseen.work())
+    classical = journey.classical(int(_SEARCH * foreseen.price(_MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
-    return classical if from_zero or beside or foreseen.pays(classical.cost.ratio(foreseen.digits)) else None
+    return Choice(classical) if from_zero else foreseen.choice(classical)
 
 
 class Foreseen:
-    """How many Taylor discs lead to the targets, at least; counted no further than somebody asks."""
+    """What Taylor's method takes to the targets, about, in milliseconds; its discs are counted no further than somebody asks.
 
-    def __init__(self, journey: Journey, targets: Sequence[Number], digits: int) -> None:
-        self.targets = targets
+    So many targets were `served` before by a closed form, for which the discs aren't there.
+    """
+
+    def __init__(self, journey: Journey, targets: Sequence[Number], digits: int, served: int = 0) -> None:
         self.digits = digits
+        self._count = served + len(targets)
         self._discs = _discs(journey, targets, start_bits(digits))
-        self._counted = 0
+        self._price = self._count * prices.TARGET(digits)
 
-    def discs_reach(self, most: float) -> bool:
-        """Are there so many discs?"""
-        while self._counted < most:
+    def price(self, most: float) -> float:
+        """What it takes, or `most`."""
+        self.reaches(most)
+        return min(most, self._price)
+
+    def reaches(self, price: float) -> bool:
+        """Does it take so long?"""
+        each = prices.DISC(self.digits)
+        while self._price < price:
             if next(self._discs, None) is None:
                 return False
-            self._counted += 1
+            self._price += each
         return True
 
-    def pays(self, ratio: float) -> bool:
-        """Does a closed form that costs `ratio` for each target cost less than Taylor's method, but for a disc?"""
-        return self.discs_reach(len(self.targets) * (ratio - 1) / _DISC - 1)
+    def choice(self, closed: Closed) -> Choice:
+        """A closed form; for how many targets it pays is known as far as it is asked."""
+        price = closed.price(self.digits)
+        self.reaches(prices.FIRST + self._count * price)
+        return Choice(closed, self._limit(price))
 
-    def work(self) -> int:
-        """What a search may take: as much as the discs, up to what is enough for most."""
-        self.discs_reach(_MOST_SEARCH)
-        return _SEARCH * (1 + self._counted)
+    def most(self, price: float) -> float:
+        """For how many targets it pays, known for twice as many as there are: so that this is seldom asked."""
+        self.reaches(prices.FIRST + self._count * (2 * price - prices.TARGET(self.digits)))
+        return self._limit(price)
+
+    def _limit(self, price: float) -> float:
+        """Where so many targets cost as much as the discs and their targets."""
+        each = prices.TARGET(self.digits)
+        discs = self._price - self._count * each
+        return math.inf if price <= each else (discs - prices.FIRST) / (price - each)
 
 
 def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[arb]:
@@ -147,14 +180,21 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
         while gone < length:
             with working_precision(_BITS):
                 x = start + direction * gone
-                rate = abs(num(x) / den(x)).sqrt()
                 radii = [abs(x - pole).mid() * _SHARE for pole in poles]
-                radii += [(growth / rate).mid()] if rate > 0 else []
-                step = min(radii, default=length)
+                rate = _rate(num, den, x)
+                radii += [growth / rate] if rate > 0 else []
+                step = min([*radii, (length - gone).mid()])
+                while step > 0 and _rate(num, den, x + direction * 2 * step) * step > growth:
+                    step /= 2
                 gone = (gone + 2 * step).mid()
             if not step > 0:
                 return
             yield step
+
+
+def _rate(num: acb_poly, den: acb_poly, x: acb) -> arb:
+    """|S|^(1/2), about."""
+    return arb(abs(num(x) / den(x)).sqrt().mid())
 
 
 def _ways(here: ExactPoint, targets: Sequence[Number], chain: bool) -> Iterator[tuple[ExactPoint, ExactPoint]]:

@@ -12,7 +12,7 @@ from flint import arb
 
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
-from kovacic.enclosure.journey import Journey
+from kovacic.enclosure.journey import Choice, Journey
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
 from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -45,17 +45,24 @@ class Question:
             if self.method is None and self.journey.knows(targets, start_bits(self.digits)):
                 _LOG.info("route: Taylor's method, on discs that are known")
                 return raise_precision(self.journey, targets, None, self.digits, self.limits)
-            closed = route_of(self.journey, targets, self.method, self.digits)
-            _LOG.info("route: %s", "Taylor's method" if closed is None else closed)
-            if closed is not None:
+            choice = route_of(self.journey, targets, self.method, self.digits)
+            _LOG.info("route: %s", "Taylor's method" if choice is None else choice.closed)
+            if choice is not None:
                 try:
-                    return raise_precision(self.journey, targets, closed, self.digits, self.limits)
+                    return self._by_closed_form(choice, targets)
                 except NotServed:
                     if self.method is not None:
                         said = "the closed form doesn't prove its values on this path"
                         raise InputError(said, hint=TAYLOR) from None
                     _LOG.info("it doesn't prove its values on this path: Taylor's method")
             return raise_precision(self.journey, targets, None, self.digits, self.limits)
+
+    def _by_closed_form(self, choice: Choice, targets: Sequence[Number]) -> tuple[PointValue, ...]:
+        """The precision that was enough for the last targets is tried first: polynomials cancel again as much as they did."""
+        found = raise_precision(self.journey, targets, choice.closed, self.digits, self.limits, begin=choice.bits)
+        if found and all(value.reached for value in found):
+            choice.bits = found[0].route.bits
+        return found
 
 
 def question_of(

@@ -28,6 +28,7 @@ from kovacic.engine.local import chart, exponential_parts, omega_parts, rational
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
 from kovacic.errors import LimitExceeded
+from kovacic.limits import count_work
 
 #: Up to this degree P1 is lifted with R; above, its recurrence is faster.
 _LIFTED_DEGREE = 200
@@ -187,6 +188,7 @@ def _omegas_of_low_degree(problem: Problem) -> list[Form]:
         lifter = Lifter(problem.field)
         for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
             problem.budget.check()
+            count_work(_PRIME)
             try:
                 parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign=sign) for h in bundle]
             except BadPrimeError:
@@ -215,6 +217,8 @@ def _lifted(
 _FIRST_DEGREES = [8, 32]
 #: How many primes the lift of an omega may take that is looked for without a proof at hand.
 _PRIMES_FOR_A_SIMPLE_OMEGA = 400
+#: What one of them costs, in units of work, about.
+_PRIME = 25
 
 
 def _ladder(bound: int) -> list[int]:

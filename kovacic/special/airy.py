@@ -16,6 +16,7 @@ from flint import acb, arb, fmpq, fmpq_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
+from kovacic.special import prices
 from kovacic.special.polar_parts import (
     check_conjugates,
     integral_of_cubic_root,
@@ -24,7 +25,7 @@ from kovacic.special.polar_parts import (
     scales,
 )
 from kovacic.special.pullback import Pullback, StandardEquation, standard_part, variable
-from kovacic.special.values import Cost, StandardForm, State, rational
+from kovacic.special.values import StandardForm, State, rational
 
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
@@ -73,8 +74,8 @@ class Airy(StandardEquation):
         return []
 
     @property
-    def cost(self) -> Cost:
-        return Cost(most=20_000, target=3.0, grows_slowly=True)
+    def cost(self) -> prices.Cost:
+        return prices.AIRY
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
         q = rational(self.q)

@@ -25,12 +25,12 @@ from flint import acb, fmpq, fmpq_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.limits import count_work
+from kovacic.special import prices
 from kovacic.special.numbers import HALF, Number, multiplicities
 from kovacic.special.polar_parts import irregular_places, leading_square, square, with_constant
-from kovacic.special.pullback import Pullback, StandardEquation, variable
+from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
 from kovacic.special.values import (
-    LIMIT,
-    Cost,
     StandardForm,
     StandardSolution,
     State,
@@ -82,7 +82,7 @@ class Bessel(StandardEquation):
         return [4 * rational(self.M) + 1]
 
     @property
-    def cost(self) -> Cost:
+    def cost(self) -> prices.Cost:
         return cost(square_root(self.parameters[0]))
 
     def coordinate(self, n: Any, d: Any) -> int:
@@ -110,6 +110,7 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
     n = sum((place.order - 2) * place.degree for place in irregular)
     regular = [place for place in problem.places if place.kind is Kind.REGULAR and place.delta_squared is not None]
     for zeros in _zeros(regular, n):
+        count_work(TRIAL)
         numerator = one
         for place, k in zeros:
             if not place.at_infinity:
@@ -146,6 +147,7 @@ def _zeros(regular: list[Place], n: int) -> Iterator[list[tuple[Place, int]]]:
             nu_squared = first.delta_squared * Fraction(1, m * m)
             if nu_squared in tried:
                 continue
+            count_work(TRIAL)
             tried.add(nu_squared)
             found = [(place, k) for place in regular if (k := _multiplicity(place, nu_squared))]
             for zeros in (found, [(place, k) for place, k in found if not place.is_apparent]):
@@ -213,13 +215,13 @@ def _cylindrical(writer: Writer, nu: Number, t: RatFunc, z: Expr, *, modified: b
 # ------------------------------------------------------------------------------------------ values
 
 
-def cost(order: Any) -> Cost:
+def cost(order: Any) -> prices.Cost:
     """Of the functions of this order."""
     if is_integer(order):
-        return Cost(most=20_000, target=LIMIT)
+        return prices.BESSEL_INTEGER
     if isinstance(order, fmpq):
-        return Cost(most=20_000, target=3.0, grows_slowly=True)
-    return Cost(most=2_000, target=5.0)
+        return prices.BESSEL
+    return prices.BESSEL_IRRATIONAL
 
 
 def sign_of(n: Any, d: Any) -> int:

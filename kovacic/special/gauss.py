@@ -38,12 +38,10 @@ from flint import acb, fmpq, fmpq_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
-from kovacic.special import fibres
+from kovacic.special import fibres, prices
 from kovacic.special.numbers import HALF, Number
 from kovacic.special.pullback import Pullback, StandardEquation, variable
 from kovacic.special.values import (
-    LIMIT,
-    Cost,
     StandardForm,
     StandardSolution,
     State,
@@ -110,12 +108,12 @@ class Gauss(StandardEquation):
         return [rational(v) for v in (self.A, self.B, self.C)]
 
     @property
-    def cost(self) -> Cost:
+    def cost(self) -> prices.Cost:
         is_dihedral = self.parameters.count(fmpq(1, 4)) > 1
         takes_limits = any(is_integer(square_root(v)) for v in self.parameters)
-        if is_dihedral:
-            return Cost(most=10**9, target=LIMIT if takes_limits else 2.0, grows_slowly=not takes_limits)
-        return Cost(most=300, target=LIMIT if takes_limits else 7.0)
+        if takes_limits:
+            return prices.GAUSS_INTEGER
+        return prices.GAUSS_DIHEDRAL if is_dihedral else prices.GAUSS
 
     def coordinate(self, n: Any, d: Any) -> int:
         """The smallest of z, 1 - z, 1/z, ...: there z is between 0 and 1/2 where f is real."""

@@ -60,27 +60,6 @@ def each(*solutions: StandardSolution) -> StandardSolutions:
     ]
 
 
-@dataclass(frozen=True)
-class Cost:
-    """Of a function's values, as measured.
-
-    `most` are the digits up to which they cost less than Taylor steps; `target` is what a target costs at 15 digits, in
-    Taylor's polynomials of a disc, and it `grows_slowly` with the digits, or as those do.
-    """
-
-    most: int
-    target: float
-    grows_slowly: bool = False
-
-    def ratio(self, digits: int) -> float:
-        """What a target costs, in targets of a Taylor disc."""
-        return self.target / (1 + digits / 100) if self.grows_slowly else self.target
-
-
-#: What a target costs where exponents differ by an integer: FLINT takes limits.
-LIMIT = 25.0
-
-
 def rational(constant: Any) -> Any:
     """A constant of Q as FLINT's rational."""
     assert isinstance(constant, RationalPoly)

@@ -33,7 +33,8 @@ from flint import acb, fmpq, fmpq_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
-from kovacic.special import bessel
+from kovacic.limits import count_work
+from kovacic.special import bessel, prices
 from kovacic.special.numbers import HALF, Number, multiplicities
 from kovacic.special.polar_parts import (
     PolarPart,
@@ -44,10 +45,8 @@ from kovacic.special.polar_parts import (
     unit,
     with_constant,
 )
-from kovacic.special.pullback import Pullback, StandardEquation, variable
+from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
 from kovacic.special.values import (
-    LIMIT,
-    Cost,
     StandardForm,
     StandardSolution,
     State,
@@ -98,6 +97,7 @@ class Whittaker(StandardEquation):
                 continue
             r = parts[0].residue * q * Fraction(2, parts[0].order)
             for signs in _signs(parts):
+                count_work(TRIAL)
                 f = sum((part.part * sign for part, sign in zip(parts, signs, strict=True)), RatFunc(q * 0))
                 found = with_constant(problem.S, f, q, r)
                 if found is not None:
@@ -126,11 +126,11 @@ class Whittaker(StandardEquation):
         return [4 * M + 1, r * r / q]
 
     @property
-    def cost(self) -> Cost:
+    def cost(self) -> prices.Cost:
         doubled = square_root(self.parameters[0])  # 2 mu
         if not self.r:
             return bessel.cost(doubled / 2)
-        return Cost(most=2_000, target=LIMIT if is_integer(doubled) else 5.0)
+        return prices.WHITTAKER_INTEGER if is_integer(doubled) else prices.WHITTAKER
 
     def coordinate(self, n: Any, d: Any) -> int:
         return bessel.sign_of(n, d)

@@ -1,0 +1,63 @@
+"""What values cost on each way, in milliseconds of processor time: by which the cheapest is chosen before it is computed.
+
+The numbers were fitted to `benchmarks/routes.py --prices`, which measures them once more; only their ratios matter.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Price:
+    """Of so many digits: the price of a few, which is twice as high at `doubled` digits, and grows like their `power`.
+
+    >>> Price(0.1, 50)(50)
+    0.2
+    """
+
+    least: float
+    doubled: float
+    power: float = 1.5
+
+    def __call__(self, digits: float) -> float:
+        return self.least * (1.0 + math.pow(digits / self.doubled, self.power))
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of FLINT's functions: the price of a target, and the most digits for which this holds, and they aren't far slower."""
+
+    target: Price
+    most: int
+
+
+DISC = Price(0.35, 45, 1.0)
+"""A disc of Taylor's method, as `kovacic.enclosure.routes` foresees them: two or three stand for one."""
+TARGET = Price(0.055, 75)
+"""A target in a disc that is there."""
+FIRST = 0.3
+"""The start of a closed form, beside its targets."""
+UNIT = 0.015
+"""A unit of the work that the search for a pull-back counts."""
+
+AIRY = Cost(Price(0.05, 200), 20_000)
+BESSEL = Cost(Price(0.1, 85), 20_000)
+BESSEL_IRRATIONAL = Cost(Price(0.15, 80), 2_000)
+BESSEL_INTEGER = Cost(Price(0.26, 105), 20_000)
+"""FLINT takes limits, as for all exponents that differ by an integer."""
+WHITTAKER = Cost(Price(0.15, 63), 2_000)
+WHITTAKER_INTEGER = Cost(Price(0.54, 63), 2_000)
+GAUSS = Cost(Price(0.2, 33), 300)
+GAUSS_INTEGER = Cost(Price(0.3, 33), 300)
+GAUSS_DIHEDRAL = Cost(Price(0.1, 85), 1_000_000_000)
+
+EXPONENTIALS = Price(0.065, 500)
+"""Two exponentials, with polynomials of degree 0."""
+INTEGRAL = Price(0.13, 200)
+"""y1 and its integral."""
+COEFFICIENT = Price(0.003, 200)
+"""What each degree of the polynomial adds."""
+DEGREES = 10.0
+"""Up to so many degrees for each millisecond that Taylor's method takes, a polynomial is sought to decide an equation."""
