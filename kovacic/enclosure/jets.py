@@ -33,12 +33,12 @@ from typing import Any
 import sympy
 from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 
-from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.constants import to_ball
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State, fundamental
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.problem import Coefficients
+from kovacic.enclosure.removable import CoefficientEvaluator, without_removable
 from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
@@ -85,12 +85,13 @@ class CoefficientField:
 
     def __init__(self, coefficients: Coefficients) -> None:
         self.coefficients = coefficients
+        self._parts = [without_removable(part, coefficients.variable) for part in coefficients.parts]
         self.is_real = are_real(coefficients)
 
     def values(self, x: Any, *, analytic: bool = False) -> list[Any]:
         """b, c and f at a ball or a series; not finite where one of them isn't analytic, with `analytic`."""
-        evaluated = BallEvaluator(self.coefficients.at(x), analytic=analytic)
-        return [evaluated(part) for part in self.coefficients.parts]
+        evaluated = CoefficientEvaluator(self.coefficients.at(x), analytic=analytic)
+        return [evaluated(part) for part in self._parts]
 
     def is_regular(self, x: acb) -> bool:
         """Are the coefficients known to be analytic on the ball?"""

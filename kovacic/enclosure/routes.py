@@ -130,7 +130,7 @@ class Foreseen:
         self.digits = digits
         self._count = served + len(targets)
         self._discs = _discs(journey, targets, start_bits(digits))
-        self._price = self._count * prices.TARGET(digits)
+        self._price = prices.BEGIN + self._count * prices.TARGET(digits)
 
     def price(self, most: float) -> float:
         """What it takes, or `most`."""

@@ -33,8 +33,10 @@ class Cost:
     most: int
 
 
+BEGIN = 0.8
+"""The start of Taylor's method."""
 DISC = Price(0.35, 45, 1.0)
-"""A disc of Taylor's method, as `kovacic.enclosure.routes` foresees them: two or three stand for one."""
+"""A disc, as `kovacic.enclosure.routes` foresees them: near singular points two or three stand for one."""
 TARGET = Price(0.055, 75)
 """A target in a disc that is there."""
 FIRST = 0.3
