@@ -5,7 +5,8 @@ writes results/work_against_error.{json,md,png}; without --heyoka that integrato
 
 Processor times.  A first value is from the text of the equation to y(x) and y'(x), with what is compiled or decided for it; a
 second one is at another point, beyond which the first one went.  Correct digits are relative to the larger of |y| and |y'|,
-against 1,100 digits.  An integrator is given up after 3 s.
+against 1,100 digits.  An integrator is given up after 3 s; heyoka, which runs beside the others in own processes, a number of
+digits each, a minute after these are through: to compile a thousand digits takes it longer.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ from typing import Any
 import frame
 
 PATIENCE = 3.0
+HEYOKA_PATIENCE = 60
+#: What was given up in this run.
+GIVEN_UP: list[str] = []
 # name, equation, x0, first x, second x, y''/y in Python's notation
 PROBLEMS = [
     ("Airy", "x", 0, 5, "9/2", "t"),
@@ -161,7 +165,7 @@ def others(problem: tuple[Any, ...], exact: list[Any]) -> list[dict[str, Any]]:
                 once, values = timed(solution, first)
                 again, _ = timed(solution, mpmath.mpf(Fraction(second).numerator) / 2)
             except GivenUp:
-                print(f"odefun with {digits} digits is given up: {name}", flush=True)
+                GIVEN_UP.append(f"odefun with {digits} digits and more: {name}")
                 break
         row = {"problem": name, "method": "mpmath.odefun", "digits": digits}
         rows.append(row | {"first": made + once, "second": again, "correct": correct(values, exact)})
@@ -210,18 +214,39 @@ def exact_values(problem: tuple[Any, ...]) -> list[Any]:
         return [ball.to_mpmath() for ball in balls]
 
 
-def by_heyoka(python: str, exact: dict[str, list[Any]]) -> tuple[str, list[dict[str, Any]], list[dict[str, Any]]]:
+def begun(python: str) -> dict[int, subprocess.Popen[str]]:
+    """A process for each number of digits, which run beside the other methods; the first one has the many points, too."""
     given = [(name, x0, float(first), float(Fraction(second)), text) for name, _, x0, first, second, text in PROBLEMS]
-    done = subprocess.run(
-        [python, "-c", HEYOKA], input=json.dumps([given, DIGITS, COUNTS]), capture_output=True, text=True, check=True
-    )
-    sys.stderr.write(done.stderr)
-    version, rows = json.loads(done.stdout)
-    single = [row for row in rows if "problem" in row]
+    found = {}
+    for digits in DIGITS:
+        pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+        found[digits] = subprocess.Popen([python, "-c", HEYOKA], **pipes)
+        counts = COUNTS if digits == DIGITS[0] else ()
+        found[digits].stdin.write(json.dumps([given, [digits], counts]))
+        found[digits].stdin.close()
+        found[digits].stdin = None
+    return found
+
+
+def by_heyoka(
+    processes: dict[int, subprocess.Popen[str]], exact: dict[str, list[Any]]
+) -> tuple[str, list[dict[str, Any]], list[dict[str, Any]]]:
+    """Its version, and the rows; without those of a process that isn't through by now and some patience."""
+    version, single, many = "left out", [], []
+    for digits, process in processes.items():
+        try:
+            text, _ = process.communicate(timeout=HEYOKA_PATIENCE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            GIVEN_UP.append(f"heyoka with {digits} digits")
+            continue
+        version, rows = json.loads(text)
+        single += [row for row in rows if "problem" in row]
+        many += [row | {"method": "heyoka"} for row in rows if "points" in row]
     for row in single:
         row["method"] = "heyoka"
         row["correct"] = correct(row.pop("value"), exact[row["problem"]])
-    return version, single, [row | {"method": "heyoka"} for row in rows if "points" in row]
+    return version, single, many
 
 
 def markdown(data: dict[str, Any]) -> str:
@@ -234,6 +259,8 @@ def markdown(data: dict[str, Any]) -> str:
         "",
     ]
     lines[-2] += " others give no bound."
+    if data["given up"]:
+        lines += [f"Given up: {'; '.join(data['given up'])}.", ""]
     lines += ["## One value, and a second one", ""]
     head = ["problem", "method", "digits asked for", "correct", "first", "second"]
     rows = [
@@ -304,6 +331,7 @@ def main() -> None:
     arguments.add_argument("--heyoka", help="an interpreter that has heyoka")
     given = arguments.parse_args()
     exact, one = {}, []
+    processes = begun(given.heyoka) if given.heyoka else {}
     for problem in PROBLEMS:
         exact[problem[0]] = exact_values(problem)
         one += ours(problem, exact[problem[0]]) + others(problem, exact[problem[0]])
@@ -311,10 +339,10 @@ def main() -> None:
     many = many_points()
     version = "left out"
     if given.heyoka:
-        version, single, crowd = by_heyoka(given.heyoka, exact)
+        version, single, crowd = by_heyoka(processes, exact)
         one += single
         many += crowd
-    data = {"heyoka": version, "one": one, "many": many}
+    data = {"heyoka": version, "given up": GIVEN_UP, "one": one, "many": many}
     frame.save("work_against_error", data, markdown(data))
     picture(data)
 

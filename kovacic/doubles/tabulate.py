@@ -40,14 +40,15 @@ from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
 from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords
-from kovacic.limits import Limits, check_time, limited
+from kovacic.limits import Limits, check_time, limited, limits_of
 
 _PREC = 300
 GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
 _STEEP = 4.0
 """Characteristic roots above this make the sums larger."""
-_MAX_PIECES, _SMALLEST = 5000, -1000
+_LIMIT_OF_A_PIECE, _SMALLEST = 4, -1000
+"""So much of the limit `unknown_degree` a piece takes."""
 _STRIDE, _ROUGH, _LOST = 24, 2.0**-88, 2.0**-58
 """Of so many states one is an enclosure; relative errors of a transfer, and of a state, at most."""
 _SIGNS = np.array([[[1.0], [-1.0]], [[-1.0], [1.0]]])
@@ -318,7 +319,7 @@ def tabulate(
     InputError
         For an empty interval, and a singular point in it or between it and x0.
     LimitExceeded
-        For more than 5,000 pieces, and where the time is over.
+        For more pieces than a quarter of the limit `unknown_degree` (5,000 by default), and where the time is over.
 
     Examples
     --------
@@ -348,7 +349,7 @@ def table_of(
     variant = _CAREFUL if careful else _PLAIN
     with working_precision(_PREC):
         cells, found = _pieces(
-            region, lambda some: _series(chart, some, variant), lambda x, h: chart.steepness(x, h) > _STEEP
+            region, lambda some: _series(chart, some, variant), lambda x, h: chart.steepness(x, h) > _STEEP, limits
         )
     series = Pair(*np.stack(found, axis=-1))
     states, powers = _states(chart, cells, series, variant, limits)
@@ -394,19 +395,23 @@ def _root(region: Region) -> Cell:
 
 
 def _pieces(
-    region: Region, expand: Callable[[list[Cell]], list[Any]], refused: Callable[[Any, Any], Any]
+    region: Region,
+    expand: Callable[[list[Cell]], list[Any]],
+    refused: Callable[[Any, Any], Any],
+    limits: Limits | None = None,
 ) -> tuple[list[Cell], list[Any]]:
-    """The pieces from left to right, and what `expand` makes of them: None where a piece won't do.
+    """The pieces from left to right, no more than the limits allow, and what `expand` makes of them: None where one won't do.
 
     `refused` says of arrays of centres and scales, at once, where that is known beforehand.
     """
     low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
+    most = limits_of(limits).unknown_degree // _LIMIT_OF_A_PIECE
     untried = [_root(region)]
     promising: list[Cell] = []
     done: dict[Cell, Any] = {}
     while untried or promising:
-        if len(untried) + len(promising) + len(done) > _MAX_PIECES:
-            raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
+        if len(untried) + len(promising) + len(done) > most:
+            raise LimitExceeded(f"the table needs more than {most} pieces", limit="unknown_degree")
         check_time()
         too_large: list[Cell] = []
         if untried:
