@@ -117,3 +117,27 @@ def test_a_singular_point_is_no_place_to_go_beyond() -> None:
         with pytest.raises(kovacic.InputError):
             solution(3)
         assert solution("-1/2").digits > 14
+
+
+def test_a_closed_form_that_was_chosen_serves_the_next_values_at_its_precision() -> None:
+    # a polynomial of degree 27 that cancels: the first precisions don't suffice, and aren't tried again
+    solution = kovacic.prepared("-1 + 756/(x + 1)^2", x0="1/3", y0=1, dy0="1/5", digits=5, method="closed form")
+    first = solution(2)
+    second = solution("7/4")
+    assert first.route is not None
+    assert second.route is not None
+    assert (first.route.runs > 1, second.route.runs) == (True, 1)
+    assert second.route.bits == first.route.bits
+    assert second.overlaps(kovacic.evaluate("-1 + 756/(x + 1)^2", "7/4", x0="1/3", y0=1, dy0="1/5", method="taylor"))
+
+
+def test_many_later_values_of_a_chosen_closed_form_go_by_discs() -> None:
+    solution = kovacic.prepared("-1 - 5/(36*x^2)", x0=1, y0=1, dy0=0)
+    far = solution(20)
+    assert far.route is not None
+    assert far.route.method == "closed form"
+    crowd = solution([1 + Fraction(k, 40) for k in range(1, 700)])
+    assert {ball.route.method for ball in crowd} == {"taylor"}
+    assert crowd[-1].overlaps(
+        kovacic.evaluate("-1 - 5/(36*x^2)", 1 + Fraction(699, 40), x0=1, y0=1, dy0=0, method="closed form")
+    )
