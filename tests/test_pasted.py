@@ -291,3 +291,9 @@ def test_values_in_the_notation_of_their_equation(text: str) -> None:
 def test_riccati_equations_in_any_notation(text: str) -> None:
     constant = sympy.Symbol("C1")
     assert kovacic.dsolve(text).rhs == x * sympy.tan(constant + x)
+
+
+@pytest.mark.parametrize("infinity", ["oo", "inf", "infinity", "Infinity", "+oo", "∞"])
+def test_infinity_has_many_names(infinity: str) -> None:
+    assert kovacic.dsolve(f"y'' - y = 0, y(0) = 1, y({infinity}) = 0").rhs == sympy.exp(-x)
+    assert kovacic.dsolve("y'' - y = 0, y(0) = 1, y(-infinity) = 0").rhs == sympy.exp(x)

@@ -22,7 +22,8 @@ from kovacic.reading.parser import listed
 Expr = Any  # SymPy publishes no types
 #: The word that stands for a value.
 BOUNDED = "bounded"
-_INFINITIES = {"oo": sympy.oo, "+oo": sympy.oo, "-oo": -sympy.oo}
+#: oo as it is written in texts.
+_INFINITY = {"oo", "inf", "infty", "infinity", "Infinity", "∞"}
 _NO_VALUES = (sympy.nan, sympy.zoo)
 
 
@@ -143,8 +144,8 @@ class ConditionReader:
 
     def _point(self, text: str) -> Expr:
         plain = text.replace(" ", "")
-        if plain in _INFINITIES:
-            return _INFINITIES[plain]
+        if plain.lstrip("+-") in _INFINITY:
+            return -sympy.oo if plain.startswith("-") else sympy.oo
         return self._checked(_read(text, {}), text)
 
     # -------------------------------------------------------------------------------------- SymPy's expressions

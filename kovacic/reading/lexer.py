@@ -69,7 +69,7 @@ _HINTS = {
     "}": "use round parentheses ( )",
     "!": "write factorials out as numbers",
     "\\": "this isn't LaTeX that is read; write for example (x^2 + 1)/(2*x)",
-    "|": "absolute values aren't rational functions",
+    "|": "write abs(...); on the right-hand side of an equation it is read",
     "√": "square roots aren't rational functions; write S with rational numbers",
     ";": "give one expression at a time; values are separated by commas: y'' + y = 0, y(0) = 1",
     "_": "names begin with a letter, and digits aren't grouped: write 1000000, x1",

@@ -10,6 +10,8 @@ NUMBER_NAMES = {
     "oo": "infinity",
     "zoo": "infinity",
     "inf": "infinity",
+    "infinity": "infinity",
+    "Infinity": "infinity",
     "nan": "not a number",
 }
 
