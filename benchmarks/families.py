@@ -27,7 +27,8 @@ DIGITS = (1, 10, 100, 1000)
 MANY_DIGITS = (1000, 10000, 25000)
 ORDERS = (2, 4, 6, 8, 10, 12)
 DEGREES_OF_P = (1000, 2000, 5000, 10000, 20000)
-DEGREES_OF_S = (100, 200, 500, 1000, 2000)
+DEGREES_OF_S = (1000, 2000, 4000, 8000, 16000)
+MANY_POLES = (100, 200, 400, 800, 1600)
 X = RatFunc(QQ.poly([0, 1]))
 
 
@@ -153,6 +154,19 @@ def by_size(family: str, n: int) -> Sample:
     return Sample(family, n, build(n, Random(f"{family}/{n}")), case)
 
 
+def many_poles(n: int) -> Sample:
+    """omega with the poles 1, ..., n and residues with the denominators 1, 2, 3 and 5, and no other part."""
+    rng = Random(f"poles 1 to n/{n}")
+    parts = []
+    for i in range(1, n + 1):
+        residue = Fraction(rng.choice([1, 2, 3, 4, 5, 7]), rng.choice([1, 2, 3, 5]))
+        parts.append((QQ.poly([residue]), QQ.poly([-i, 1])))
+    while len(parts) > 1:
+        pairs = [(a * d + c * b, b * d) for (a, b), (c, d) in zip(parts[::2], parts[1::2], strict=False)]
+        parts = [*pairs, *parts[2 * len(pairs) :]]
+    return Sample("case 1, poles 1 to n", n, transform.from_omega(RatFunc(*parts[0])), 1)
+
+
 def _big(rng: Random, digits: int) -> int:
     return rng.choice([-1, 1]) * rng.randint(10 ** (digits - 1), 10**digits - 1)
 
@@ -207,6 +221,7 @@ def series() -> Iterator[tuple[str, list[tuple[str, int]]]]:
     """All measurements: (what the parameter is, [(name, parameter), ...]); `sample` builds one."""
     for family in FAMILIES:
         yield "poles", [(family, n) for n in SIZES]
+    yield "many poles", [("case 1, poles 1 to n", n) for n in MANY_POLES]
     for kind in DIGIT_KINDS:
         yield "digits", [(f"{kind}, digits", d) for d in DIGITS]
     for kind in ("case 1", "case 2"):
@@ -222,6 +237,8 @@ def sample(name: str, parameter: int) -> Sample:
     """The equation of a series."""
     if name in FAMILIES:
         return by_size(name, parameter)
+    if name == "case 1, poles 1 to n":
+        return many_poles(parameter)
     if name.endswith(", digits"):
         return by_digits(name.removesuffix(", digits"), parameter)
     if name.startswith("degree"):
