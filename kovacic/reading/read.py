@@ -80,7 +80,8 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
             raise
         return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
     except NotRational as error:
-        if not source.unknown and (error.excerpt == PI or _constants_in(given) == {PI}):
+        is_with_pi = error.excerpt == PI or (exponentials and _constants_in(given) == {PI})
+        if is_with_pi and not source.unknown:
             with suppress(InputError):  # a constant of equations
                 return read_source(source_of(f"y'' = ({given})*y", source.variable, limits), limits)
         if not exponentials:
