@@ -77,7 +77,7 @@ class Atoms:
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
 
     def sqrt(self, value: Poly) -> Expr:
-        """A square root of a constant; squares of parameters come out of the root once and for all, sympy.sqrt(w^2) = w."""
+        """A square root of a constant; squares of parameters come out of the root once and for all, sqrt(w^2) = w."""
         if isinstance(value, FunctionPoly):
             outer, inner = value.square_part()
             return outer.to_sympy(self.x) * radical(inner.to_sympy(self.x))
