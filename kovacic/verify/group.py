@@ -111,8 +111,10 @@ def _as_quotient(F: SemiInvariant) -> tuple[Poly, Poly]:
 
 
 @dataclass(frozen=True)
-class Curve:
-    """z^2 = g, g = f^2 for the form f = y1 y2, and the differential eta = dx/z up to a constant, with y1/y2 = exp(int eta).
+class FormCurve:
+    """What the rules need of z^2 = g, g = f^2 for the form f = y1 y2, and eta = dx/z up to a constant, y1/y2 = exp(int eta).
+
+    Local data in characteristic 0 only; the arithmetic of classes on such a curve modulo a prime is `torsion.Curve`.
 
     `branches` is the number of branch points, so that the genus is branches/2 - 1; `differences` has the exponent differences
     at the double zeros of g, which are the residues of eta, up to their signs: its only poles.
@@ -155,7 +157,7 @@ def _has_conjugates(f: SemiInvariant) -> bool:
     return any((*phi.num.parts[1:], *phi.den.parts[1:]))
 
 
-def _curve(inspector: Inspector, f: SemiInvariant) -> Curve | None:
+def _curve(inspector: Inspector, f: SemiInvariant) -> FormCurve | None:
     """None if the valuations of g = f^2 aren't whole numbers, or g has zeros or poles that aren't singular points.
 
     P has simple zeros at ordinary points, where the difference is 1.
@@ -168,7 +170,7 @@ def _curve(inspector: Inspector, f: SemiInvariant) -> Curve | None:
     differences = {point.difference for point, valuation in pairs if valuation == 2}
     if f.P.degree:
         differences.add(Fraction(1))
-    return Curve(branches, frozenset(d for d in differences if d is not None))
+    return FormCurve(branches, frozenset(d for d in differences if d is not None))
 
 
 def _valuations_of_square(inspector: Inspector, f: SemiInvariant) -> list[int] | None:
@@ -184,7 +186,7 @@ def _valuations_of_square(inspector: Inspector, f: SemiInvariant) -> list[int] |
 
 
 def _on_curve_of_positive_genus(
-    inspector: Inspector, riccati: RiccatiPolynomial, claim: GroupClaim, curve: Curve
+    inspector: Inspector, riccati: RiccatiPolynomial, claim: GroupClaim, curve: FormCurve
 ) -> bool | None:
     """The group is finite exactly when k l eta is the logarithmic differential of a function, for some k: the claim says which.
 
@@ -201,7 +203,7 @@ def _on_curve_of_positive_genus(
     return None if claim.family == "imprimitive" else False
 
 
-def _is_no_torsion(H: RatFunc, orders: tuple[tuple[int, int], ...], curve: Curve) -> bool:
+def _is_no_torsion(H: RatFunc, orders: tuple[tuple[int, int], ...], curve: FormCurve) -> bool:
     """Has the divisor of l eta different orders modulo two primes of good reduction?  A finite order is the same modulo all."""
     residues = set(curve.differences)
     if len({k for _, k in orders}) < 2:
