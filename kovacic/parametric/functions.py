@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
+from itertools import chain
 from math import gcd
 from typing import Any
 
@@ -50,7 +51,7 @@ def denominators(polynomial: Poly) -> list[FunctionPoly]:
 
 def union(lists: Iterable[Iterable[FunctionPoly]]) -> list[FunctionPoly]:
     """The different polynomials of several lists, in order."""
-    return list(dict.fromkeys(function for functions in lists for function in functions))
+    return list(dict.fromkeys(chain.from_iterable(lists)))
 
 
 def degrees(function: FunctionPoly) -> tuple[int, ...]:
@@ -65,7 +66,11 @@ def powers_of(function: FunctionPoly, i: int) -> dict[int, FunctionPoly]:
 
 def roots(polynomial: Poly) -> list[Poly]:
     """The roots in the field, a multiple one several times."""
-    return [-f[0] for f, k in polynomial.field.factor(polynomial) if f.degree == 1 for _ in range(k)]
+    found = []
+    for factor, multiplicity in polynomial.field.factor(polynomial):
+        if factor.degree == 1:
+            found += [-factor[0]] * multiplicity
+    return found
 
 
 def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], field: Field) -> list[Poly]:
@@ -84,7 +89,10 @@ def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
     shift = constant_term(function)
     form = over_parameters(function - shift)
     above, below = ([int(c) for c in part.coeffs()] for part in (form.num, form.den))
-    scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1)) if above else Fraction(1)
+    if not above:
+        return form, Fraction(1), shift
+    sign = 1 if above[0] > 0 else -1
+    scale = Fraction(gcd(*below), gcd(*above) * sign)
     return over_parameters(form * scale), scale, shift
 
 
@@ -152,13 +160,25 @@ def values_at_integers(form: FunctionPoly, largest: int) -> tuple[str, dict[int,
     (k,) = used
     if int(below.degrees()[k]) != 1 or int(above.degrees()[k]) > 1:
         return None
-    a, b, c, d = (_number(by_power(part, k).get(power)) for part in (above, below) for power in (1, 0))
+    a, b = _coefficients_of_line(above, k)
+    c, d = _coefficients_of_line(below, k)
     most = largest * abs(a * d - b * c)
     if most > _MOST_INTEGERS:
         return None
     end = (most + abs(d)) // abs(c)
-    values = {t: Fraction(a * t + b, c * t + d) for t in range(-end, end + 1) if c * t + d}
-    return form.field.names[k - 1], {t: value for t, value in values.items() if value.denominator <= largest}
+    found = {}
+    for t in range(-end, end + 1):
+        if c * t + d:
+            value = Fraction(a * t + b, c * t + d)
+            if value.denominator <= largest:
+                found[t] = value
+    return form.field.names[k - 1], found
+
+
+def _coefficients_of_line(polynomial: Any, k: int) -> tuple[int, int]:
+    """a and b of a t + b with t as generator number k."""
+    parts = by_power(polynomial, k)
+    return _number(parts.get(1)), _number(parts.get(0))
 
 
 def _number(constant: Any) -> int:

@@ -11,7 +11,6 @@ References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbin
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -77,11 +76,13 @@ class Determinant:
     system: tuple[FunctionPoly, ...] = ()
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Determinant:
-        """The same about other parameters, which `change` puts into its polynomials."""
+        """With other functions in the place of the parameters."""
         if self.factors is None:
             return self
-        factors = tuple(g for f in self.factors for g in (irreducible_factors(change(f)) if f else [f]))
-        return replace(self, factors=factors, system=tuple(map(change, self.system)))
+        factors: list[FunctionPoly] = []
+        for factor in self.factors:
+            factors += irreducible_factors(change(factor)) if factor else [factor]
+        return replace(self, factors=tuple(factors), system=tuple(map(change, self.system)))
 
     def holds(self, point: ParameterPoint) -> bool:
         """Is d the degree at the point, and does P exist there?
@@ -136,7 +137,9 @@ class Natural(Statement):
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point, as far as they are listed."""
-        roots = {root for factor in self.factors or () for root in rational_roots(point.at(factor))}
+        roots: set[Fraction] = set()
+        for factor in self.factors or ():
+            roots.update(rational_roots(point.at(factor)))
         return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -196,25 +199,36 @@ class Natural(Statement):
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
-        found, places = defaultdict[str, dict[str, None]](dict), defaultdict[str, list[str]](list)
+        found: dict[str, dict[str, None]] = {}
         for determinant in self.determinants(number):
-            found[equation_written(determinant.exponents)][str(determinant)] = None
+            found.setdefault(equation_written(determinant.exponents), {})[str(determinant)] = None
+        places: dict[str, list[str]] = {}
         for where, texts in found.items():
-            places[" or ".join(texts)].append(where)
-        values = [f"{value} where {' or '.join(where)}" for value, where in places.items()]
-        text = ", ".join(values if len(values) > 1 else places)
-        return f"Delta_{number} = {text if len(text) <= _WRITTEN_OUT else text[:_WRITTEN_OUT] + '...'}"
+            places.setdefault(" or ".join(texts), []).append(where)
+        values = [*places]
+        if len(places) > 1:
+            values = [f"{value} where {' or '.join(where)}" for value, where in places.items()]
+        text = ", ".join(values)
+        if len(text) > _WRITTEN_OUT:
+            text = f"{text[:_WRITTEN_OUT]}..."
+        return f"Delta_{number} = {text}"
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         factor = random.choice(self.factors) if self.factors else None
         if factor is None or not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
-        found = [d for d in self.determinants(number) if d.factors or d.system] if self.m == 1 else []
+        found: list[Determinant] = []
+        if self.m == 1:
+            found = [
+                determinant for determinant in self.determinants(number) if determinant.factors or determinant.system
+            ]
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
-        return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system)]
+        if chosen.factors:
+            return [chosen.exponents, random.choice(chosen.factors)]
+        return [chosen.exponents, *chosen.system]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         return False if self._possible(assumptions) == () else None
@@ -223,29 +237,21 @@ class Natural(Statement):
         return replace(self, factors=self._possible(assumptions))
 
     def _possible(self, assumptions: Assumptions) -> tuple[FunctionPoly, ...] | None:
-        """The equations for d that can have a natural root: not those that are positive for all d >= 0."""
+        """The equations for d that can have a natural root."""
         if self.factors is None:
             return None
-        natural = [Coset(Fraction(0), Fraction(1))]
-        return tuple(
-            factor
-            for factor in self.factors
-            if not (factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], natural) is False)
-            and not (
-                assumptions.is_positive(over_parameters(factor[0]))
-                and all(assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c)
-            )
-        )
+        return tuple(factor for factor in self.factors if not _has_no_natural_root(factor, assumptions))
 
     @cached_property
     def written(self) -> str:
-        m, factors, d = self.m, self.factors, self.letter
-        if factors is not None and not any(k for factor in factors for k in degrees(factor)):
+        factors = self.factors
+        if factors is not None and not any(any(degrees(factor)) for factor in factors):
             numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
-            what = "a solution" if m == 1 else f"an invariant of degree {m}"
-            return f"{what} with {numbers} zero{'s' * (numbers != '1')} exists"
-        what = "" if m == 1 else f" for an invariant of degree {m}"
-        return f"{self._numbers_written()}, `{d} in N`, and `Delta_{d} = 0`{what}"
+            what = "a solution" if self.m == 1 else f"an invariant of degree {self.m}"
+            zeros = "zero" if numbers == "1" else "zeros"
+            return f"{what} with {numbers} {zeros} exists"
+        what = "" if self.m == 1 else f" for an invariant of degree {self.m}"
+        return f"{self._numbers_written()}, `{self.letter} in N`, and `Delta_{self.letter} = 0`{what}"
 
     def _numbers_written(self) -> str:
         """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
@@ -282,6 +288,17 @@ def _in_parentheses(text: str) -> str:
     """A sum in parentheses, where it isn't within some."""
     outside = re.sub(r"[({][^()]*[)}]", "", text)
     return f"({text})" if re.search(r" [+-] ", outside) else text
+
+
+def _has_no_natural_root(factor: FunctionPoly, assumptions: Assumptions) -> bool:
+    """Is the root of a linear polynomial never natural, or the polynomial positive for all d >= 0?"""
+    if factor.degree == 1:
+        natural = [Coset(Fraction(0), Fraction(1))]
+        if assumptions.meets_classes(-factor[0] / factor[1], natural) is False:
+            return True
+    if not assumptions.is_positive(over_parameters(factor[0])):
+        return False
+    return all(assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c)
 
 
 def _determinant(exponents: FunctionPoly, conditions: RankConditions, *, deficient: bool) -> Determinant:

@@ -42,22 +42,9 @@ def statement_data(statement: Statement) -> dict[str, Any]:
     if isinstance(statement, Vanishes):
         return {"kind": "zero", "function": statement.function.to_str("x")}
     if isinstance(statement, Congruence):
-        form, residues, modulus = statement.form, [*map(_number, statement.residues)], _number(statement.modulus)
-        if form is None:
-            equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
-            return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
-        single = len(residues) == 1
-        form = over_parameters(form - statement.residues[0]) if single else form
-        data = {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus}
-        return data if single else data | {"residues": residues}
+        return _congruence_data(statement)
     if isinstance(statement, Natural):
-        letter = statement.letter
-        factors = statement.factors
-        equations = None if factors is None else [factor.to_str(letter) for factor in factors]
-        kind = {"kind": "natural number", "unknown": letter, "equations": equations}
-        x = free_letter(parameters_of(statement.S.field), "xzt")
-        S = {"variable": x, "S": statement.S.to_str(x)}
-        return kind | {"degree": statement.m, "structure": statement.structure.value} | S
+        return _natural_data(statement)
     if isinstance(statement, Schwarz):
         structures = [structure.value for structure in statement.structures]
         return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
@@ -65,6 +52,34 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         parts = [statement_data(part) for part in statement.parts]
         return {"kind": "and" if isinstance(statement, Both) else "or", "parts": parts}
     raise TypeError(f"{type(statement).__name__} isn't a kind of statement that is written")
+
+
+def _congruence_data(statement: Congruence) -> dict[str, Any]:
+    form = statement.form
+    residues = [*map(_number, statement.residues)]
+    modulus = _number(statement.modulus)
+    if form is None:
+        equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
+        return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
+    if len(residues) > 1:
+        return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus, "residues": residues}
+    form = over_parameters(form - statement.residues[0])
+    return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus}
+
+
+def _natural_data(statement: Natural) -> dict[str, Any]:
+    letter = statement.letter
+    factors = statement.factors
+    x = free_letter(parameters_of(statement.S.field), "xzt")
+    return {
+        "kind": "natural number",
+        "unknown": letter,
+        "equations": None if factors is None else [factor.to_str(letter) for factor in factors],
+        "degree": statement.m,
+        "structure": statement.structure.value,
+        "variable": x,
+        "S": statement.S.to_str(x),
+    }
 
 
 def _number(value: Fraction) -> int | str:

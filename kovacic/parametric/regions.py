@@ -213,8 +213,10 @@ class ParameterRegion:
     @property
     def why_no_solution(self) -> str:
         """A sentence where `solution()` is empty: why there is no formula in all of the parameters; "" where there is one."""
-        if self.case is None or not self.verdict.known or not self.defined:
-            return f"nothing is solved where the answer is: {self.verdict if self.defined else self.group}"
+        if not self.defined:
+            return f"nothing is solved where the answer is: {self.group}"
+        if self.case is None or not self.verdict.known:
+            return f"nothing is solved where the answer is: {self.verdict}"
         if self.case > 1:
             degree = "2" if self.case == 2 else "4, 6 or 12"
             return (
@@ -308,15 +310,24 @@ def in_one_line(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     for region in _mirrored(regions):
         last = found[-1] if found else None
         if last is not None and last.plain and region.plain and last.case == region.case:
-            together = last.statement.merged(region.statement)
-            parts = [*_alternatives(last.statement), *_alternatives(region.statement)]
-            if together is None and len({type(part) for part in parts}) == 1 and not isinstance(parts[0], Both):
-                together = either(*parts)
-                together = together if len(together.text()) <= _LINE else None
+            together = _together(last.statement, region.statement)
             if together is not None:
                 region = replace(found.pop(), statement=together)
         found.append(region)
     return found
+
+
+def _together(first: Statement, second: Statement) -> Statement | None:
+    """That one of the two holds, where they merge or are of one kind and short; else None."""
+    merged = first.merged(second)
+    if merged is not None:
+        return merged
+    parts = [*_alternatives(first), *_alternatives(second)]
+    kinds = {type(part) for part in parts}
+    if len(kinds) > 1 or kinds == {Both}:
+        return None
+    together = either(*parts)
+    return together if len(together.text()) <= _LINE else None
 
 
 def _alternatives(statement: Statement) -> Sequence[Statement]:
@@ -352,35 +363,46 @@ def _charts(statement: Statement) -> list[tuple[ParameterPoint, Assumptions]]:
     for part in _alternatives(statement):
         if not isinstance(part, Congruence) or part.form is not None or not families(part.equation):
             return []
-        (name, f), names = families(part.equation)[0], part.equation.field.names
-        k = next(name for name in map("k{}".format, count()) if name not in names)
-        field = FunctionField((*names, k))
-        chart = ParameterPoint(names, tuple(map(field.generator, names)), field)
-        above, below = (chart.at(over_parameters(g)) for g in (f.num, f.den))
-        known = Assumptions(((k, Known(("integer",))),))
-        for residue in part.residues:
-            N = field.generator(k) * part.modulus + residue
-            values = tuple(above(N) / below(N) if n == name else field.generator(n) for n in names)
-            charts.append((ParameterPoint(names, values, field), known))
+        charts += _of_integers(part)
+    return charts
+
+
+def _of_integers(statement: Congruence) -> list[tuple[ParameterPoint, Assumptions]]:
+    """One parameter as a function of an integer k, which is a new parameter, for each of the classes."""
+    name, f = families(statement.equation)[0]
+    names = statement.equation.field.names
+    k = next(name for name in map("k{}".format, count()) if name not in names)
+    field = FunctionField((*names, k))
+    chart = ParameterPoint(names, tuple(map(field.generator, names)), field)
+    above, below = (chart.at(over_parameters(g)) for g in (f.num, f.den))
+    known = Assumptions(((k, Known(("integer",))),))
+    charts = []
+    for residue in statement.residues:
+        N = field.generator(k) * statement.modulus + residue
+        values = tuple(above(N) / below(N) if n == name else field.generator(n) for n in names)
+        charts.append((ParameterPoint(names, values, field), known))
     return charts
 
 
 @lru_cache(maxsize=256)
 def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
     """Where the functions vanish; None where that isn't one piece."""
-    field = functions[0].field
-    start = ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)
+    *others, last = functions
+    field = last.field
+    before: ParameterPoint | None = ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)
+    if others:
+        before = _common_zeros(tuple(others))
+    if before is None:
+        return None
     try:
-        before = _common_zeros(functions[:-1]) if len(functions) > 1 else start
-        factors = irreducible_factors(before.at(functions[-1])) if before else []
-        if before is None or len(factors) != 1:
+        factors = irreducible_factors(before.at(last))
+        if len(factors) != 1:
             return None
         after = hypersurface(factors[0])
-        return ParameterPoint(
-            before.names, tuple(after.at(over_parameters(value)) for value in before.values), after.field
-        )
+        values = tuple(after.at(over_parameters(value)) for value in before.values)
     except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
         return None
+    return ParameterPoint(before.names, values, after.field)
 
 
 def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:

@@ -162,10 +162,10 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
     curve = _with_two_terms(function)
     if curve is not None:
         return curve
-    names, powers = function.field.names, degrees(function)
+    names = function.field.names
+    powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
-    simple = {i: (not A.num.is_constant(), len(A.num)) if powers[i] == 1 else () for i, A in leading.items()}
-    i = min(leading, key=lambda i: (powers[i], simple[i]))
+    i = min(leading, key=lambda i: (powers[i], _complexity(leading[i]) if powers[i] == 1 else ()))
     rest = FunctionField(tuple(name for name in names if name != names[i]))
     smaller: Field = rest if rest.names else QQ
     values = [rest.generator(name) if name in rest.names else smaller.poly([0]) for name in names]
@@ -177,6 +177,11 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
     extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), names[i])
     values[i] = extension.generator
     return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
+
+
+def _complexity(coefficient: FunctionPoly) -> tuple[bool, int]:
+    """Constants come first, then the shortest."""
+    return not coefficient.num.is_constant(), len(coefficient.num)
 
 
 def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:

@@ -60,7 +60,7 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.parametric import restriction, riemann
 from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
@@ -222,15 +222,23 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     squares = [problem.field.poly([1])] * 3
     for place in problem.places:
         if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
-            squares[1 if place.at_infinity else 2 if place.factor[0] else 0] = place.delta_squared
+            squares[_position(place)] = place.delta_squared
     found: list[Statement] = []
     for square, denominator in zip(squares, denominators, strict=False):
         equation = over_parameters(problem.field.poly([-square * denominator**2, 0, 1]))
         statement = integer_roots(equation, [r for r in range(denominator) if gcd(r, denominator) == 1], denominator)
         if statement == NEVER:
             return NEVER
-        found += [] if statement in found else [statement]
+        if statement not in found:
+            found.append(statement)
     return both(*found)
+
+
+def _position(place: Place) -> int:
+    """0 for 0, 1 for infinity, 2 for the third point."""
+    if place.at_infinity:
+        return 1
+    return 2 if place.factor[0] else 0
 
 
 @dataclass(frozen=True)
@@ -263,26 +271,34 @@ def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
 
 def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     """The theorem, where s^2 S is b + r z + q z^2; where it is b + q s^(2n), 2n is the order of the symmetry."""
-    is_possible = riemann.singular_points(problem) <= 2 and not riemann.is_fuchsian(problem)
-    for coordinate, num, den in symmetries(problem, variable) if is_possible else ():
-        if den.degree == 0 < num.degree <= 2:
-            b, r, q = (num[k] / den[0] for k in range(3))
-            if not q and coordinate.n % 2 == 0:
-                coordinate, r, q = replace(coordinate, n=coordinate.n // 2), q, r
-            break
-    else:
+    if riemann.singular_points(problem) > 2 or riemann.is_fuchsian(problem):
         return None
-    form, n, z = Confluent(coordinate, b, r, q), coordinate.n, problem.field.poly([0, 0, 1])
-    delta, beta = 1 + 4 * b, r * r / q if q else r  # squares
+    form = _confluent(problem, variable)
+    if form is None:
+        return None
+    b, r, q = form.b, form.r, form.q
+    n = form.coordinate.n
+    z = problem.field.poly([0, 0, 1])
+    delta = 1 + 4 * b  # a square, as beta
+    beta = r * r / q if q else r
     equation = (z - beta - delta) ** 2 - 4 * beta * delta if q else z - 4 * delta
-    statement, origin = (
-        integer_roots(over_parameters(equation), [n], 2 * n),
-        Signed(partial(laguerre_formula, form, variable), 2),
-    )
+    statement = integer_roots(over_parameters(equation), [n], 2 * n)
     verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
     if q:
         family = "the Borel group, or `G_m` where both exponential factors occur" if r else "`G_m`"
         verdict = RegionVerdict(Structure.REDUCIBLE, family=family)
-    region = ParameterRegion(statement, verdict, origin=origin)
-    name = f"{'Whittaker' if q else 'Bessel'}'s equation in {coordinate}: Martinet & Ramis"
+    region = ParameterRegion(statement, verdict, origin=Signed(partial(laguerre_formula, form, variable), 2))
+    name = f"{'Whittaker' if q else 'Bessel'}'s equation in {form.coordinate}: Martinet & Ramis"
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])
+
+
+def _confluent(problem: Problem, variable: str) -> Confluent | None:
+    """The first coordinate in which s^2 S is a polynomial of degree 1 or 2; without r, in the root of z."""
+    for coordinate, num, den in symmetries(problem, variable):
+        if den.degree > 0 or not 0 < num.degree <= 2:
+            continue
+        b, r, q = (num[k] / den[0] for k in range(3))
+        if not q and coordinate.n % 2 == 0:
+            return Confluent(replace(coordinate, n=coordinate.n // 2), b, q, r)
+        return Confluent(coordinate, b, r, q)
+    return None
