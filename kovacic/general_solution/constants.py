@@ -195,25 +195,36 @@ def vanishing_factors(zero: Expr) -> Expr:
     """The factors that may be zero, each once."""
     whole = sympy.numer(sympy.together(zero))
     waves = sympy.expand(TR8(sympy.expand(whole)))
-    factored = min((sympy.factor(form) for form in (whole, waves)), key=size)
-    factors = [factor for factor in sympy.Mul.make_args(factored) if not is_nowhere_zero(factor)]
-    return sympy.Mul(*(factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors))
+    factored = min(map(sympy.factor, (whole, waves)), key=size)
+    found = []
+    for factor in sympy.Mul.make_args(factored):
+        if not is_nowhere_zero(factor):
+            is_power = factor.is_Pow and factor.exp.is_positive
+            found.append(factor.base if is_power else factor)
+    return sympy.Mul(*found)
 
 
 def tidy(value: Any) -> Any:
     """A shorter form of a constant, where that is known at once."""
     check_time()
     value = sympy.sympify(value, strict=True)
-    irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
-    functions = {f.func for f in value.atoms(sympy.Function)}
-    if value.is_Rational or irrational or size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral):
+    if value.is_Rational or size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral):
         return value
-    if not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add):  # a product of powers
+    if any(_is_irrational_power(p) for p in value.atoms(sympy.Pow)):
+        return value
+    functions = {f.func for f in value.atoms(sympy.Function)}
+    is_number = not value.free_symbols
+    if is_number and functions <= {exp, log} and not value.has(sympy.Add):  # a product of powers
         return value
     if not functions:
-        return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
+        has_terms = not is_number or value.has(sympy.E)
+        return sympy.radsimp(sympy.cancel(value) if has_terms else sympy.expand(value))
     if not functions <= _ELEMENTARY:
         expanded = sympy.expand(value)
         return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
     shorter = sympy.cancel(value)
     return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=size)
+
+
+def _is_irrational_power(power: Expr) -> bool:
+    return not power.exp.is_Rational and not power.base.is_Symbol

@@ -127,12 +127,11 @@ class Expansion:
     """The sum of coefficient * monomial over `terms`, up to O(sum of the errors)."""
 
     def __init__(self, terms: dict[Monomial, Expr], errors: Iterable[Monomial] = ()) -> None:
-        kept: list[Monomial] = []
-        for error in errors:
-            if not any(error.is_below(other) for other in kept):
-                kept = [other for other in kept if not other.is_below(error)] + [error]
-        self.errors = tuple(kept)
-        self.terms = {m: c for m, c in terms.items() if c != 0 and not any(m.is_below(error) for error in self.errors)}
+        self.errors = _largest(errors)
+        self.terms: dict[Monomial, Expr] = {}
+        for m, c in terms.items():
+            if c != 0 and not any(m.is_below(error) for error in self.errors):
+                self.terms[m] = c
         if len(self.terms) > _MOST_TERMS:
             raise UnknownBehaviour("the expansion has too many terms")
 
@@ -164,17 +163,26 @@ class Expansion:
         """What doesn't tend to 0, the constant apart; the constant; what tends to 0."""
         if any(error.size >= 0 for error in self.errors):
             raise UnknownBehaviour("too few terms", deeper=True)
-        large = {m: c for m, c in self.terms.items() if not m.is_constant and m.size >= 0}
-        small = {m: c for m, c in self.terms.items() if not m.is_constant and m not in large}
+        large: dict[Monomial, Expr] = {}
+        small: dict[Monomial, Expr] = {}
+        for m, c in self.terms.items():
+            if m.is_constant:
+                continue
+            if m.size >= 0:
+                large[m] = c
+            else:
+                small[m] = c
         return large, self.terms.get(CONSTANT, _ZERO), Expansion(small, self.errors)
 
     def leading(self) -> tuple[Monomial, Expr, Expansion]:
         """m, c and d with self = c m (1 + d), where d tends to 0."""
         terms = {m: c for m, c in self.terms.items() if when_zero(c) is not Zero.ALWAYS}
+        everything = [*terms, *self.errors]
         for m, c in terms.items():
-            if all(other is m or _is_smaller(other, m) for other in (*terms, *self.errors)):
-                rest = Expansion({n: d for n, d in terms.items() if n is not m}, self.errors)
-                return m, c, rest.times(1 / c, _inverse(m))
+            if all(other is m or _is_smaller(other, m) for other in everything):
+                others = dict(terms)
+                del others[m]
+                return m, c, Expansion(others, self.errors).times(1 / c, _inverse(m))
         raise UnknownBehaviour("no term is larger than all others", deeper=bool(self.errors))
 
     def power(self, r: Expr, depth: int) -> Expansion:
@@ -226,6 +234,16 @@ class Expansion:
             if not small.terms and not small.errors:
                 break
         return _series(small, coefficients)
+
+
+def _largest(errors: Iterable[Monomial]) -> tuple[Monomial, ...]:
+    """Without those that are below others."""
+    kept: list[Monomial] = []
+    for error in errors:
+        if not any(error.is_below(other) for other in kept):
+            kept = [other for other in kept if not other.is_below(error)]
+            kept.append(error)
+    return tuple(kept)
 
 
 def _is_smaller(first: Monomial, second: Monomial) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
@@ -95,22 +96,40 @@ def _radicands(term: Expr, x: Expr) -> list[Expr]:
 
 def _rate(g: Expr, x: Expr) -> Expr:
     """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    parts = []
-    for term in sympy.Add.make_args(g):
-        powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(term)]
-        exponent = sympy.Add(*(e for base, e in powers if base is sympy.E))
-        parts.append(([(base, e) for base, e in powers if base is not sympy.E], exponent))
-    (first, E), *rest = parts
-    found, others = E.diff(x), sympy.Integer(1)
-    for base, e in first:
+    first, *rest = (_Powers.of(term) for term in sympy.Add.make_args(g))
+    found = first.exponent.diff(x)
+    for base, e in first.powers:
         if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
             found += e * _rate(base, x)
+        elif base.has(x):
+            found += e * base.diff(x) / base
         else:
-            found += e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base)
-    for powers, exponent in rest:
-        quotient = sympy.Mul(*(base**e for base, e in powers), *(base**-e for base, e in first))
-        others += quotient * exp(sympy.cancel(exponent - E))
+            found += e.diff(x) * log(base)
+    others = sympy.Integer(1)
+    for term in rest:
+        quotient = sympy.Mul(*(base**e for base, e in term.powers), *(base**-e for base, e in first.powers))
+        others += quotient * exp(sympy.cancel(term.exponent - first.exponent))
     return found + others.diff(x) / others
+
+
+@dataclass(frozen=True)
+class _Powers:
+    """A product of powers (base, e) and exp(exponent)."""
+
+    powers: list[tuple[Expr, Expr]]
+    exponent: Expr
+
+    @classmethod
+    def of(cls, term: Expr) -> _Powers:
+        powers = []
+        exponent = sympy.Integer(0)
+        for factor in sympy.Mul.make_args(term):
+            base, e = factor.as_base_exp()
+            if base is sympy.E:
+                exponent += e
+            else:
+                powers.append((base, e))
+        return cls(powers, exponent)
 
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:

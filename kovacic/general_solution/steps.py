@@ -58,15 +58,28 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     """
     found = right
     for _ in range(sum(1 for _ in sympy.preorder_traversal(right))):
-        jumping = [e for e in found.atoms(*JUMPING) if e.has(x) and not _is_simple(e, x)]
-        inner = [e for e in jumping if not any(other != e and e.has(other) for other in jumping)]
-        changed = {e: other for e in inner if (other := _rewritten(e, x)) is not None and other != e}
+        changed = {}
+        for e in _innermost_jumps(found, x):
+            other = _rewritten(e, x)
+            if other is not None and other != e:
+                changed[e] = other
         if not changed:
             break
         found = found.xreplace(changed)
     if not found.has(*JUMPING):
         return found
     return sympy.expand(found).replace(_is_power_of_step, lambda power: power.base)
+
+
+def _innermost_jumps(e: Expr, x: Expr) -> list[Expr]:
+    """The functions that jump and aren't simple, without those that have others within them."""
+    jumping = [part for part in e.atoms(*JUMPING) if part.has(x) and not _is_simple(part, x)]
+    inner = []
+    for part in jumping:
+        others = [other for other in jumping if other != part]
+        if not any(part.has(other) for other in others):
+            inner.append(part)
+    return inner
 
 
 @dataclass(frozen=True)
@@ -166,7 +179,9 @@ def _are_on(steps: Sequence[Expr], x: Expr, a: Expr) -> bool | None:
     distances = [step.args[0].subs(x, a) for step in steps]
     if any(distance.is_negative for distance in distances):
         return False
-    return True if all(distance.is_positive for distance in distances) else None
+    if all(distance.is_positive for distance in distances):
+        return True
+    return None
 
 
 # ---------------------------------------------------------------------------------------------------------- rewriting

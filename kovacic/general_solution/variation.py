@@ -153,10 +153,12 @@ class Basis:
             W = finite_value(by_definition, self.x, point)
             c = sympy.nan if W is None else expand(W / kernel.subs(self.x, point))
             yield expand(TR8(c)) if c.has(sin, cos) else c
-        series = [f for f in self.y1.atoms(sympy.hyper) | self.y2.atoms(sympy.hyper) if f.argument.subs(self.x, 0) == 0]
-        u, v = (y.xreplace(dict.fromkeys(series, sympy.Integer(1))) for y in (self.y1, self.y2))
+        functions = self.y1.atoms(sympy.hyper) | self.y2.atoms(sympy.hyper)
+        series = {f: sympy.Integer(1) for f in functions if f.argument.subs(self.x, 0) == 0}
+        u, v = (y.xreplace(series) for y in (self.y1, self.y2))
         if series and not u.has(sympy.hyper) and not v.has(sympy.hyper):
-            yield expand(expand(u * v.diff(self.x) - u.diff(self.x) * v) / kernel).subs(self.x, 0)
+            W = u * v.diff(self.x) - u.diff(self.x) * v
+            yield expand(expand(W) / kernel).subs(self.x, 0)
 
     def at_once(self, right: Expr) -> Expr | None:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""

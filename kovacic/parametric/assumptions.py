@@ -152,11 +152,16 @@ class Known:
         number = value.field.rational_value(value)
         if number is not None:
             return self._admits(number) and (bool(number) or not self.nonzero)
-        if self.rational is True or not self.bounds or getattr(value.field, "approximation", None) is None:
-            return self.rational is not True
+        if self.rational is True:
+            return False
+        if not self.bounds or getattr(value.field, "approximation", None) is None:
+            return True
         ball = enclosure(value)
-        ends = [(b.sign, _ball(b.end)) for b in self.bounds] + _ends(self.words)
-        return ball.imag.contains(0) and not any(_is_beyond(sign, ball.real, end) for sign, end in ends)
+        if not ball.imag.contains(0):
+            return False
+        ends = [(bound.sign, _ball(bound.end)) for bound in self.bounds]
+        ends += _ends(self.words)
+        return not any(_is_beyond(sign, ball.real, end) for sign, end in ends)
 
     def _admits(self, number: Fraction) -> bool:
         if not all(_COSETS[word].contains(number) for word in self.words if word in _COSETS):

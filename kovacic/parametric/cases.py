@@ -60,9 +60,12 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
             continue
         before = [case.statement for case in found if not case.without]
         charts = _within(region.statement, _everything(regions))
-        where_both = {other: _within(region.statement, _within(other, charts)) for other in unsolvable}
-        meeting = (other for other, common in where_both.items() if not _covered(common, before))
-        found.append(Case((region,), _shortest(_left_to_say(other, region.statement, charts) for other in meeting)))
+        left = []
+        for other in unsolvable:
+            common = _within(region.statement, _within(other, charts))
+            if not _covered(common, before):
+                left.append(_left_to_say(other, region.statement, charts))
+        found.append(Case((region,), _shortest(left)))
     return _joined(found)
 
 

@@ -60,9 +60,13 @@ class Sampler:
     def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
         """Every other one where one of the statements holds; None where an attempt failed."""
         for attempt in count(1):
-            chosen = statements[attempt // 2 % len(statements)] if statements and attempt % 2 else None
+            chosen = None
+            if statements and attempt % 2:
+                chosen = statements[attempt // 2 % len(statements)]
             point = self._point(chosen)
-            yield point if point and self.assumptions.admits(zip(point.names, point.values, strict=True)) else None
+            if point is not None and not self.assumptions.admits(zip(point.names, point.values, strict=True)):
+                point = None
+            yield point
 
     def _point(self, statement: Statement | None) -> ParameterPoint | None:
         """A point at which the statement holds; None if none was found."""

@@ -191,10 +191,14 @@ class _Term:
 
 def _forms(above: Any, below: Any) -> Iterator[list[_Term]]:
     """Sums of terms that are equal to the quotient of two polynomials over Z."""
-    forms = [[_Term(Fraction(1), ((above, 1),), ((below, 1),))]]
-    if len(below) == 1 and 1 < len(above) <= (2 if below.is_constant() else _TERMS):
-        forms.append([_factored(above.context().from_dict({e: c}), below) for e, c in above.to_dict().items()])
-    yield from forms if below.is_constant() else reversed(forms)
+    whole = [_Term(Fraction(1), ((above, 1),), ((below, 1),))]
+    is_number = below.is_constant()
+    most = 2 if is_number else _TERMS
+    apart: list[list[_Term]] = []
+    if len(below) == 1 and 1 < len(above) <= most:
+        terms = above.to_dict().items()
+        apart = [[_factored(above.context().from_dict({e: c}), below) for e, c in terms]]
+    yield from [whole, *apart] if is_number else [*apart, whole]
     if not above:
         return
     for i, degree in enumerate(map(int, above.degrees())):

@@ -158,9 +158,13 @@ class Congruence(Statement):
             return self
         name, values = known
         field = self.equation.field
-        numbers = [t for t, value in values.items() if any(coset.contains(value) for coset in self.cosets)]
-        found = [Vanishes(over_parameters(field.generator(name) - number)) for number in numbers]
-        return either(*(here for here in found if here.decided(assumptions) is not False))
+        found: list[Statement] = []
+        for number, value in values.items():
+            here = Vanishes(over_parameters(field.generator(name) - number))
+            is_in_class = any(coset.contains(value) for coset in self.cosets)
+            if is_in_class and here.decided(assumptions) is not False:
+                found.append(here)
+        return either(*found)
 
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))

@@ -81,6 +81,15 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
     return _table().get(_key(known))
 
 
+def _is_reducible(differences: Sequence[Fraction | None]) -> bool:
+    """Is one of the four sums l +- m +- n an odd integer?"""
+    known = [d for d in differences if d is not None]
+    if len(known) < 3:
+        return False
+    l, m, n = known  # noqa: E741
+    return any((l + s * m + t * n) % 2 == 1 for s, t in product((1, -1), repeat=2))
+
+
 @lru_cache(maxsize=1)
 def _table() -> dict[tuple[int, ...], Structure]:
     """Schwarz's rows, for the exponent differences modulo 2 in sixtieths, sorted."""
@@ -313,8 +322,12 @@ def group(problem: Problem, structure: Structure) -> str | None:
 
 def _imprimitive_group(split: _Split) -> str:
     """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
-    halves = [d for d in split.constants if d is not None and d.denominator == 2]
-    third = [d for d in split.constants if d not in halves] + halves[2:]
+    halves: list[Fraction | None] = []
+    others: list[Fraction | None] = []
+    for difference in split.constants:
+        is_half = difference is not None and difference.denominator == 2
+        (halves if is_half else others).append(difference)
+    third = [*others, *halves[2:]]
     if len(split.constants) >= 2 and third:
         return "the infinite dihedral group" if third[0] is None else "dicyclic"
     if len(split.constants) == 2 and split.variable is not None:
@@ -399,11 +412,7 @@ class _OneFunction:
     def structure(self, w: Fraction) -> Structure | None:
         """By Kimura's theorem, with this value of the function."""
         differences = [None if line is None else line[0] * w + line[1] for line in self.lines]
-        if None not in differences:
-            l, m, n = (d for d in differences if d is not None)  # noqa: E741
-            if any((l + s * m + t * n) % 2 == 1 for s, t in product((1, -1), repeat=2)):
-                return Structure.REDUCIBLE
-        return kimura(differences)
+        return Structure.REDUCIBLE if _is_reducible(differences) else kimura(differences)
 
 
 def _one_function(cubic: FunctionPoly) -> _OneFunction | None:

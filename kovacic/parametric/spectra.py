@@ -105,8 +105,9 @@ def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
         return None
     for other in functions[1:]:
         total = functions[0] + other
-        is_number = not total.num.degree and not total.den.degree and total.field.rational_value(total.num) is not None
-        if total and is_number and all(total - f in functions and 2 * f != total for f in functions):
+        if not total or total.num.degree or total.den.degree or total.field.rational_value(total.num) is None:
+            continue
+        if all(total - f in functions and 2 * f != total for f in functions):
             return over_parameters(total.num)
     return None
 

@@ -117,11 +117,16 @@ class _Several(Statement):
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
-        parts = [part.narrowed(assumptions) for part in self.parts]
-        left = [part for part in parts if part.decided(assumptions) is not (not self.decisive)]
+        left = []
+        for part in self.parts:
+            narrower = part.narrowed(assumptions)
+            if narrower.decided(assumptions) is not (not self.decisive):
+                left.append(narrower)
         if not left:
             return self
-        return either(*left) if self.decisive else both(*left) if len(left) > 1 else left[0]
+        if self.decisive:
+            return either(*left)
+        return both(*left) if len(left) > 1 else left[0]
 
 
 class Either(_Several):
@@ -189,11 +194,18 @@ ALWAYS, NEVER = Both(()), Either(())
 def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
     merged: list[Statement] = []
-    for statement in (part for one in statements for part in (one.parts if isinstance(one, Either) else (one,))):
-        unions = ((k, union) for k, known in enumerate(merged) if (union := known.merged(statement)) is not None)
-        place = next(unions, None)
-        if place is not None:
-            merged[place[0]] = place[1]
-        elif statement not in merged:
-            merged.append(statement)
+    for one in statements:
+        for part in one.parts if isinstance(one, Either) else (one,):
+            _add(part, merged)
     return merged[0] if len(merged) == 1 else Either(tuple(merged))
+
+
+def _add(statement: Statement, alternatives: list[Statement]) -> None:
+    """Merged with the first of the alternatives with which that can be, else as a new one."""
+    for k, known in enumerate(alternatives):
+        union = known.merged(statement)
+        if union is not None:
+            alternatives[k] = union
+            return
+    if statement not in alternatives:
+        alternatives.append(statement)
