@@ -597,7 +597,6 @@ class ParametricAnswer:
         lines.append(f"  ({complete}; {self.theory})")
         return visible("\n".join(lines))
 
-    @limited
     def explain(self) -> str:
         """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known.
 
@@ -616,10 +615,7 @@ class ParametricAnswer:
         lines = [self.text(all=True)]
         for region in self.regions:
             lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]
-            known = [str(solution) for d in (None, *range(len(region.determinants))) for solution in region.solution(d)]
-            if not known and region.case == 1:
-                known = [region.why_no_solution]
-            lines += [f"  {line}" for line in known]
+            lines += [f"  {line}" for line in _solutions_of(region)]
         return visible("\n".join(lines))
 
     def __str__(self) -> str:
@@ -628,6 +624,14 @@ class ParametricAnswer:
     def __repr__(self) -> str:
         names, regions = ", ".join(self.parameters), f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
         return f"<Conditions on {names} for y'' = {self.right.text}: {regions}>"
+
+
+def _solutions_of(region: ParameterRegion) -> list[str]:
+    """Those that are known in all of the region, and those for the first natural numbers; in case 1 why there is none."""
+    known = [str(solution) for solution in region.solution()]
+    for number in range(len(region.determinants)):
+        known += [str(solution) for solution in region.solution(number)]
+    return [region.why_no_solution] if not known and region.case == 1 else known
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:

@@ -74,11 +74,12 @@ class Bound:
 def _end(text: str) -> Any:
     """A ball with the real number that a text denotes.  Raises `InputError` for any other text."""
     number = read_input(text, var="x_").S
-    is_constant = number.num.degree <= 0 and number.den.degree <= 0 and number.field.ground == QQ
-    ball = enclosure(number.num[0] / number.den[0]) if is_constant and number else None
-    if ball is None or not ball.imag.contains(0):
-        raise InputError(f"{text!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
-    return ball.real
+    is_constant = number.num.degree <= 0 and number.den.degree <= 0
+    if is_constant and number and number.field.ground == QQ:
+        ball = enclosure(number.num[0] / number.den[0])
+        if ball.imag.contains(0):
+            return ball.real
+    raise InputError(f"{text!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
 
 
 def _matches(pattern: re.Pattern[str], words: Iterable[str]) -> list[re.Match[str]]:

@@ -113,17 +113,24 @@ def _left_to_say(other: Statement, statement: Statement, charts: list[ParameterP
 def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
     """Each once, and none that another one follows from."""
     parts = {statement: {*both(statement).parts} for statement in statements}
-    return tuple(one for one in parts if not any(parts[other] < parts[one] for other in parts))
+    found = []
+    for statement, own in parts.items():
+        if not any(others < own for others in parts.values()):
+            found.append(statement)
+    return tuple(found)
 
 
 def _joined(cases: Iterable[Case]) -> list[Case]:
     joined: list[Case] = []
     for case in cases:
-        last = joined[-1] if joined else None
-        if last is not None and last.without == case.without and _are_one(last.regions[-1], case.regions[0]):
+        if joined and _can_be_joined(joined[-1], case):
             case = Case((*joined.pop().regions, *case.regions), case.without)
         joined.append(case)
     return joined
+
+
+def _can_be_joined(last: Case, case: Case) -> bool:
+    return last.without == case.without and _are_one(last.regions[-1], case.regions[0])
 
 
 def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:

@@ -151,8 +151,10 @@ def _solved_for_a_parameter(above: Any, linear: Sequence[tuple[int, ...]], names
 def _power_in_linear_factors(polynomial: Any) -> tuple[Any, _Term] | None:
     """`(t^k, f)` where the polynomial vanishes exactly where t^k = f, and f is a product of linear forms; None if none is."""
     for i, degree in enumerate(map(int, polynomial.degrees())):
-        parts = by_power(polynomial, i) if degree else {}
-        if len(parts) != 2 or 0 not in parts or not parts[degree].is_constant():
+        if not degree:
+            continue
+        parts = by_power(polynomial, i)
+        if parts.keys() != {0, degree} or not parts[degree].is_constant():
             continue
         value = _factored(-parts[0], parts[degree])
         if all(factor.total_degree() == 1 for factor, _ in value.top):
@@ -244,8 +246,10 @@ def _term(term: _Term, names: Sequence[str]) -> str:
     above = "*".join(top) or "1"
     if bottom:
         return f"{sign}{above}/{_divisor(bottom)}"
-    is_sum_alone = len(top) == 1 and not sign and above.startswith("(") and above.endswith(")")
-    return above[1:-1] if is_sum_alone else sign + above
+    if sign or len(top) != 1:
+        return sign + above
+    is_sum = above.startswith("(") and above.endswith(")")
+    return above[1:-1] if is_sum else above
 
 
 def _divisor(factors: list[str]) -> str:

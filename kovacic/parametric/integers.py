@@ -212,12 +212,23 @@ def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int)
         if symmetric and factor(field.poly([0, -1])).monic() in seen:
             continue
         seen.append(factor)
-        values = [value for c in factor if (value := field.rational_value(c)) is not None]
-        if len(values) <= factor.degree:
+        numbers = _without_parameters(factor)
+        if numbers is None:
             statements.append(Congruence.make(over_parameters(factor), classes, modulus))
-        elif any(root % modulus in classes for root in rational_roots(QQ.poly(values))):
+        elif any(root % modulus in classes for root in rational_roots(numbers)):
             return ALWAYS
     return either(*statements)
+
+
+def _without_parameters(polynomial: Poly) -> Poly | None:
+    """The same over Q; None where a coefficient has parameters."""
+    values: list[Fraction] = []
+    for coefficient in polynomial:
+        value = polynomial.field.rational_value(coefficient)
+        if value is None:
+            return None
+        values.append(value)
+    return QQ.poly(values)
 
 
 def rational_roots(polynomial: Poly) -> list[Fraction]:
@@ -227,6 +238,9 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
         common = polynomial.parts[0]
         for part in polynomial.parts[1:]:
             common = common.gcd(part)
-    factors = QQ.factor(common) if common.degree > 0 else []
-    roots = (QQ.rational_value(-factor[0]) for factor, _ in factors if factor.degree == 1)
-    return [root for root in roots if root is not None]
+    found: list[Fraction] = []
+    for factor, _ in QQ.factor(common) if common.degree > 0 else ():
+        root = QQ.rational_value(-factor[0]) if factor.degree == 1 else None
+        if root is not None:
+            found.append(root)
+    return found

@@ -255,12 +255,16 @@ class Natural(Statement):
 
     def _numbers_written(self) -> str:
         """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
-        listed = None if self.factors is None else alternatives(self.factors, Notation(self.letter, self.fixed))
-        longest = _WRITTEN_OUT if self.m == 1 else _EQUATIONS
-        if listed is not None and len(text_of(listed)) <= longest:
-            return listed
+        found: list[str] = []
+        if self.factors is not None:
+            listed = alternatives(self.factors, Notation(self.letter, self.fixed))
+            if len(text_of(listed)) <= (_WRITTEN_OUT if self.m == 1 else _EQUATIONS):
+                return listed
+            found.append(listed)
         sums = self._by_exponents()
-        return min((said for said in (listed, sums) if said is not None), key=len)
+        if sums is not None:
+            found.append(sums)
+        return min(found, key=len)
 
     def _by_exponents(self) -> str | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""

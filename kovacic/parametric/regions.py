@@ -291,17 +291,27 @@ def _mirrored(regions: Sequence[ParameterRegion]) -> Iterator[ParameterRegion]:
     alone mean the same as one of either: at a point of both, the first of their common conditions that holds decides.
     """
     merged: list[tuple[list[Statement], list[ParameterRegion]]] = []
-    for first, group in groupby(regions, key=lambda region: both(region.statement).parts[0]):
+    for first, group in groupby(regions, key=_first_part):
         block = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
-        firsts, last = merged[-1] if merged else ([], [])
-        if firsts and isinstance(first, Vanishes) and isinstance(firsts[-1], Vanishes) and block == last:
-            firsts.append(first)
+        if merged and _is_mirrored(*merged[-1], first, block):
+            merged[-1][0].append(first)
         else:
             merged.append(([first], block))
     for firsts, block in merged:
         for region in block:
             parts = (either(*firsts), *both(region.statement).parts)
             yield replace(region, statement=Both(parts) if len(parts) > 1 else parts[0])
+
+
+def _first_part(region: ParameterRegion) -> Statement:
+    return both(region.statement).parts[0]
+
+
+def _is_mirrored(
+    firsts: Sequence[Statement], last: Sequence[ParameterRegion], first: Statement, block: Sequence[ParameterRegion]
+) -> bool:
+    """Do two blocks begin with functions that vanish, and say the same otherwise?"""
+    return isinstance(first, Vanishes) and isinstance(firsts[-1], Vanishes) and block == last
 
 
 def in_one_line(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:

@@ -144,10 +144,10 @@ class Schwarz(Statement):
     @cached_property
     def written(self) -> str:
         names = differences(self.cubic)
-        rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
-        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
         if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
             return _two_half_integers(names)
+        rows = [number for number, row in _SCHWARZ.items() if row[0] in self.structures]
+        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
         return f"the exponent differences {', '.join(f'`{name}`' for name in names)} are in Schwarz's {which}"
 
     def narrowed(self, assumptions: Assumptions) -> Statement:

@@ -235,9 +235,12 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
     center = -points[points.degree - 1] / (points.lc * points.degree)
     if S(2 * center - field.poly([0, 1])) != S:
         return False
-    fixed = [p for p in problem.places if p.at_infinity or (p.degree == 1 and p.factor[0] == -center)]
-    # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
-    changes = {p.order // 2 % 2 == 0 for p in fixed if p.kind is Kind.UNRAMIFIED}
+    changes = set()
+    for place in problem.places:
+        is_fixed = place.at_infinity or (place.degree == 1 and place.factor[0] == -center)
+        if is_fixed and place.kind is Kind.UNRAMIFIED:
+            # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
+            changes.add(place.order // 2 % 2 == 0)
     return len(changes) == 2
 
 

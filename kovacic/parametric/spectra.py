@@ -116,12 +116,13 @@ def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[str]:
     """How the functions are written, with one text for f and -f."""
     texts: dict[RatFunc, str] = {}
     for f in functions:
-        if -f in texts:
-            value = n.function(min((-f, f), key=lambda g: _is_negative(n, g)))
-            inside = re.sub(r"[({][^()]*[)}]", "", value)
-            texts[-f] = f"+-({value})" if " + " in inside or " - " in inside else f"+-{value}"
-        else:
+        if -f not in texts:
             texts[f] = n.function(f)
+            continue
+        value = n.function(min((-f, f), key=lambda g: _is_negative(n, g)))
+        inside = re.sub(r"[({][^()]*[)}]", "", value)
+        is_sum = " + " in inside or " - " in inside
+        texts[-f] = f"+-({value})" if is_sum else f"+-{value}"
     return [*texts.values()]
 
 
@@ -267,19 +268,32 @@ def _roots(equation: FunctionPoly) -> tuple[FunctionPoly, list[Poly]] | None:
         return None
     mean = over_parameters(-equation[k - 1] / (equation.lc * k))
     shifted = equation(field.poly([0, 1]) + mean) / equation.lc
-    if k == 2:
-        return mean, [-shifted[0]]
     if any(shifted[i] for i in range(1, k, 2)):
         return None
-    if k == 4:
-        difference, total = field.sqrt(shifted[0]), -shifted[2] / 2
-        return None if difference is None else (mean, [(total + difference) / 2, (total - difference) / 2])
-    # ((z - s1)^2 - 4 s2)^2 - 64 s3 z with z = N^2, s_i the symmetric functions of the three squares
+    if k == 2:
+        return mean, [-shifted[0]]
+    squares = _two_squares(shifted) if k == 4 else _three_squares(shifted)
+    return None if squares is None else (mean, squares)
+
+
+def _two_squares(shifted: Poly) -> list[Poly] | None:
+    """Of roots whose sums, with all signs, are the roots of a polynomial N^4 + ..."""
+    difference = shifted.field.sqrt(shifted[0])
+    if difference is None:
+        return None
+    total = -shifted[2] / 2
+    return [(total + difference) / 2, (total - difference) / 2]
+
+
+def _three_squares(shifted: Poly) -> list[Poly] | None:
+    """By ((z - s1)^2 - 4 s2)^2 - 64 s3 z with z = N^2, s_i the symmetric functions of the three squares."""
     s1 = -shifted[6] / 4
     s2 = (6 * s1 * s1 - shifted[4]) / 8
     s3 = (16 * s1 * s2 - 4 * s1**3 - shifted[2]) / 64
     if shifted[0] != (s1 * s1 - 4 * s2) ** 2:
         return None
-    factors = field.factor(field.poly([-s3, s2, -s1, 1]))
-    squares = [-factor[0] for factor, multiplicity in factors for _ in range(multiplicity) if factor.degree == 1]
-    return (mean, squares) if len(squares) == 3 else None
+    squares: list[Poly] = []
+    for factor, multiplicity in shifted.field.factor(shifted.field.poly([-s3, s2, -s1, 1])):
+        if factor.degree == 1:
+            squares += [-factor[0]] * multiplicity
+    return squares if len(squares) == 3 else None
