@@ -180,13 +180,17 @@ class ParametricAnswer:
         >>> [str(delta) for delta in quartic.determinant(1)]
         ['a^4 - 8*a^2*c + 32*a + 16*c^2', 'a^4 - 8*a^2*c + 32*a + 16*c^2']
         """
-        parts = [part for region in self.regions for part in both(region.statement).parts]
-        natural = [part for part in parts if isinstance(part, Natural)]
+        natural: list[Natural] = []
+        for region in self.regions:
+            natural += [part for part in both(region.statement).parts if isinstance(part, Natural)]
         if not natural:
             raise InputError("no condition has a natural number in it")
         number = whole(number, "the natural number d")
+        found: list[Determinant] = []
         with Budget(self.limits).watched():
-            return tuple(determinant for statement in natural for determinant in statement.determinants(number))
+            for statement in natural:
+                found += statement.determinants(number)
+        return tuple(found)
 
     @limited
     def case_at(self, values: Mapping[Any, Any]) -> int | None:

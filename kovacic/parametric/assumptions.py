@@ -124,6 +124,11 @@ class Known:
         return False if "irrational" in self.words else None
 
     @property
+    def concerns_exponents(self) -> bool:
+        """Is anything known beside signs?"""
+        return self.coset is not None or self.rational is False or "noninteger" in self.words
+
+    @property
     def bounds(self) -> list[Bound]:
         """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
         found: dict[int, Bound] = {}
@@ -167,12 +172,17 @@ class Known:
     def _admits(self, number: Fraction) -> bool:
         if not all(_COSETS[word].contains(number) for word in self.words if word in _COSETS):
             return False
-        if self.rational is False or ("noninteger" in self.words and number.denominator == 1):
+        if self.rational is False:
             return False
-        if any(Fraction(match[1]) == number for match in _matches(_UNEQUAL, self.words)):
+        if "noninteger" in self.words and number.denominator == 1:
             return False
-        if any(_is_beyond(sign, _ball(number), end) for sign, end in _ends(self.words)):
+        excluded = [Fraction(match[1]) for match in _matches(_UNEQUAL, self.words)]
+        if number in excluded:
             return False
+        ball = _ball(number)
+        for sign, end in _ends(self.words):
+            if _is_beyond(sign, ball, end):
+                return False
         return all(bound.admits(number) for bound in self.bounds)
 
     def sample(self, random: Random) -> Fraction:
@@ -221,7 +231,7 @@ class Assumptions:
     @property
     def concerns_exponents(self) -> bool:
         """Is anything known beside signs?"""
-        return any(known.coset or known.rational is False or "noninteger" in known.words for _, known in self.known)
+        return any(known.concerns_exponents for _, known in self.known)
 
     def of(self, name: str) -> Known:
         return dict(self.known).get(name, Known())
@@ -334,8 +344,10 @@ class Assumptions:
         if not form.den.is_constant():
             return False
         names = form.field.names
-        bounds = [self.of(name).bounds if k else [_NO_BOUND] for name, k in zip(names, degrees(form), strict=True)]
-        for chosen in product(*bounds):
+        choices = []
+        for name, degree in zip(names, degrees(form), strict=True):
+            choices.append(self.of(name).bounds if degree else [_NO_BOUND])
+        for chosen in product(*choices):
             values = [form.field.generator(n) * b.sign + b.end for n, b in zip(names, chosen, strict=True)]
             terms = over_parameters(form.value_at(values, form.field)).num.to_dict()
             if not all(coefficient > 0 for coefficient in terms.values()):
@@ -380,9 +392,12 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     Raises `InputError` for a name that isn't a parameter, and for a word that isn't one of `WORDS` ("real" and "complex" say
     nothing that could be used).
     """
-    found = {s.name: _words_of(s) for s in getattr(S, "free_symbols", ()) if s.name in names}
     if assume is not None and not isinstance(assume, Mapping):
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
+    found: dict[str, list[str]] = {}
+    for symbol in getattr(S, "free_symbols", ()):
+        if symbol.name in names:
+            found[symbol.name] = _words_of(symbol)
     for name, what in (assume or {}).items():
         if str(name) not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
@@ -413,10 +428,8 @@ def _read_words(what: object) -> list[str]:
 def _words_of(symbol: Any) -> list[str]:
     """What SymPy knows of a symbol, without what follows from the rest."""
     words = _arithmetic_of(symbol)
-    for word in _INEQUALITIES:
-        if getattr(symbol, f"is_{word}"):
-            words.append(word)
-            break
+    signs = [word for word in _INEQUALITIES if getattr(symbol, f"is_{word}")]
+    words += signs[:1]
     if symbol.is_zero is False and not Known(tuple(words)).nonzero:
         words.append("nonzero")
     return words

@@ -189,8 +189,9 @@ def _on_chart(statement: Statement, chart: ParameterPoint) -> list[ParameterPoin
             return _where_zero(chart.at(statement.function), chart)
         if isinstance(statement, Congruence):
             return _without_unknown(chart.at(statement.equation), chart)
-        if isinstance(statement, Natural) and statement.factors is not None:
-            return _union((_without_unknown(chart.at(factor), chart) for factor in statement.factors), chart)
+        if isinstance(statement, Natural):
+            parts = (_without_unknown(chart.at(factor), chart) for factor in statement.factors or ())
+            return [chart] if statement.factors is None else _union(parts, chart)
     except ZeroDivisionError:  # a statement doesn't hold where it isn't defined
         return []
     except (TypeError, ValueError):  # no function of parameters

@@ -84,8 +84,11 @@ def _apparent(problem: Problem) -> int:
     """The sum of m (m + 1) over the poles with constant exponents -m, m + 1."""
     total = 0
     for place in problem.finite_places:
-        if place.kind is Kind.REGULAR and place.delta is not None and place.delta.denominator == 1 and place.delta % 2:
-            total += int(place.delta**2 - 1) // 4 * place.degree
+        delta = place.delta  # 2 m + 1
+        if place.kind is not Kind.REGULAR or delta is None:
+            continue
+        if delta.denominator == 1 and delta % 2:
+            total += int(delta**2 - 1) // 4 * place.degree
     return total
 
 

@@ -127,12 +127,14 @@ def equation_written(function: FunctionPoly) -> str:
     constants = [exponents for exponents in terms if not any(exponents)]
     if linear and len(terms) == len(linear) + len(constants):
         return _solved_for_a_parameter(above, linear, names)
-    power = None if len(terms) < 3 else _power_in_linear_factors(above)
-    if power is not None:
-        return f"{_polynomial(power[0], names)} = {_sum([power[1]], names)}"
-    negative = [exponents for exponents, c in terms.items() if int(c) < 0]
+    if len(terms) > 2:
+        power = _power_in_linear_factors(above)
+        if power is not None:
+            left, value = power
+            return f"{_polynomial(left, names)} = {_sum([value], names)}"
+    negative = {exponents: -int(c) for exponents, c in terms.items() if int(c) < 0}
     if len(terms) == 2 and len(negative) == 1:
-        right = above.context().from_dict({e: abs(int(terms[e])) for e in negative})
+        right = above.context().from_dict(negative)
         return f"{_polynomial(above + right, names)} = {_polynomial(right, names)}"
     return f"{_polynomial(above, names)} = 0"
 

@@ -94,24 +94,35 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
 
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
+    theorem = _theorem_for(problem, expected, settings)
+    if theorem is not None:
+        return _by_theorem(problem, theorem, expected, settings)
+    if settings.only_theorems:
+        return Partition(expected, "for generic values only", "no theorem covers all values")
+    simpler = transformation(problem)
+    if simpler is not None:
+        return _by_transformation(problem, simpler, settings)
+    return _by_candidates(problem, expected, settings)
+
+
+def _theorem_for(problem: Problem, expected: RegionVerdict, settings: Settings) -> Theorem | None:
+    """One that covers all values of the parameters."""
     if expected.known and expected.structure is Structure.REDUCIBLE:
         name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
-        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [ParameterRegion(ALWAYS, expected)])
-    else:
-        theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
-    if theorem is None:
-        if settings.only_theorems:
-            return Partition(expected, "for generic values only", "no theorem covers all values")
-        simpler = transformation(problem)
-        if simpler is not None:
-            return _by_transformation(problem, simpler, settings)
-        return _by_candidates(problem, expected, settings)
-    regions, always = _degenerate(problem.S, theorem.exceptions, settings), RegionVerdict(None)
+        return Theorem(name, restriction.undefined(problem), [ParameterRegion(ALWAYS, expected)])
+    return kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
+
+
+def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, settings: Settings) -> Partition:
+    """The regions up to the first that is everything, whose verdict is the generic one."""
+    regions = _degenerate(problem.S, theorem.exceptions, settings)
+    always = RegionVerdict(None)
     for region in theorem.regions:
         if region.statement == ALWAYS:
             always = region.verdict
             break
-        regions += [] if region.statement == NEVER else [region]
+        if region.statement != NEVER:
+            regions.append(region)
     if always == expected and expected.case == 1:
         regions = [region for region in regions if not region.defined]
     if expected.known and expected.case != always.case:

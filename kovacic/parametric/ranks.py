@@ -64,12 +64,17 @@ def has_kernel(images: Sequence[Poly]) -> bool:
 
     A rank modulo a prime can only be smaller: where it is full there, it is full.
     """
+    count = len(images)
     width = max((image.degree for image in images), default=-1) + 1
-    if width < len(images):
+    if width < count:
         return True
     rows = [_integers(image, width) for image in images]
-    modular = nmod_mat(len(rows), width, [entry % _PRIME for row in rows for entry in row], _PRIME)
-    return bool(modular.rank() < len(rows) and fmpz_mat(rows).rank() < len(rows))
+    entries: list[int] = []
+    for row in rows:
+        entries += [entry % _PRIME for entry in row]
+    if nmod_mat(count, width, entries, _PRIME).rank() == count:
+        return False
+    return bool(fmpz_mat(rows).rank() < count)
 
 
 def _integers(image: Poly, width: int) -> list[int]:
@@ -254,12 +259,16 @@ def _rows_of(columns: Sequence[dict[int, Any]]) -> list[dict[int, Any]]:
 
 def _constant_entry(rows: Sequence[dict[int, Any]]) -> tuple[int, int] | None:
     """Row and column of the constant entry with the fewest others in its row times those in its column; None without any."""
-    weights = Counter(k for row in rows for k in row)
+    weights: Counter[int] = Counter()
+    for row in rows:
+        weights.update(row.keys())
     best: tuple[int, int, int] | None = None
     for i, row in enumerate(rows):
         for k, entry in row.items():
+            if not entry.is_constant():
+                continue
             place = (len(row) * weights[k], i, k)
-            if entry.is_constant() and (best is None or place < best):
+            if best is None or place < best:
                 best = place
     return None if best is None else best[1:]
 

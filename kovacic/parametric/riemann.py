@@ -47,7 +47,7 @@ from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, bo
 
 _F = Fraction
 #: The largest denominator in Schwarz's table.
-_LARGEST = 5
+LARGEST = 5
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
 _SCHWARZ: dict[int, tuple[Structure, tuple[Fraction, Fraction, Fraction], bool]] = {
     2: (Structure.TETRAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 3)), False),
@@ -76,7 +76,7 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
     known = [d for d in differences if d is not None]
     if sum(d.denominator == 2 for d in known) >= 2:
         return Structure.IMPRIMITIVE
-    if len(known) < 3 or any(d.denominator > _LARGEST for d in known):
+    if len(known) < 3 or any(d.denominator > LARGEST for d in known):
         return None
     return _table().get(_key(known))
 
@@ -128,18 +128,23 @@ class Schwarz(Statement):
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
-        differences = [self.cubic.field.sqrt(square) for square in dict.fromkeys(roots(self.cubic))]
-        rows = [[_F(k, 60) for k in key] for key, structure in _table().items() if structure in self.structures]
-        values = [_F(1, 2), _F(3, 2)]
-        if rows:
-            values = random.choice(rows)
-        else:
-            values.append(_F(random.randint(1, 9), random.randint(2, 9)))
+        values = self._sample_row(random)
         random.shuffle(values)
-        known = [over_parameters(difference) for difference in differences if difference is not None]
+        known: list[FunctionPoly] = []
+        for square in dict.fromkeys(roots(self.cubic)):
+            difference = self.cubic.field.sqrt(square)
+            if difference is not None:
+                known.append(over_parameters(difference))
         if len(known) != 3:
             return []
         return [root - value for root, value in zip(known, values, strict=True)]
+
+    def _sample_row(self, random: Random) -> list[Fraction]:
+        """Three differences with one of the structures: the imprimitive one has two half-integers."""
+        rows = [key for key, structure in _table().items() if structure in self.structures]
+        if rows:
+            return [_F(k, 60) for k in random.choice(rows)]
+        return [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
 
     @cached_property
     def written(self) -> str:
@@ -155,7 +160,7 @@ class Schwarz(Statement):
         field = self.cubic.field
         for square in roots(self.cubic):
             difference = field.sqrt(square)
-            known = None if difference is None else values_at_integers(over_parameters(difference), _LARGEST)
+            known = None if difference is None else values_at_integers(over_parameters(difference), LARGEST)
             if known is not None and assumptions.is_integer(known[0]):
                 return self._at_values(*known, assumptions)
         return self
@@ -242,13 +247,15 @@ def _is_symmetric(found: Sequence[_Pair]) -> bool:
 def _two_half_integers(names: list[str]) -> str:
     """That two of the exponent differences, of which no constant one is a half-integer, are half-integers."""
     free = [name for name in names if not re.fullmatch(r"[\d/]+", name)]
-    twice = [name for name in free if free.count(name) > 1]
-    different = [f"`{name}`" for name in (twice[:1] or free)]
-    if len(different) == 1:
-        return f"{different[0]} is a half-integer"
-    if len(different) == 2:
-        return f"{' and '.join(different)} are half-integers"
-    return f"two of {', '.join(different)} are half-integers"
+    for name in free:
+        if free.count(name) > 1:
+            return f"`{name}` is a half-integer"
+    said = [f"`{name}`" for name in free]
+    if len(said) == 1:
+        return f"{said[0]} is a half-integer"
+    if len(said) == 2:
+        return f"{' and '.join(said)} are half-integers"
+    return f"two of {', '.join(said)} are half-integers"
 
 
 def differences(cubic: FunctionPoly) -> list[str]:
@@ -368,10 +375,13 @@ def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> 
     """Has a row of the table the constant differences?"""
     if structure is Structure.IMPRIMITIVE:
         return True
-    if any(d is None or d.denominator > _LARGEST for d in constants):
-        return False
-    residues = {_sixtieths(d) for d in constants if d is not None}
-    return any(residues <= set(row) for row, known in _table().items() if known is structure)
+    residues = set()
+    for difference in constants:
+        if difference is None or difference.denominator > LARGEST:
+            return False
+        residues.add(_sixtieths(difference))
+    rows = [row for row, known in _table().items() if known is structure]
+    return any(residues <= {*row} for row in rows)
 
 
 def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fraction | None]) -> Statement:
@@ -472,7 +482,7 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
 def _numbers_in_table(a: Fraction, b: Fraction, period: Fraction) -> set[Fraction]:
     """The w modulo a period for which a w + b has a denominator of the table: modulo 2, one of its values."""
     found = set()
-    for denominator in range(2, _LARGEST + 1):
+    for denominator in range(2, LARGEST + 1):
         for k in range(2 * denominator):
             if gcd(k, denominator) > 1:
                 continue

@@ -131,11 +131,17 @@ def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
     found: dict[int, list[Structure]] = {}
     if _has_logarithms(problem):
         return found
-    if sum(place.degree for place in problem.places if _may_be_branch_point(place)) >= 2:
+    branch_points = [place.degree for place in problem.places if _may_be_branch_point(place)]
+    if sum(branch_points) >= 2:
         found[4] = [Structure.IMPRIMITIVE]
-    if riemann.is_fuchsian(problem) and all(p.delta is None or p.delta.denominator <= 5 for p in problem.places):
+    if riemann.is_fuchsian(problem) and all(map(_is_finite_or_unknown, problem.places)):
         found[12] = [Structure.TETRAHEDRAL]
     return found
+
+
+def _is_finite_or_unknown(place: Place) -> bool:
+    """Can the denominator of the exponent difference be one of Schwarz's table?"""
+    return place.delta is None or place.delta.denominator <= riemann.LARGEST
 
 
 def _may_be_branch_point(place: Place) -> bool:

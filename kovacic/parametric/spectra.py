@@ -53,11 +53,14 @@ class Notation:
 
 def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[str, RatFunc]]:
     """`(name, f)` where a polynomial in N over Q(t) vanishes exactly if a parameter, not a `fixed` one, is f(N)."""
-    found = []
+    found: list[tuple[str, RatFunc]] = []
     for i, name in enumerate(equation.field.names):
-        if degrees(equation)[i] == 1 and name not in fixed:
-            parts = powers_of(equation, i)
-            found.append((name, -RatFunc(parts.get(0, 0 * parts[1]), parts[1])))
+        if degrees(equation)[i] != 1 or name in fixed:
+            continue
+        parts = powers_of(equation, i)
+        slope = parts[1]
+        rest = parts.get(0, 0 * slope)
+        found.append((name, -RatFunc(rest, slope)))
     return found
 
 
@@ -185,15 +188,21 @@ def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: 
 def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
     """What the statement says for a possible n at which f isn't defined: that its numerator vanishes there."""
     f = choice.f
+    if not f.den.degree:
+        return []
     notes: list[str] = []
-    for factor, _ in f.field.factor(f.den) if f.den.degree else ():
+    for factor, _ in f.field.factor(f.den):
         root = f.field.rational_value(-factor[0]) if factor.degree == 1 else None
         if root is None or not choice.is_possible(root):
             continue
-        zeros = [n.function(zero) for zero in irreducible_factors(over_parameters(f.num(root)))]
-        if zeros:
-            zero = zeros[0] if len(zeros) == 1 else f"({')*('.join(zeros)})"
-            notes.append(f"`{zero} = 0` where `{n.letter} = {root}`")
+        value = over_parameters(f.num(root))
+        zeros = [n.function(zero) for zero in irreducible_factors(value)]
+        if not zeros:
+            continue
+        zero = zeros[0]
+        if len(zeros) > 1:
+            zero = f"({')*('.join(zeros)})"
+        notes.append(f"`{zero} = 0` where `{n.letter} = {root}`")
     return notes
 
 

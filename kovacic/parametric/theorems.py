@@ -226,7 +226,8 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     found: list[Statement] = []
     for square, denominator in zip(squares, denominators, strict=False):
         equation = over_parameters(problem.field.poly([-square * denominator**2, 0, 1]))
-        statement = integer_roots(equation, [r for r in range(denominator) if gcd(r, denominator) == 1], denominator)
+        coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
+        statement = integer_roots(equation, coprime, denominator)
         if statement == NEVER:
             return NEVER
         if statement not in found:
