@@ -222,10 +222,15 @@ def _coefficient(function: RatFunc, variable: str) -> str:
         return function.to_str(variable)
     terms = []
     for power, number in reversed([*enumerate(num.rational_coefficients())]):  # flint's, printed without a limit
-        factor = {0: "", 1: variable}.get(power, f"{variable}**{power}")
-        sign, size = ("-" if number < 0 else ""), str(abs(number))
-        if number:
-            terms.append(sign + (factor if size == "1" and factor else f"{size}*{factor}" if factor else size))
+        if not number:
+            continue
+        sign = "-" if number < 0 else ""
+        size = str(abs(number))
+        factor = variable if power == 1 else f"{variable}**{power}"
+        if power == 0:
+            terms.append(sign + size)
+        else:
+            terms.append(sign + (factor if size == "1" else f"{size}*{factor}"))
     return " + ".join(terms).replace("+ -", "- ") or "0"
 
 

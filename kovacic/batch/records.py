@@ -173,7 +173,9 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
         added["group"] = group_dict(solution)
     head = json_line(added)
     structure = solution.decision.structure
-    label = UNDECIDED if solution.reason else _LABELS[None if structure is None else structure.value][0]
+    label = UNDECIDED
+    if not solution.reason:
+        label = _LABELS[None if structure is None else structure.value][0]
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
 
 

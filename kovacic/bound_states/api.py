@@ -450,12 +450,9 @@ def _doubled(condition: Any) -> Any:
     if not slope.is_number or slope == 0:
         return condition
     bound = sympy.expand(-solved.subs(n, 0) / slope)
-    relation = (
-        (sympy.StrictGreaterThan if strict else sympy.GreaterThan)
-        if slope > 0
-        else (sympy.StrictLessThan if strict else sympy.LessThan)
-    )
-    return relation(n, bound)
+    if slope > 0:
+        return sympy.StrictGreaterThan(n, bound) if strict else sympy.GreaterThan(n, bound)
+    return sympy.StrictLessThan(n, bound) if strict else sympy.LessThan(n, bound)
 
 
 def _spectrum(question: Question, ends: Sequence[End], **found: Any) -> Spectrum:

@@ -158,7 +158,8 @@ def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> 
     if not angle.is_number:
         raise Uncovered(f"the end {at} isn't a multiple of pi/({original.rate})")
     value = getattr(sympy, kind)(angle + (1 if is_left else -1) * sympy.Rational(1, 1000))
-    return 1 if (1 / value if point == sympy.oo else value - point) > 0 else -1
+    distance = 1 / value if point == sympy.oo else value - point
+    return 1 if distance > 0 else -1
 
 
 def _infinite(at: Any, x: Any, mu: int, j: int, strength: Any, signs: Signs) -> End:
@@ -229,12 +230,11 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
     root = exact_root(square)
     if square.is_number or root is None:
         return sympy.Lt(square, 1)
+    if signs.holds(sympy.Lt(square, 1)) is not None:
+        return sympy.Lt(square, 1)
     sign = signs.sign(root)
-    return (
-        tidied([sympy.Lt(sympy.Abs(root) if sign is None else sign * root, 1)], signs)[0]
-        if signs.holds(sympy.Lt(square, 1)) is None
-        else sympy.Lt(square, 1)
-    )
+    size = sympy.Abs(root) if sign is None else sign * root
+    return tidied([sympy.Lt(size, 1)], signs)[0]
 
 
 def _relation(relation: Any) -> str:

@@ -211,9 +211,9 @@ def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
                 from kovacic.bound_states.waves import laguerre_wave
 
                 wave, norm = laguerre_wave(frame, origin, rate, difference, ends.signs)
-                zeros = (
-                    2 * ends.signs.n + (1 if difference.is_positive else 0) if "fold" in origin.roles else ends.signs.n
-                )
+                zeros = ends.signs.n
+                if "fold" in origin.roles:
+                    zeros = 2 * zeros + int(bool(difference.is_positive))
                 yield Family(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
 
 

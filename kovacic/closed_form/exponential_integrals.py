@@ -145,8 +145,9 @@ def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
 
 def _limit(E: RatFunc) -> list[Poly]:
     """The value at infinity, if E is finite there."""
-    finite = E.num.degree <= E.den.degree
-    return [E.num.lc / E.den.lc if E.num.degree == E.den.degree else E.num * 0] if finite else []
+    if E.num.degree > E.den.degree:
+        return []
+    return [E.num.lc / E.den.lc if E.num.degree == E.den.degree else E.num * 0]
 
 
 def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:

@@ -125,8 +125,10 @@ def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> Primitive | str:
 def _with_exponential(r: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive | str:
     if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
         return "the integrand has an exponential and fractional powers of several factors"
-    alpha = fractional[0][1] if fractional else Fraction(0)
-    below = fractional[0][0] if fractional else E.num if E.is_polynomial else E.den
+    alpha = Fraction(0)
+    below = E.num if E.is_polynomial else E.den
+    if fractional:
+        below, alpha = fractional[0]
     n = below.degree
     centre = -below[n - 1] / (below.lc * n) if fractional or n > 1 or not E.is_polynomial else below * 0
     moved = RatFunc(r.field.poly([centre[0], 1]))

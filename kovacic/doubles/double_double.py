@@ -111,12 +111,16 @@ class Complex:
         return cls(Pair.of(value.real), None if value.imag.contains(0) else Pair.of(value.imag))
 
     def __add__(self, other: Complex) -> Complex:
-        im = self.im if other.im is None else other.im if self.im is None else self.im + other.im
-        return Complex(self.re + other.re, im)
+        re = self.re + other.re
+        if other.im is None:
+            return Complex(re, self.im)
+        return Complex(re, other.im if self.im is None else self.im + other.im)
 
     def __sub__(self, other: Complex) -> Complex:
-        im = self.im if other.im is None else -other.im if self.im is None else self.im - other.im
-        return Complex(self.re - other.re, im)
+        re = self.re - other.re
+        if other.im is None:
+            return Complex(re, self.im)
+        return Complex(re, -other.im if self.im is None else self.im - other.im)
 
     def __mul__(self, other: Complex) -> Complex:
         if other.im is None:

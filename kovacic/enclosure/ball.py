@@ -467,7 +467,7 @@ class Ball:
         if not spec:
             return str(self)
         re, im = (format(_decimal(part), spec) for part in (self.re, self.im))
-        return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"
+        return self._as_number(re, im)
 
     def __str__(self) -> str:
         """All digits that are known, and a radius that covers what was rounded; 40 digits of an exact number."""
@@ -487,7 +487,10 @@ class Ball:
         return "$" + re.sub(r"e([+-]?\d+)", lambda power: rf" \cdot 10^{{{int(power[1])}}}", text) + "$"
 
     def _as_number(self, re: str, im: str) -> str:
-        return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"
+        if self.real:
+            return re
+        sign = "-" if im.startswith("-") else "+"
+        return f"({re} {sign} {im.lstrip('-')}j)"
 
     def _decimal_disc(self, digits: int) -> tuple[str, str, str]:
         """A disc around this one in decimals: its midpoint is that of the ball to so many digits, its radius covers that."""

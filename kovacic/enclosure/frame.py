@@ -42,7 +42,9 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Parts,
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
     q, p = system.along("den", centre, scale), system.along("num", centre, scale)
     re, im = q[0][0], q[1][0]
-    turn = ExactPoint(re, -im) if im != 0 else ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
+    turn = ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
+    if im != 0:
+        turn = ExactPoint(re, -im)
     parts = [*_times(p, scale * scale * turn), *_times(q, turn)]
     common = math.lcm(*(int(part.denom()) for part in parts))
     whole = [(part * common).numer() for part in parts]

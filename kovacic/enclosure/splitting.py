@@ -94,7 +94,9 @@ def _times(a: Gauss, b: Gauss) -> Gauss:
 
 
 def _plus(a: Gauss, b: Gauss) -> Gauss:
-    return a[0] + b[0], b[1] if a[1] is None else a[1] if b[1] is None else a[1] + b[1]
+    if a[1] is None:
+        return a[0] + b[0], b[1]
+    return a[0] + b[0], a[1] if b[1] is None else a[1] + b[1]
 
 
 class PolynomialMatrix:

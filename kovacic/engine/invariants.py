@@ -105,10 +105,19 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
         is_single = len(bases[0]) == 1
         if is_single and not recurrence_tried and _recurrence_is_cheaper(problem, m, N, lifter.primes_used):
             recurrence_tried = True
-            lifted = polynomial_invariant(problem, m, N, valuations)
-            if lifted is not None and Form(m, R0, lifted).is_form(problem):
-                return [Form(m, R0, lifted)]
+            form = _by_recurrence(problem, m, N, valuations, R0)
+            if form is not None:
+                return [form]
     raise AssertionError("the sequence of primes is infinite")
+
+
+def _by_recurrence(problem: Problem, m: int, N: int, valuations: list[int], R0: Poly) -> Form | None:
+    """The invariant that is found over the field itself, verified; None if there is none."""
+    lifted = polynomial_invariant(problem, m, N, valuations)
+    if lifted is None:
+        return None
+    form = Form(m, R0, lifted)
+    return form if form.is_form(problem) else None
 
 
 def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -> bool:

@@ -90,7 +90,9 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     if N == 1:
         return EquationGroup(normal_form, 1, given, normal_form.finite, normal_form.order)
     if kind is GroupKind.SL2:
-        name = "GL2" if N is None else "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
+        name = "SL2" if N == 2 else "GL2"
+        if N not in (None, 2):
+            name = f"SL2 with the scalars mu_{lcm(2, N)}"
         return EquationGroup(normal_form, N, name, False)
     assert f is not None
     if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):

@@ -130,7 +130,9 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
     if h is not None and (h.has(*JUMPING) or h.has(AppliedUndef)):
         return _is_wrong_in_pieces(question, value)
     middle = None if start is None else ball(_sampled(start, start.free_symbols, 1))
-    base = acb(fmpq(23, 71), fmpq(0) if start is not None else fmpq(41, 89)) if middle is None else middle
+    base = middle
+    if base is None:
+        base = acb(fmpq(23, 71), fmpq(41, 89) if start is None else fmpq(0))
     with ctx.workdps(DIGITS):
         return _residual_is_large(question, value, base + arb(_STEP))
 

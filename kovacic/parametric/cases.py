@@ -211,7 +211,9 @@ def _union(parts: Iterable[list[ParameterPoint]], chart: ParameterPoint) -> list
 
 def _without_unknown(equation: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
     """Where an equation for a number can have a root: everywhere, if the number occurs in it on the chart."""
-    return [chart] if equation.degree > 0 else _where_zero(equation[0] if equation else equation, chart)
+    if equation.degree > 0:
+        return [chart]
+    return _where_zero(equation[0] if equation else equation, chart)
 
 
 def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:

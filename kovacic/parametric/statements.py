@@ -113,7 +113,9 @@ class _Several(Statement):
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         decisions = {part.decided(assumptions) for part in self.parts}
-        return self.decisive if self.decisive in decisions else None if None in decisions else not self.decisive
+        if self.decisive in decisions:
+            return self.decisive
+        return None if None in decisions else not self.decisive
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
@@ -184,7 +186,10 @@ class Both(_Several):
 
 def both(*statements: Statement) -> Both:
     """One statement that says that all of them hold."""
-    return Both(tuple(part for one in statements for part in (one.parts if isinstance(one, Both) else (one,))))
+    parts: list[Statement] = []
+    for one in statements:
+        parts += one.parts if isinstance(one, Both) else (one,)
+    return Both(tuple(parts))
 
 
 #: What is true everywhere, and nowhere.

@@ -166,7 +166,9 @@ class Constants:
         numbers = self.numbers
         if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
             real, imaginary = map(float, numbers.approximation or ())
-            where = f"{real:.6g}" + (f" {'-' if imaginary < 0 else '+'} {abs(imaginary):.6g}*I" if imaginary else "")
+            where = f"{real:.6g}"
+            if imaginary:
+                where += f" {'-' if imaginary < 0 else '+'} {abs(imaginary):.6g}*I"
             found.append(f"alpha is the root of {numbers.modulus.to_str('alpha')} near {where}")
         return found
 

@@ -142,7 +142,9 @@ class RationalReader:
         if not isinstance(closed, Poly) or not closed.is_constant:
             raise NotRational(f"{place.text()} isn't a rational function of {self.variable}", hint=usage("sqrt"))
         radicand = closed.to_str() if closed.field == QQ else ""
-        label = f"{'cbrt' if n == 3 else 'sqrt'}({radicand})" if n < 4 else f"root({radicand}, {n})"
+        label = f"root({radicand}, {n})"
+        if n < 4:
+            label = f"{'cbrt' if n == 3 else 'sqrt'}({radicand})"
         root = self.constants.radical(closed, n, label if radicand else place.text())
         if root is None:
             hint = "take the root itself as the parameter: sqrt(t) with t = s^2"

@@ -176,7 +176,9 @@ def with_constant(S: RatFunc, f: RatFunc, q: Poly, r: Poly) -> tuple[RatFunc, Po
 def _value_at_poles(f: RatFunc, den: Poly) -> Poly | None:
     """The one value of f at all roots of den, at infinity if there are none; None if there isn't one."""
     if den.degree == 0:
-        return None if f.degree > 0 else f.num.lc if f.degree == 0 else f.num * 0
+        if f.degree > 0:
+            return None
+        return f.num.lc if f.degree == 0 else f.num * 0
     bits = den.height_bits()
     check_duration(_GCD_SECONDS * den.degree * float(bits) ** 2, f"a gcd of polynomials with {bits} bits")
     radical = den // den.gcd(den.derivative())

@@ -91,10 +91,13 @@ class Steps:
                 delta = Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
             else:
                 delta = "not rational"
+        order = str(place.order)
+        if place.at_infinity:
+            order = str(-self.answer.S.degree) if self.answer.S else "-"
         return [
             self.formulas.place(str(place)),
             "1" if place.at_infinity else str(place.degree),
-            str(place.order) if not place.at_infinity else str(-self.answer.S.degree) if self.answer.S else "-",
+            order,
             _KINDS[place.kind] + (", logarithm" if place.logarithm else ""),
             delta,
         ]

@@ -318,7 +318,8 @@ def _listed(parts: list[Math]) -> list[str | Math]:
     """`a, b and c`."""
     found: list[str | Math] = []
     for k, part in enumerate(parts):
-        found += [" and " if k == len(parts) - 1 else ", "] if k else []
+        if k:
+            found.append(" and " if k == len(parts) - 1 else ", ")
         found.append(part)
     return found
 

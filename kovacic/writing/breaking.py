@@ -164,7 +164,9 @@ class _Writer:
     def _factor(self, nodes: list[Node]) -> str:
         """In parentheses, if it is a sum or a product."""
         parts = [node for node in nodes if node != " "]
-        end = _closing(parts, 1) + 2 if parts[0] == r"\left" else 2 if parts[0] == r"\sqrt" else 1
+        end = 2 if parts[0] == r"\sqrt" else 1
+        if parts[0] == r"\left":
+            end = _closing(parts, 1) + 2
         single = len(parts) == end or (len(parts) == end + 2 and parts[end] == "^")
         return self.written(nodes) if single else rf"\bigl({self.written(nodes)}\bigr)"
 

@@ -133,7 +133,10 @@ class Formulas:
             return Math(place, r"\infty")
         factor, x = self.place_name(place), self.variable
         root = {f"{x} - ": "", f"{x} + ": "-"}.get(factor[: len(x) + 3])
-        root = "0" if factor == x else None if root is None else root + factor[len(x) + 3 :]
+        if root is not None:
+            root += factor[len(x) + 3 :]
+        if factor == x:
+            root = "0"
         if root is None or x in root or " " in root:
             return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
         return Math(x, latex_text(x)).equals(Math(root, latex_text(root)))
@@ -203,7 +206,8 @@ def latex_text(text: str) -> str:
     def parenthesised(match: re.Match[str]) -> str:
         if match[1]:
             radicand, _, n = match[2].partition(", ")
-            degree = "[3]" if match[1] == "cbrt" else f"[{n}]" if n else ""
+            n = "3" if match[1] == "cbrt" else n
+            degree = f"[{n}]" if n else ""
             return ready(*[rf"\sqrt{degree}{{{complete(radicand)}}}"] * 2)
         inside = complete(match[2])
         return ready(rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})", inside)
@@ -220,5 +224,7 @@ def symbol(name: str) -> str:
         return r"\mathrm{i}"
     match = re.fullmatch(r"([^\W\d_]+)_*(\w*)", name)
     base, index = (match[1], match[2].replace("_", r"\_")) if match else (name, "")
-    letter = rf"\{base}" if base in _GREEK.split() else base if len(base) == 1 else rf"\mathrm{{{base}}}"
+    letter = base if len(base) == 1 else rf"\mathrm{{{base}}}"
+    if base in _GREEK.split():
+        letter = rf"\{base}"
     return f"{letter}_{{{index}}}" if index else letter
