@@ -14,6 +14,7 @@ from collections.abc import Iterable
 from typing import Any
 
 import pytest
+from flint import acb
 
 from kovacic import Equation
 from kovacic.algebra.extension import AlgebraicField
@@ -31,6 +32,7 @@ __all__ = [
     "FunctionField",
     "Poly",
     "RatFunc",
+    "ball_to_flint",
     "equation",
     "function",
     "parametrize",
@@ -41,6 +43,11 @@ __all__ = [
 def function(text: Any, var: str | None = "x") -> RatFunc:
     """The rational function of a text or a SymPy expression."""
     return read_input(text, var=var).S
+
+
+def ball_to_flint(ball: Any) -> acb:
+    """A ball as python-flint's, complex even where it is real."""
+    return acb(ball.to_flint())
 
 
 def equation(text: Any, var: str | None = None) -> Equation:

@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 import scipy.special
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, ball_to_flint, parametrize
 from published import load
 
 import kovacic
@@ -22,7 +22,7 @@ from kovacic.doubles.lambdify import lambdify, measure, samples
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import BLOCK, MEDIAN, WORST
 from kovacic.doubles.tabulate import TabulatedFunction
-from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
+from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import omega
 from kovacic.enclosure.points import as_point
 from kovacic.enclosure.problem import as_problem

@@ -9,12 +9,11 @@ from typing import Any
 
 import flint
 import pytest
-from build import parametrize
+from build import ball_to_flint, parametrize
 from flint import arb, fmpq
 
 from kovacic import evaluate
 from kovacic.enclosure import start
-from kovacic.enclosure.ball import ball_to_flint
 
 # n is a parameter; the points are between -3 and 3, or between 1 and 3 where 0 is singular
 EQUATIONS = {

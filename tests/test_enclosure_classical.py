@@ -8,12 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, ball_to_flint, parametrize
 from flint import acb, ctx, fmpq
 
 from kovacic import AccuracyWarning, InputError, LimitExceeded, Limits, evaluate
 from kovacic.enclosure import classical
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.classical import NotServed, classical_of
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import ExactPoint

@@ -10,13 +10,12 @@ import flint
 import mpmath
 import pytest
 import sympy
-from build import parametrize
+from build import ball_to_flint, parametrize
 from flint import acb, arb, fmpq
 
 import kovacic
 from kovacic import InputError, evaluate, monodromy
 from kovacic.enclosure import forcing, frame, problem, start
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.constants import in_balls
 
 X = sympy.Symbol("x")

@@ -6,12 +6,11 @@ from typing import Any
 
 import flint
 import pytest
-from build import parametrize
+from build import ball_to_flint, parametrize
 from flint import acb, arb
 
 import kovacic
 from kovacic import AccuracyWarning, InputError, connection_matrix, evaluate
-from kovacic.enclosure.ball import ball_to_flint
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
 

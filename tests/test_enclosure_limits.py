@@ -11,7 +11,7 @@ from typing import Any
 
 import flint
 import pytest
-from build import parametrize
+from build import ball_to_flint, parametrize
 from clocks import controlled
 
 import kovacic
@@ -27,7 +27,6 @@ from kovacic import (
     tabulate,
 )
 from kovacic.doubles.lambdify import lambdify
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.states import evaluate_states

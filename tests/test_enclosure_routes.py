@@ -11,14 +11,13 @@ from typing import Any
 import flint
 import pytest
 import second_opinion
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, ball_to_flint, parametrize
 from published import load
 from transform import from_omega, from_squared_difference
 
 import kovacic
 from kovacic import AccuracyWarning, InputError, LimitExceeded, Limits, connection_matrix, evaluate, monodromy
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.closed_form import closed_form_of
 from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import identity, multiply

@@ -9,12 +9,11 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import parametrize
+from build import ball_to_flint, parametrize
 from flint import acb, arb, ctx, fmpq
 
 from kovacic import InputError, connection_matrix, evaluate
 from kovacic.enclosure import transport
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.precision import Method
 from kovacic.enclosure.states import evaluate_states
 

@@ -9,13 +9,12 @@ from itertools import pairwise
 
 import flint
 import pytest
-from build import parametrize
+from build import ball_to_flint, parametrize
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evaluate
 from kovacic.enclosure import transport
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.frame import Frame, make_frame
 from kovacic.enclosure.matrices import Matrix, product
 from kovacic.enclosure.points import ExactPoint

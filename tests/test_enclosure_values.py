@@ -14,14 +14,14 @@ from typing import Any
 import flint
 import mpmath
 import pytest
-from build import parametrize
+from build import ball_to_flint, parametrize
 from flint import acb, acb_poly, fmpq_poly
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic import AccuracyWarning, Ball, InputError, LimitExceeded, Limits, connection_matrix, evaluate
-from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
+from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.frame import make_frame, shift
 from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import product

@@ -326,7 +326,7 @@ def test_a_symbol_and_a_number_of_one_name_are_refused() -> None:
         kovacic.solve(y.diff("x", 2) + sympy.Symbol("pi") * y - sympy.pi * y)
 
 
-@pytest.mark.parametrize("text", ["y''+exp(x)^n*y=0", "y''+sin(x)^n*y=0", "y''+n^x*y=0"])
+@pytest.mark.parametrize("text", ["y''+exp(x)^n*y=0", "y''+sin(x)^n*y=0"])
 def test_powers_with_a_letter_in_the_exponent_are_refused(text: str) -> None:
     with pytest.raises(kovacic.NotRational, match="isn't a rational function of"):
         kovacic.solve(text, var="x")
