@@ -212,9 +212,10 @@ class Basis:
 
 
 def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
-    """W for pairs P C1(z), P C2(z) of Airy, Bessel or Legendre functions: P^2 z' (C1 C2' - C1' C2)(z); None for others.
+    """W = P^2 z' (C1 C2' - C1' C2)(z) for pairs P C1(z), P C2(z) of functions that are known here; None for others.
 
-    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1, 14.2.3.
+    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1, 14.2.3; 28.2(i): Mathieu's equation has no y', and
+    there is an even and an odd solution.
 
     >>> x = sympy.Symbol("x")
     >>> print(special_wronskian(x * sympy.besselj(0, x**2), x * sympy.bessely(0, x**2), x))

@@ -601,6 +601,7 @@ class ParametricAnswer:
         lines.append(f"  ({complete}; {self.theory})")
         return visible("\n".join(lines))
 
+    @limited
     def explain(self) -> str:
         """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known.
 
