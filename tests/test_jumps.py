@@ -100,3 +100,37 @@ def test_conditions_with_a_symbol_as_the_break() -> None:
     ics = {y(0): 0, y(x).diff(x).subs(x, 0): 0}
     found = kovacic.dsolve(y(x).diff(x, 2) + y(x) - Piecewise((0, x < a), (1, True)), ics=ics).rhs
     agree(found.subs(a, 2), 1 - sympy.cos(x - 2), [sympy.Rational(5, 2), 4])
+
+
+#: Equations with a solution p for the right-hand side g, and singular at `a`: a solution for H(x - a) g is H(x - a) p.
+SINGULAR = [
+    ("(1 - x^2)*y'' - 2*x*y' + 5*y", 1, 5, 1),
+    ("x*y'' - y'", 0, -1, x),
+    ("(x - 1)*y'' - x*y' + y", 1, 1, 1),
+    ("x^2*y'' - 2*y", 0, -2, 1),
+]
+
+
+@parametrize("left, a, g, p", SINGULAR[:2])
+def test_steps_at_singular_points_begin_with_any_solution(left: str, a: int, g: int, p: Any) -> None:
+    found = kovacic.dsolve(f"{left} = {g}*Heaviside(x - {a})").rhs
+    t = sympy.Symbol("x")
+    free = dict.fromkeys(found.free_symbols - {t}, sympy.Integer(0))
+    here = found.xreplace(free)
+    assert here.subs(t, a - 0.25) == 0
+    agree(here.subs(t, x) - p, sympy.Integer(0), [a + sympy.Rational(1, 3)])
+
+
+@parametrize("left, a, g, p", SINGULAR)
+def test_impulses_at_singular_points_are_refused(left: str, a: int, g: int, p: Any) -> None:
+    with pytest.raises(NotImplementedError, match=f"an impulse at x = {a}, a singular point"):
+        kovacic.dsolve(f"{left} = DiracDelta(x - {a})")
+
+
+def test_an_impulse_where_only_the_coordinate_is_singular() -> None:
+    t = sympy.Symbol("x")
+    equation = sympy.cos(t) * y(t).diff(t, 2) + sympy.sin(t) * y(t).diff(t) - DiracDelta(t)
+    found = kovacic.dsolve(equation).rhs
+    response = found.xreplace(dict.fromkeys(found.free_symbols - {t}, sympy.Integer(0)))
+    assert response.subs(t, -1) == 0
+    agree(response, sympy.sin(t), [sympy.Rational(1, 2)])

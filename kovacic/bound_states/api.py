@@ -21,6 +21,7 @@ from kovacic.bound_states.families import (
     no_families,
 )
 from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
+from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.quasi import Found, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
@@ -229,13 +230,16 @@ def _end(value: Any) -> Any:
 
 
 def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
-    ends = _ends(question)
+    V, original, t = _in_real_variable(question)
+    is_endless = any(end.is_infinite for end in question.domain)
+    if original.is_periodic and is_endless:
+        check_poles(V, original, t)
+        return _on_periodic_line(question, V, original, t)
+    check_inside(V, original, question.domain, t, question.signs)
+    ends = [end_of(V, original, question.domain, t, question.signs, is_right=is_right) for is_right in (False, True)]
     excluded = _excluded(question, ends)
     if sympy.true in excluded:
-        hint = "none is distinguished"
-        if not any(end.oscillates for end in ends):
-            hint = f'boundary="{FRIEDRICHS}" chooses the smaller solution'
-        return _spectrum(question, ends, excluded=(sympy.true,), reason=hint)
+        return _without_condition(question, ends)
     for end in ends:
         if end.oscillates and end.circle is False:
             reason = f"no solution is square integrable at {end.at}"
@@ -247,6 +251,8 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
         if transformed is not None:
             return transformed
         wall = next((end.at for end in ends if end.is_ordinary), None)
+        if wall is None and _is_circular(question):
+            raise
         if wall is not None:
             reason = f"undecided: {_at_a_wall(question, wall)}"
             return _spectrum(question, ends, excluded=tuple(excluded), reason=reason)
@@ -254,6 +260,14 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
     levels = _merged([_levels(question, family) for family in families])
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
+
+
+def _without_condition(question: Question, ends: Sequence[End]) -> Spectrum:
+    """Where a boundary condition is needed, and none was given."""
+    hint = "none is distinguished"
+    if not any(end.oscillates for end in ends):
+        hint = f'boundary="{FRIEDRICHS}" chooses the smaller solution'
+    return _spectrum(question, ends, excluded=(sympy.true,), reason=hint)
 
 
 def _excluded(question: Question, ends: list[End]) -> list[Any]:
@@ -371,7 +385,8 @@ def _algebraic(question: Question, found: Found) -> Algebraic:
     return Algebraic(found.degree, found.constraint, found.polynomial, found.wave, conditions, tuple(states))
 
 
-def _ends(question: Question) -> list[End]:
+def _in_real_variable(question: Question) -> tuple[Any, Original, Any]:
+    """V as a function of a real t, what t is, and t."""
     parsed, signs = question.parsed, question.signs
     original = Original.of(parsed.equation, question.x, signs)
     t = sympy.Symbol(parsed.variable)
@@ -379,13 +394,36 @@ def _ends(question: Question) -> list[End]:
     check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
     S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
     V = potential_in_t(S, parsed.equation, original, question.E, t, signs)
-    check_inside(V, original, question.domain, t, signs)
-    return [end_of(V, original, question.domain, t, signs, is_right=is_right) for is_right in (False, True)]
+    V, original = on_real_circle(V, original, t)
+    return V, original, t
+
+
+def _on_periodic_line(question: Question, V: Any, original: Original, t: Any) -> Spectrum:
+    """The spectrum of a periodic potential without poles on the whole line, or on half of it."""
+    ends: list[End] = []
+    for at in question.domain:
+        if at.is_infinite:
+            ends.append(End(at, False, f"{question.variable} -> {at}: V is periodic, at most one solution decays"))
+        else:
+            ends.append(end_of(V, original, question.domain, t, question.signs, is_right=at == question.domain[1]))
+    if all(at.is_infinite for at in question.domain):
+        return _spectrum(question, ends, complete=True, reason=NO_LEVELS)
+    excluded = _excluded(question, ends)
+    if sympy.true in excluded:
+        return _without_condition(question, ends)
+    reason = "undecided: V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
+    return _spectrum(question, ends, excluded=tuple(excluded), reason=reason)
+
+
+def _is_circular(question: Question) -> bool:
+    return Original.of(question.parsed.equation, question.x, question.signs).is_circular
 
 
 def _families(question: Question, budget: Budget) -> tuple[list[Family], str]:
     """Those of the first coordinate and standard equation that fit."""
     parsed, reasons = question.parsed, []
+    if _is_circular(question):
+        raise Uncovered("no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent")
     demands = Ends(question.signs, question.friedrichs)
     for frame in frames(
         parsed.S, parsed.variable, parsed.equation, question.domain, question.x, question.E, question.signs, budget

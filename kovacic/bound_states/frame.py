@@ -63,6 +63,15 @@ class Original:
         return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
 
     @property
+    def is_circular(self) -> bool:
+        """Is t = exp(i theta) with a real theta?"""
+        return self.kind == "exp" and self.rate.has(sympy.I)
+
+    @property
+    def is_periodic(self) -> bool:
+        return self.is_circular or self.kind in ("sin", "cos", "tan")
+
+    @property
     def theta(self) -> Any:
         return self.rate * self.x + self.offset
 

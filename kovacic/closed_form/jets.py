@@ -69,7 +69,7 @@ class _Evaluator(BallEvaluator):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.values, a: root})(e.fun.expr) for root in self._roots(e.poly)))
         if isinstance(e, ANTIDERIVATIVES) and not (isinstance(e, sympy.elliptic_e) and len(e.args) == 1):
-            slope = self(e.diff(next(iter(self.values))))
+            slope = _lifted(self(e.diff(next(iter(self.values)))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, sympy.Abs | sympy.sign):
             return self._of_sign(e)

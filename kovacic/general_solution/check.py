@@ -26,7 +26,7 @@ from kovacic.errors import VerificationFailed
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, break_points, in_steps, on_piece, taken_apart
-from kovacic.general_solution.values import value_at
+from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import ball, sample_value, samples
 from kovacic.reading.change_of_variable import function_of_x
 
@@ -155,9 +155,11 @@ class _Pieces:
         return _is_large(coefficients, jet(piece, self.x, at))
 
     def is_wrong_across(self, k: int) -> bool:
-        """Have y and y' a wrong jump at the k-th break?"""
-        a, b, _, f = self.coefficients
+        """Have y and y' a wrong jump at the k-th break?  At a singular point of the equation any jump is right."""
+        a, b, c, f = self.coefficients
         point = self.breaks[k]
+        if not have_values((b / a, c / a), self.x, point):
+            return False
         here = _antiderivatives(self.y, self.x, point)
         left = on_piece(here, self.x, self.points[k])
         right = on_piece(here, self.x, self.points[k + 1])

@@ -37,7 +37,7 @@ from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, taken_apart
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.values import values_at
+from kovacic.general_solution.values import have_values, value_at, values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.reading.change_of_variable import in_x, slope_squared
@@ -55,9 +55,10 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
     solved = basis.with_integrals if basis.equation.change is not None else partial(_solved, basis)
     if right.has(DiracDelta, Heaviside):
         apart = taken_apart(right, basis.x)
-        found = None if apart is None else _response(apart, basis, start, solved)
-        if found is not None:
-            return found
+        if apart is not None:
+            return _response(apart, basis, start, solved)
+        if right.has(DiracDelta):
+            raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
     return solved(right, start)
 
 
@@ -162,58 +163,43 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
     return None if found is None else sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
 
 
-def _response(
-    right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]
-) -> Expr | None:
-    """A solution for a right-hand side with jumps and impulses.  Raises `NotImplementedError` for these at a singular point.
+def _response(right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
+    """A solution for a right-hand side with jumps and impulses; `solved` gives one without them, with integrals from a point on.
 
-    `solved` gives a solution for a right-hand side without them, with integrals from a point on.
+    Where the equation is singular at a step it begins with any solution p: H(x - a) p is one on each side.
+    Raises `NotImplementedError` for an impulse there.
     """
     x = basis.x
     total = []
-    try:
-        for step in right.steps:
-            p = solved(step.g, step.a)
-            total.append(Heaviside(x - step.a) * _begun(p, basis, step.a))
-        for a in dict.fromkeys(impulse.a for impulse in right.impulses):
-            strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
-            for impulse in right.impulses:
-                if impulse.a == a:
-                    strengths[impulse.order] += impulse.strength
-            total.append(_impulse_response(strengths, basis, a))
-    except _SingularError:
-        said = "undecided: an impulse at a singular point of the equation"
-        raise NotImplementedError(said) from None
+    for step in right.steps:
+        is_singular = not have_values(basis.rates, x, step.a)
+        p = solved(step.g, None if is_singular else step.a)
+        response = p if is_singular else _from_rest(p, basis, values_at(p, x, step.a), step.a)
+        total.append(Heaviside(x - step.a) * response)
+    for a in dict.fromkeys(impulse.a for impulse in right.impulses):
+        strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
+        for impulse in right.impulses:
+            if impulse.a == a:
+                strengths[impulse.order] += impulse.strength
+        if not (have_values(basis.rates, x, a) and all(map(_has_value, strengths.values()))):
+            said = f"an impulse at {x} = {a}, a singular point of the equation"
+            raise NotImplementedError(f"{said}: there, solutions and their slopes have no values that could jump")
+        total.append(_impulse_response(strengths, basis, a))
     rest = solved(right.plain, start) if right.plain != 0 else sympy.Integer(0)
     return sympy.Add(rest, *total)
 
 
-class _SingularError(Exception):
-    """A jump is at a singular point of the equation."""
-
-
-def _begun(p: Expr, basis: Basis, a: Expr) -> Expr:
-    """p less the solution that has its values at a; p where a is a singular point, on whose sides solutions are apart."""
-    try:
-        _wronskian_at(basis, a)
-    except _SingularError:
-        return p
-    return _from_rest(p, basis, values_at(p, basis.x, a), a)
-
-
-def _wronskian_at(basis: Basis, a: Expr) -> Expr:
-    """Raises `_SingularError` where it is zero or infinite."""
-    wronskian = tidy(basis.wronskian.subs(basis.x, a))
-    if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
-        raise _SingularError
-    return wronskian
+def _has_value(e: Expr) -> bool:
+    return not e.has(sympy.nan, sympy.zoo, sympy.oo)
 
 
 def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Expr:
     """p - u for the solution u of the homogeneous equation with u(a), u'(a) = `values`: p(a) and p'(a), for a step."""
     x = basis.x
     value, rate = values
-    wronskian = _wronskian_at(basis, a)
+    wronskian = tidy(basis.wronskian.subs(x, a))
+    if wronskian == 0 or not _has_value(wronskian):
+        raise NotImplementedError(f"the functions of the closed form are singular at {a}, where the solutions aren't")
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
     first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
     return sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
@@ -230,11 +216,8 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
         singular += d * DiracDelta(x - a, j)
         for rate, n in ((B, j + 1), (C, j)):
             for k in range(n + 1):
-                rest[n - k] = rest.get(n - k, sympy.Integer(0)) - d * (-1) ** k * comb(n, k) * rate.diff(x, k).subs(
-                    x, a
-                )
+                share = d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
+                rest[n - k] = rest.get(n - k, sympy.Integer(0)) - share
     value = rest.get(1, sympy.Integer(0))
-    slope = rest.get(0, sympy.Integer(0)) - B.subs(x, a) * value
-    if any(part.has(sympy.nan, sympy.zoo, sympy.oo) for part in (value, slope, singular)):
-        raise _SingularError
+    slope = rest.get(0, sympy.Integer(0)) - value_at(B, x, a) * value
     return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, (-tidy(value), -tidy(slope)), a) + singular

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import sympy
@@ -46,6 +47,21 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
         said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
         raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
     return value
+
+
+def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
+    """Have all of them a value at the point, or a limit?
+
+    >>> x = sympy.Symbol("x")
+    >>> have_values([x, 1 / x], x, sympy.Integer(0))
+    False
+    """
+    try:
+        for expression in expressions:
+            value_at(expression, x, point)
+    except NotImplementedError:
+        return False
+    return True
 
 
 def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
