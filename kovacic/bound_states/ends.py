@@ -56,21 +56,45 @@ def potential_in_t(S: Any, equation: Equation | None, original: Original, E: Any
 def check_inside(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs) -> None:
     """Raises `InputError` where V has a pole inside the domain, and `Uncovered` where that isn't known."""
     denominator = sympy.Poly(sympy.denom(V), t)
-    points = _real_zeros(denominator, signs)
+    points = real_zeros(denominator, signs)
     if original.kind == "tan" and sympy.degree(sympy.numer(V), t) > denominator.degree():
         points.append(sympy.oo)
     angles = [original.theta_at(end, signs) for end in domain] if points else []
+    inside = []
     for point in points:
-        for angle in _angles(original.kind, point, angles):
-            if is_between(angle, angles[0], angles[1], signs):
-                where = (angle - original.offset) / original.rate
-                raise InputError(
-                    f"V isn't regular at {original.x} = {caret(as_text(where))}, inside the domain",
-                    hint="choose the domain between its poles",
-                )
+        found = [a for a in _angles(original.kind, point, angles) if is_between(a, angles[0], angles[1], signs)]
+        inside += [(angle - original.offset) / original.rate for angle in found]
+    if not inside:
+        return
+    message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
+    hint = "choose a domain without a pole inside"
+    last = _last(inside, signs)
+    if last is None:
+        raise InputError(message, hint=hint)
+    python, shell = domain_as_given(last, domain[1])
+    raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
 
 
-def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
+def _last(points: list[Any], signs: Signs) -> Any:
+    """The largest of them, None where that isn't known."""
+    for point in points:
+        if all(signs.is_nonnegative(point - other) for other in points):
+            return point
+    return None
+
+
+def domain_as_given(first: Any, last: Any) -> tuple[str, str]:
+    """How a domain is given in Python and at the command line."""
+    ends = [end if end.is_infinite else sympy.simplify(end) for end in (first, last)]
+    texts = [caret(as_text(end)) for end in ends]
+    quoted = [text if end.is_Integer else f'"{text}"' for end, text in zip(ends, texts, strict=True)]
+    options = [f"--from {quoted[0]}"]
+    if last != sympy.oo:
+        options.append(f"--to {quoted[1]}")
+    return f"domain=({', '.join(quoted)})", " ".join(options)
+
+
+def real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
     """Each once.  Raises `Uncovered` where it isn't known which zeros are real."""
     if all(c.is_Rational for c in polynomial.coeffs()):
         return [*dict.fromkeys(polynomial.real_roots())]

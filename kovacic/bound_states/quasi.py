@@ -36,6 +36,9 @@ from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.solutions import Given, has_radicals, solution_of_degree
 
+#: Higher degrees aren't proposed.
+_HIGHEST = 50
+
 
 @dataclass(frozen=True)
 class Found:
@@ -76,6 +79,23 @@ def found_of_degree(
                 if found is not None and (found.constraint, found.polynomial, found.wave) not in seen:
                     seen.add((found.constraint, found.polynomial, found.wave))
                     yield found
+
+
+def degree_beyond(S: RatFunc, d: int, budget: Budget) -> int | None:
+    """The least degree above d that P may have: the exponents say it, or it depends on E or on parameters and may be any.
+
+    None where P has no higher degree, or where none is below `_HIGHEST`.
+    """
+    problem = analyse(S, budget)
+    degrees = [_over_base(choice.degree, problem.field) for choice in choices(problem) or ()]
+    for higher in range(d + 1, _HIGHEST):
+        for degree in degrees:
+            if degree is None:
+                continue
+            difference = over_parameters(degree - higher)
+            if not difference or irreducible_factors(difference):
+                return higher
+    return None
 
 
 def _over_base(value: Poly, base: Field) -> Poly | None:

@@ -191,5 +191,5 @@ def spectrum(potential: str, start: str, stop: str, as_json: bool, as_latex: boo
     elif as_latex:
         print(answer.latex())
     else:
-        print(options.fitted(answer.text()))
+        print(options.fitted(answer.text(shell=True)))
     return DECIDED if answer.is_decided else UNDECIDED

@@ -58,7 +58,9 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
         if apart is not None:
             return _response(apart, basis, start, solved)
         if right.has(DiracDelta):
-            raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
+            raise NotImplementedError(
+                "undecided: an impulse times a jump at the same point, or at one that isn't known"
+            )
     return solved(right, start)
 
 
@@ -164,9 +166,10 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
 
 
 def _response(right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
-    """A solution for a right-hand side with jumps and impulses; `solved` gives one without them, with integrals from a point on.
+    """A solution for a right-hand side with jumps and impulses.
 
-    Where the equation is singular at a step it begins with any solution p: H(x - a) p is one on each side.
+    `solved` gives one without them, with integrals from a point on.  Where the equation is singular at a step it begins
+    with any solution p: H(x - a) p is one on each side.
     Raises `NotImplementedError` for an impulse there.
     """
     x = basis.x
@@ -182,7 +185,7 @@ def _response(right: Apart, basis: Basis, start: Expr | None, solved: Callable[[
             if impulse.a == a:
                 strengths[impulse.order] += impulse.strength
         if not (have_values(basis.rates, x, a) and all(map(_has_value, strengths.values()))):
-            said = f"an impulse at {x} = {a}, a singular point of the equation"
+            said = f"undecided: an impulse at {x} = {a}, a singular point of the equation"
             raise NotImplementedError(f"{said}: there, solutions and their slopes have no values that could jump")
         total.append(_impulse_response(strengths, basis, a))
     rest = solved(right.plain, start) if right.plain != 0 else sympy.Integer(0)

@@ -21,7 +21,7 @@ from kovacic.reading.notation import GREEK, plain
 from kovacic.reading.parser import evaluate
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
-_USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
+USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
 
 #: Beside a frequency zeta is the damping ratio: x'' + 2 zeta omega x' + omega^2 x = 0.
 _DAMPING_RATIOS = frozenset({"zeta", "ζ"})
@@ -79,7 +79,7 @@ def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool
             hint = "give S alone, from y'' = S(x) y"
             raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)
         names = names_of(expression)
-        return Source(partial(walked, expression), variable or _chosen_variable(names))
+        return Source(partial(walked, expression), variable or chosen_variable(names))
     expression = given
     if getattr(given, "is_Equality", False):
         expression = given.lhs - given.rhs if given.rhs != 0 else given.lhs
@@ -118,13 +118,14 @@ def read_source(source: Source, limits: Limits) -> Parsed:
     return read_with_constants(read, limits)
 
 
-def _chosen_variable(names: list[str]) -> str:
+def chosen_variable(names: list[str]) -> str:
     """The only name, or x.  Raises `InputError` where neither is among several names."""
     if len(names) > 1 and DEFAULT_VARIABLE not in names:
+        likely = next((name for name in names if name in USUAL_VARIABLES and name.islower()), names[0])
         raise InputError(
             f"which of {', '.join(names[:6])} is the variable?",
-            hint=f"name it: var={names[0]!r}; the others are parameters",
-            shell=f"name it: --var {names[0]}; the others are parameters",
+            hint=f"name it: var={likely!r}; the others are parameters",
+            shell=f"name it: --var {likely}; the others are parameters",
         )
     return names[0] if len(names) == 1 else DEFAULT_VARIABLE
 
@@ -135,7 +136,7 @@ def _variable_of_S(tokens: Tokens, variable: str | None) -> str:
         found = tokens.names()
         names = [name for name in found if name not in {*NUMBER_NAMES, ENERGY, UNKNOWN} and as_function(name) is None]
         try:
-            variable = _chosen_variable(names)
+            variable = chosen_variable(names)
         except InputError as error:
             k = found[names[1]]
             raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
@@ -217,7 +218,7 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
     if default in names or not names:
         return default, ()
     damped = any(name.startswith(_FREQUENCIES) for name in names)
-    usual = [name for name in names if name in _USUAL_VARIABLES and not (damped and name in _DAMPING_RATIOS)]
+    usual = [name for name in names if name in USUAL_VARIABLES and not (damped and name in _DAMPING_RATIOS)]
     if len(usual) > 1:
         hint = f"write {unknown}''(x) for the derivative, or name the variable:"
         k = tokens.names()[usual[-1]]
@@ -233,7 +234,7 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
 
 def _only_name(tokens: Tokens, variable: str) -> tuple[str, ...]:
     """Where S has one name that an equation would take for a parameter, it is the variable: that is said."""
-    if variable in _USUAL_VARIABLES or variable not in tokens.names():
+    if variable in USUAL_VARIABLES or variable not in tokens.names():
         return ()
     return (f"{variable} is taken for the variable; name another one where it is a parameter: var='x' (--var x)",)
 
