@@ -284,7 +284,8 @@ class Natural(Statement):
         terms = [str(numbers.constant), *(f"{k}*{root}" for k, root in zip(letters, roots, strict=True))]
         bounds = [f"`{k}` from -{largest} to {largest}" for k, (_, largest) in zip(letters, numbers.roots, strict=True)]
         constant = over_parameters(field.poly([-numbers.constant, 1]))
-        without = "" if self.factors is None or constant in self.factors else ", not all 0"
+        excluded = ", not 0" if len(letters) == 1 else ", not all 0"
+        without = "" if self.factors is None or constant in self.factors else excluded
         return f"`{d} = {' + '.join(terms)}` for integers {', '.join(bounds)}{without}"
 
 
