@@ -310,6 +310,21 @@ def on_a_curve() -> str:
     return json.dumps({**to_dict(answer), "group": group_dict(answer)})
 
 
+def test_a_function_with_another_differential_is_refuted() -> None:
+    """u^3 is a function on a curve of genus 1; the cube of its only piece is another one, with the same odd exponents."""
+    third = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3))
+    x = RatFunc(QQ.poly([0, 1]))
+    text = kovacic.solve(transform.pull_back(third, (x**2 + 3 * x + 5) / (x + 1))).to_json(full=True)
+    assert checker.verdict(text).startswith("checked: ")
+    data = json.loads(text)
+    for piece in data["group"]["function"]["pieces"]:
+        piece["exponent"] += 2
+    assert (
+        checker.verdict(json.dumps(data))
+        == "refuted: it isn't shown that the differential of f is that of a power of u"
+    )
+
+
 def test_an_order_on_a_curve_of_genus_two_is_checked() -> None:
     line = on_a_curve()
     group = json.loads(line)["group"]
