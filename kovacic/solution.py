@@ -475,9 +475,9 @@ class Solution(Answer):
         >>> import kovacic
         >>> answer = kovacic.solve("x^2 + 3")
         >>> print(answer.explain().splitlines()[0])
-        The equation
-        >>> print(answer.explain(format="markdown", solutions=False).splitlines()[0])
-        # The equation
+        Kovacic's algorithm for y'' = (x^2 + 3) y
+        >>> print(answer.explain(format="markdown", solutions=False).splitlines()[2])
+        $$
         >>> answer.explain(format="html", solutions=False)[:15]
         '<!doctype html>'
         """

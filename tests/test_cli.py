@@ -301,7 +301,7 @@ START = ["--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]
         (["solve", "-v^2", "--no-solutions"], "y'' = -v^2 y"),
         (["solve", "--no-solutions", "-vv"], "y'' = -vv y"),
         (["solve", "--", "--x"], "y'' = x y"),
-        (["explain", "-o*x"], "The equation"),
+        (["explain", "-o*x"], "Kovacic's algorithm for y'' = -o x y"),
         (["conditions", "-h*x"], "y'' = -h x y, parameters h"),
         (["evaluate", "-v", "--x0", "-1", "--y0", "0", "--dy0", "0", "--at", "1"], None),
         (["evaluate", *START, "--", "-v"], "y(1) = 0.83881231016976"),

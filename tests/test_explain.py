@@ -451,7 +451,7 @@ def test_the_command_explains(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["explain", "x^2 + 3"]) == 0
     assert "y1 = x*exp(x^2/2)" in capsys.readouterr().out
     assert run(["explain", "--format", "markdown", "y'' = x y"]) == 0
-    assert "# The equation" in capsys.readouterr().out
+    assert "# Kovacic" in capsys.readouterr().out
     assert run(["explain", "--format", "latex", "--no-solutions", "x^2 + 3"]) == 0
     out = capsys.readouterr().out
     assert r"\section*" in out
@@ -497,7 +497,7 @@ def test_the_command_solves_equations_in_every_view(capsys: pytest.CaptureFixtur
     assert run(["solve", "--latex", bessel]) == 0
     assert r"\frac{\cos{\left(x \right)}}{\sqrt{x}}" in capsys.readouterr().out
     assert run(["explain", bessel, "x"]) == 0
-    assert capsys.readouterr().out.count("The equation\n===") == 2
+    assert capsys.readouterr().out.count("Kovacic's algorithm for ") == 2
     assert run(["solve", "--json", "--full", bessel]) == 0
     assert '"group": {"name": "G_m"' in capsys.readouterr().out
 
@@ -638,3 +638,15 @@ def test_an_explanation_in_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[
         assert written == kovacic.solve("x^2 + 3").explain(format=form).partition("<svg")[0]
     assert run(["explain", "x", "x^2", "-o", str(tmp_path / "b.txt")]) == 2
     assert run(["explain", "x", "-o", str(tmp_path / "b.doc")]) == 2
+
+
+def test_the_page_names_its_equation_and_whose_the_solutions_are() -> None:
+    """y1 solves the equation that was given, and omega belongs to the normal form: both are said."""
+    answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")
+    text = answer.explain()
+    assert text.startswith("Kovacic's algorithm for x^2*y'' + x*y' + (x^2 - 1/4)*y = 0\n")
+    assert "the solutions y1 and y2 are those of the equation as given" in text
+    assert "stands for v" not in text
+    html = answer.explain(format="html")
+    assert "<h1 id=" in html
+    assert html.count("overflow-x:auto") == html.count("overflow-x:auto; overflow-y:hidden")

@@ -16,6 +16,7 @@ from sympy.abc import n, x
 
 import kovacic
 from kovacic import LimitExceeded, Limits, Solution
+from kovacic.cli.main import run
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget, check_time, limited, watched_seconds
 from kovacic.parameters import Conditions
@@ -273,3 +274,16 @@ def test_what_a_process_has_not_factored_is_not_factored_without_end() -> None:
         pytest.raises(LimitExceeded, match="no factors of a polynomial of degree 5040"),
     ):
         QQ.factor(QQ.poly([-1, *[0] * 5039, 1]))
+
+
+def test_an_answer_is_undecided_or_verified_wherever_the_time_ends(capsys: pytest.CaptureFixture[str]) -> None:
+    """A time that ends while the answer is verified leaves no sentence that says that it was."""
+    said = set()
+    for looks in range(30):
+        with controlled(looks_in_time=looks):
+            run(["solve", "x", "--limit", "seconds=10"])
+        out = capsys.readouterr().out
+        said.add(out)
+        assert not ("undecided: while the answer was verified" in out and "\n  verified: " in out)
+    assert any("undecided: while the answer was verified" in out for out in said)
+    assert any("verified: every exclusion was recomputed" in out for out in said)

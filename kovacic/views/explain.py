@@ -31,7 +31,7 @@ from kovacic.views.sentences import (
 )
 from kovacic.views.steps import DEGREE, Steps
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, anchor, page, say
-from kovacic.writing.formula import LARGEST_DEGREE, Math, rational_functions, shortened
+from kovacic.writing.formula import LARGEST_DEGREE, Math, latex_text, rational_functions, shortened
 from kovacic.writing.omega import constants_math, omega_math
 
 _CASES = {
@@ -51,6 +51,8 @@ _BY_INVARIANT = {
 #: Longer solutions stand in their own part only.
 _SHORT = 200
 _PICTURE = "A picture"
+#: Longer equations aren't in the title.
+_LONGEST_TITLE = 60
 #: Steps of Taylor's method times their bits, or values of closed forms: some seconds.
 _PICTURE_WORK = 400_000
 
@@ -141,26 +143,38 @@ class _Writer:
 
     def equation(self) -> Iterator[Block]:
         answer, equation = self.answer, self.answer.equation
-        yield Heading("The equation", 1)
+        yield Heading(self._title(), 1)
         if answer.change is not None:
             yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
         yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
             y, v = equation.unknown, "v" if equation.unknown != "v" else "u"
-            substitution = f"{y} = {v} exp(int gamma d{answer.variable}), gamma = -b/(2a)"
-            yield say(f"With {substitution}, it becomes its normal form for {v}:")
+            x = answer.variable
+            substitution = Math(f"{y} = {v} exp(int gamma d{x})", rf"{y} = {v} \exp \int \gamma \, d{latex_text(x)}")
+            gamma = Math("gamma = -b/(2a)", r"\gamma = -\frac{b}{2a}")
+            yield say("With ", substitution, ", ", gamma, f", it becomes its normal form for {v}:")
             yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
             yield Formula(normal_form(answer, v))
-            yield say(f"In the following y stands for {v}.")
+            yield say(
+                f"Cases, omega and the group below are those of the normal form, with y for {v}; "
+                f"the solutions {y}1 and {y}2 are those of the equation as given."
+            )
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
         if answer.change is not None:
             yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
+
+    def _title(self) -> str:
+        """What the page is about."""
+        equation = equation_of(self.answer).text if self.answer.change is None else self.answer.text
+        return f"Kovacic's algorithm for {equation}" if len(equation) <= _LONGEST_TITLE else "Kovacic's algorithm"
 
     def verdict(self, *, solutions: bool) -> Iterator[Block]:
         """The answer in short."""
         found, more = verdict_of(self.answer)
         yield Heading("The answer")
-        yield say(f"{found[0].upper()}{found[1:]}: {more}.")
+        before, name, after = more.partition("omega = y'/y")
+        omega = [Math(name, r"\omega = y'/y")] if name else []
+        yield say(f"{found[0].upper()}{found[1:]}: {before}", *omega, f"{after}.")
         semi = self.answer.semi_invariant
         if not solutions or self.answer.status is Status.UNDECIDED or (semi and semi.P.degree > LARGEST_DEGREE):
             return
@@ -199,7 +213,8 @@ class _Writer:
         assert form is not None
         assert case is not None
         yield Heading("theta and P of the answer")
-        yield say(DEGREE[case], f" = {form.P.degree}, and with theta and P:")
+        theta, P = Math("theta", r"\theta"), Math("P", "P")
+        yield say(DEGREE[case], f" = {form.P.degree}, and with ", theta, " and ", P, ":")
         yield Formula(self.formulas.named("theta", r"\theta", form.theta))
         yield Formula(self.formulas.named("P", "P", form.P))
 

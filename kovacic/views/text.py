@@ -70,14 +70,16 @@ def render(
         yield style(f"  note: {visible(notice)}", "faint")
     if answer.equation is not None and not answer.equation.is_normal_form:
         where = "" if answer.change is None else f", over {answer.change.field}"
-        yield f"  normal form: {normal_form(answer).text}, of which the following speaks{where}"
+        yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{where}"
     said, more = verdict_of(answer)
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     yield from (f"  {line}" for line in solutions or ())
     if answer.riccati is not None:
         yield from (f"  {line}" for line in omega_lines(answer.riccati, formulas_of(answer)))
     if answer.omega is not None and solutions is None:
-        yield f"  y = exp(integral of omega d{answer.variable})"
+        is_gauged = answer.equation is not None and not answer.equation.is_normal_form
+        of_what = ", a solution of the normal form" if is_gauged else ""
+        yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
     yield from (f"  {line}" for line in _exclusions(answer))
     if parameters_of(answer.S.field) and answer.status is not Status.UNDECIDED and not answer.assumed:
         from kovacic.parametric.restriction import generic_conditions

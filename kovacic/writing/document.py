@@ -132,6 +132,10 @@ def _latex_formula(math: Math) -> str:
     return "\n".join([r"\smallskip", *shown])
 
 
+#: Sideways alone: without overflow-y browsers would scroll up and down as well.
+_SCROLLED = "overflow-x:auto; overflow-y:hidden"
+
+
 def _html_table(rows: list[list[str]]) -> str:
     left = ' style="text-align:left"'
     head = "".join(f"<th{left}>{cell}</th>" for cell in rows[0])
@@ -139,7 +143,7 @@ def _html_table(rows: list[list[str]]) -> str:
     lines = [f"<{first}{left}>{title}</{first}>" + "".join(f"<td{left}>{cell}</td>" for cell in rest)
              for title, *rest in rows[1:]]  # fmt: skip
     table = "".join(f"<tr>{line}</tr>" for line in (head, *lines) if line)
-    return f'<div style="overflow-x:auto"><table>{table}</table></div>'
+    return f'<div class="wide" style="{_SCROLLED}"><table>{table}</table></div>'
 
 
 def _mathml(math: Math, display: str = "inline") -> str:
@@ -167,7 +171,7 @@ def _html_math(math: Math) -> str:
 def _html_formula(math: Math) -> str:
     rows = _rows(math)
     if all(width(row) <= 1.5 * LINE for row in rows):
-        return f'<div style="overflow-x:auto; padding:.4em 0">{_mathml(math, "block")}</div>'
+        return f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">{_mathml(math, "block")}</div>'
     return "".join(f'<div style="padding:.4em 0">{_html_math(Math(math.text, row))}</div>' for row in rows)
 
 
@@ -220,7 +224,13 @@ _HTML = Template("""<!doctype html>
 .kovacic table { border-collapse: collapse; margin: 1rem 0 }
 .kovacic td, .kovacic th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
 .kovacic h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } .kovacic svg { max-width: 100%; height: auto }
-.kovacic math { font-family: "kovacic math", math; font-size: 1.08em } .kovacic p { overflow-x: auto }
+.kovacic math { font-family: "kovacic math", math; font-size: 1.08em }
+.kovacic p { overflow-x: auto; overflow-y: hidden; padding: .25em 0; margin: .75em 0 }
+.kovacic .wide, .kovacic p { background:
+  linear-gradient(to right, #fff 40%, #fff0) left/2rem 100% no-repeat local,
+  linear-gradient(to left, #fff 40%, #fff0) right/2rem 100% no-repeat local,
+  linear-gradient(to right, #0004, #0000) left/.7rem 100% no-repeat scroll,
+  linear-gradient(to left, #0004, #0000) right/.7rem 100% no-repeat scroll }
 .kovacic mtd { text-align: left; math-style: normal }
 .kovacic figure { margin: 1rem 0 } .kovacic figcaption { color: #666; font-size: .9em }
 .kovacic nav ul { columns: 16rem; padding-left: 1.2rem } .kovacic a { color: #04529c }
