@@ -70,6 +70,8 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
         return None
     atoms, h = Atoms(x, beyond_zeros=_is_real_far_away(term, x)), product(rate)
     scale, shown = factors(h, atoms)
+    if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes
+        return None
     ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
     values = (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5))
     constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
