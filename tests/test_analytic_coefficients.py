@@ -188,3 +188,21 @@ def test_many_digits_and_the_same_digits_by_few() -> None:
     few = kovacic.evaluate("y'' + tan(x)*y' + exp(-x^2)*y = 0", 1, **start)
     assert many.digits >= 300
     assert few.contains(many.midpoint[0])
+
+
+@parametrize(
+    "text",
+    [
+        "y'' + 1/2*csc(x/9)*y' + (-3*cos(x) + tan(x/5)^2)*y = 0",
+        "y'' + sin(x/3)*y' + sin(x/7)^2*y = 0",
+        "y'' + tan(x/11)*y' + cos(3*x)*y = 0",
+    ],
+    ordinary=1,
+)
+def test_waves_of_which_the_common_angle_is_small(text: str) -> None:
+    """Coefficients of high degree in exp(ix/45) are evaluated as they are written."""
+    value = kovacic.evaluate(text, "7/5", x0="3/5", y0=1, dy0=0)
+    b, c = text.removeprefix("y'' + ").removesuffix("*y = 0").split("*y' + ")
+    first, zeroth = (sympy.lambdify(x, sympy.sympify(part.replace("^", "**")), "mpmath") for part in (b, c))
+    (expected, _) = mpmath.odefun(lambda z, y: [y[1], -first(z) * y[1] - zeroth(z) * y[0]], 0.6, [1, 0])(1.4)
+    assert abs(float(value) - expected) < 1e-10

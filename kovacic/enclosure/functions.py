@@ -47,18 +47,24 @@ def coefficients_of_any(equation: Any, params: Mapping[str, object] | None, limi
     return found.given(params)
 
 
+#: Of S in t up to which coefficients are evaluated in t: beyond, as for cos(x) beside tan(x/5) and csc(x/9), powers of t cost
+#: more than the functions that they stand for.
+_DEGREES = 24
+
+
 @lru_cache(maxsize=64)
 def _of_text(text: str, limits: Limits) -> Coefficients:
     return _of_input(text, limits)
 
 
 def _of_input(equation: Any, limits: Limits) -> Coefficients:
-    """In t where there is such a variable: then what cancels is known."""
+    """In t where there is such a variable: then what cancels is known; as it is written where its degrees are high in t."""
     try:
         parsed = read_input(equation, limits=limits, exponentials=True)
     except NotRational:
         return as_written(equation, None, limits)
-    return as_written(equation, None, limits) if change_of(parsed) is None else _of_parsed(parsed)
+    written = change_of(parsed) is None or parsed.S.num.degree + parsed.S.den.degree > _DEGREES
+    return as_written(equation, None, limits) if written else _of_parsed(parsed)
 
 
 def _of_parsed(parsed: Any) -> Coefficients:
