@@ -26,6 +26,7 @@ from kovacic.general_solution.integrands import integral_of_fraction, integral_o
 from kovacic.general_solution.special_integrals import dilogarithm, fresnel, in_complex_exponentials, incomplete_gamma
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.undetermined import undetermined
+from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -35,6 +36,8 @@ _BY_PARTS = (
     *(sympy.erf, sympy.erfi, sympy.Ei, sympy.Si, sympy.Ci, sympy.fresnels, sympy.fresnelc),
 )
 _SIMPLE = {exp, sin, cos}
+#: In different quadrants of the waves, and on both sides of where roots of polynomials usually become real.
+_POINTS = tuple(map(sympy.Rational, ("3/10", "6/5", "9/5", "3", "18/5", "5", "11", "-2/7", "-7/5", "-2", "-4", "-9")))
 
 
 def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
@@ -44,6 +47,14 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     >>> antiderivative(tan(x) ** 2 + log(x), x)
     x*log(x) - 2*x + tan(x)
     """
+    found = _by_rules(integrand, x)
+    if found is None or (_has_a_root_of_a_sum(integrand, x) and not _holds_on_every_side(found, integrand, x)):
+        return None
+    return found
+
+
+def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
+    """As a whole, or term by term; x may be a root or an exponential, which is positive."""
     integrand = prepared(integrand)
     functions = _functions(integrand)
     if not functions <= _SIMPLE | set(_BY_PARTS):
@@ -60,6 +71,27 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
             return None
         parts.append(found)
     return sympy.Add(*parts)
+
+
+def _has_a_root_of_a_sum(integrand: Expr, x: Expr) -> bool:
+    """As in sqrt(1 + tan(x)^2), which is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one."""
+    roots = [p.base for p in integrand.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
+    return any(base.has(x) and not base.is_Symbol for base in roots)
+
+
+def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
+    """Is its derivative the integrand at real points far apart, wherever that is real?"""
+    slope = found.diff(x)
+    others = next(samples(integrand.free_symbols - {x}))
+    for point in _POINTS:
+        here = {**others, x: point}
+        value = ball(integrand, here)
+        if value is None or not value.is_finite() or not value.imag.contains(0):
+            continue
+        derivative = ball(slope, here)
+        if derivative is not None and derivative.is_finite() and not derivative.overlaps(value):
+            return False
+    return True
 
 
 def _of_terms(inverse: Expr, terms: list[Expr], x: Expr) -> Expr | None:
@@ -194,7 +226,7 @@ def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
 
 def _known(integrand: Expr, t: Expr) -> Expr | None:
     """As `antiderivative` in another variable: an `Integral` that stays would have that."""
-    found = antiderivative(integrand, t)
+    found = _by_rules(integrand, t)
     return None if found is None or found.has(sympy.Integral) else found
 
 
@@ -205,7 +237,8 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     k = _common_rate(list(rates.values()))
     if k is None:
         return None
-    inner_rates = [rates[e] for argument in _arguments_of_roots_and_logarithms(term) for e in argument.atoms(exp)]
+    inner = [e for argument in _arguments_of_roots_and_logarithms(term) for e in argument.atoms(exp)]
+    inner_rates = [rates[e] for e in inner if e in rates]
     if inner_rates and all((rate / k).is_negative for rate in inner_rates):  # with polynomials there
         k = -k
     u = sympy.Dummy()
@@ -331,7 +364,7 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         found = _of_one_function(function, m, g, x)
         if found is not None:
             return found
-    G = antiderivative(g, x)
+    G = _by_rules(g, x)
     if G is None:
         return None
     (function, m), *others = powers
@@ -343,7 +376,7 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     if not _functions(G) <= _SIMPLE:
         return None
     slopes = [m * _slope(function, x) * inverse / function for function, m in powers]
-    rest = antiderivative(sympy.Add(*(slope * G for slope in slopes)), x)
+    rest = _by_rules(sympy.Add(*(slope * G for slope in slopes)), x)
     return None if rest is None else sympy.expand(G * inverse) - rest
 
 
@@ -460,5 +493,5 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
         residue = rest.xreplace({s: sympy.Integer(sign)})
         if residue.has(sin, cos) or not residue.has(x):
             return None
-    found = antiderivative(q, x)
+    found = _by_rules(q, x)
     return None if found is None else found + sympy.Integral(rest / c, x)
