@@ -181,7 +181,8 @@ def _in_pieces(question: Question, value: Expr) -> _Pieces:
     whole = [value, *(question.own(part) for part in _coefficients(question))]
     symbols = set().union(*(e.free_symbols for e in whole)) - {x}
     sample = next(islice(samples(symbols), 1, None))
-    y, a, b, c, f = (_concrete(e.xreplace(sample), x) for e in whole)
+    functions = sorted({f.func for e in whole for f in e.atoms(AppliedUndef)}, key=str)
+    y, a, b, c, f = (_concrete(e.xreplace(sample), functions) for e in whole)
     places = [*break_points(y, x), *break_points(f, x)]
     real = [point for point in places if point.is_number and point.is_real]
     breaks = sorted(dict.fromkeys(real), key=lambda point: float(point.evalf()))
@@ -210,9 +211,8 @@ def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
     return value.replace(is_up_to_x, other)
 
 
-def _concrete(e: Expr, x: Expr) -> Expr:
-    """With an exponential function for each function of x that is given by its name."""
-    functions = sorted({f.func for f in e.atoms(AppliedUndef) if f.has(x)}, key=str)
+def _concrete(e: Expr, functions: Sequence[Any]) -> Expr:
+    """With an exponential function for each function that is given by its name."""
     for k, function in enumerate(functions):
         e = e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
     return e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit()) if functions else e
