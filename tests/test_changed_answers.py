@@ -128,7 +128,7 @@ def test_a_change_is_refuted_or_named(text: str) -> None:
     assert look(kovacic.solve(text).to_json(full=True)) > 300
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_changes_of_published_and_textbook_answers_are_refuted_or_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
     from closed_forms import TEXTBOOK

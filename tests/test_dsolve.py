@@ -964,17 +964,18 @@ def test_klein_solutions_join_at_ordinary_points(a: sympy.Expr, c: sympy.Expr, s
     ("a", "b", "c", "start"),
     [
         ((2 * x - 1) * (x**2 + 1), -(x**2 - 4 * x - 7) / 2, -2 * x**5 + x**4 - x**3 / 2 + 2 * x**2 + 11 * x / 2 - 1, 1),
-        (2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, -3),
-        (2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, 3),
+        pytest.param(2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, -3, marks=pytest.mark.slow),
+        pytest.param(2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, 3, marks=pytest.mark.slow),
         (x**2, x, -9 * (x**6 + Rational(1, 16)), -1),
         (x**2, x, x**2 - Rational(1, 9), -3),
         (x**2, x, -(x**2) - 1, -3),
         (1, -x, -(x**2) - x, -1),
-        (
+        pytest.param(
             27 * x**2 * (x + 1) * (x + 3) ** 2 * (x**2 - 2),
             9 * x * (x + 3) ** 2 * (16 * x**3 + 13 * x**2 - 8 * x - 2),
             -420 * x**5 - 3309 * x**4 - 7530 * x**3 - 1959 * x**2 + 6444 * x + 3402,
             3,
+            marks=pytest.mark.slow,
         ),  # sums over the roots of 7 a^6 + 4 a^3 - 2
     ],
     ids=str,

@@ -14,13 +14,14 @@ Reference: DLMF 10.2, 10.13, 10.25, 10.39, 10.47.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from flint import acb, fmpq, fmpq_poly
+from flint import acb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -240,6 +241,23 @@ def standard_form(
     return StandardForm(n, d, ((half + mu, 0), (lower, 0)), each(first, second), (slit, None))
 
 
+def _0f1(argument: Any, c: Any) -> Any:
+    """0F1(; c; argument), whose power series FLINT sums without more bits than are asked for.
+
+    Its terms are as large as exp(w), w = 2 sqrt(|argument|), while the sum may be near 1: so many bits are lost up to where
+    FLINT takes the asymptotic expansion, at a w that grows with the precision.
+    """
+    found = argument.hypgeom_0f1(c)
+    bits = ctx.prec
+    if found.rel_accuracy_bits() > bits // 2 or argument.rel_accuracy_bits() < bits // 2:
+        return found
+    w = 2 * math.sqrt(float(abs(argument).upper()))
+    if w > 2 * bits:
+        return found
+    with ctx.workprec(bits + int(w / math.log(2)) + 10):
+        return argument.hypgeom_0f1(c)
+
+
 def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution, StandardSolution, Any]:
     """0F1(; 1 +- order; argument), the argument factor z or, `squared`, factor z^2/4; and the factor of the slit."""
 
@@ -248,7 +266,7 @@ def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution,
 
         def value(z: acb) -> State:
             argument, slope = (z * z * (factor / 4), z * (factor / 2)) if squared else (z * factor, acb(factor))
-            return argument.hypgeom_0f1(c), argument.hypgeom_0f1(c + 1) * slope / c
+            return _0f1(argument, c), _0f1(argument, c + 1) * slope / c
 
         return value
 
