@@ -302,3 +302,17 @@ def test_a_search_that_ran_out_of_time_isnt_remembered() -> None:
     with Budget(Limits(seconds=1e-9)).watched(), pytest.raises(LimitExceeded):
         classical_of(rational, None)
     assert classical_of(rational, None) is not None
+
+
+@parametrize(
+    "S", ["-400*x^2", "-x^4 - 3/(16*x^2)", "-30/(16*x^2) - x^4", "-1 - 2/(7*x^2)", "-9 + 5/x - 1/(4*x^2)"], ordinary=1
+)
+def test_many_points_where_a_series_loses_its_digits_cost_little(S: str) -> None:
+    """Between the power series and the asymptotic expansion FLINT's values may be worse at a higher precision."""
+    points = [1 + Fraction(40 * k + 1, 300) for k in range(1, 300)]
+    found = evaluate_states(S, points, x0=1, y0=0, dy0=100, digits=8)
+    assert max(state.route.bits for state in found) < 1000
+    assert all(state.reached for state in found)
+    chosen = found[::60]
+    others = evaluate_states(S, points[::60], x0=1, y0=0, dy0=100, digits=8, method="taylor")
+    assert all(one.y.overlaps(other.y) for one, other in zip(chosen, others, strict=True))

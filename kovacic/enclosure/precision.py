@@ -16,7 +16,7 @@ from typing import Literal, Protocol
 from flint import acb, arb
 
 from kovacic.enclosure.ball import Ball, Route, finite_ball
-from kovacic.enclosure.classical import Closed
+from kovacic.enclosure.classical import Closed, NotServed
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.matrices import State
@@ -112,6 +112,8 @@ def raise_precision(
             return previous.explained(str(limit))
         if run.reached:
             return run.values
+        if closed is not None and previous is not None and run.lacking > previous.lacking:
+            raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
         if exact and run.finite and number > 1:
             ceiling = ceiling.raised(run)
         stalled = not exact and previous is not None and run.finite and run.is_stalled(previous)
@@ -151,9 +153,13 @@ class _Ceiling:
 
 @dataclass(frozen=True)
 class _Run:
-    """What one precision gave: without values if the balls aren't all finite; `missing` are the bits that lack at most."""
+    """What one precision gave: without values if the balls aren't all finite.
+
+    So many of them are `lacking` digits, and `missing` are the bits that lack at most.
+    """
 
     values: tuple[PointValue, ...]
+    lacking: int
     missing: int
     route: Route
     finite: bool
@@ -171,7 +177,7 @@ class _Run:
             "run %d, %d bits: %d of %d points to %d digits",
             *(route.runs, route.bits, lacking.count(0), len(lacking), route.digits),
         )
-        return cls(values, max(lacking, default=0), route, finite)
+        return cls(values, len(lacking) - lacking.count(0), max(lacking, default=0), route, finite)
 
     @property
     def reached(self) -> bool:

@@ -21,7 +21,7 @@ from fractions import Fraction
 from itertools import product
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from flint import acb, ctx, fmpq, fmpq_poly
+from flint import acb, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -242,27 +242,32 @@ def standard_form(
 
 
 def _0f1(argument: Any, c: Any) -> Any:
-    """0F1(; c; argument), whose power series FLINT sums without more bits than are asked for.
+    """0F1(; c; argument), where FLINT sums the power series with its middle, and with more bits.
 
-    Its terms are as large as exp(w), w = 2 sqrt(|argument|), while the sum may be near 1: so many bits are lost up to where
-    FLINT takes the asymptotic expansion, at a w that grows with the precision.
+    The terms are as large as exp(w), w = 2 sqrt(|argument|), while the sum may be near 1: so many bits, and as much of the
+    radius of the argument, are lost up to where FLINT takes the asymptotic expansion, at a w that grows with the precision.
+    For a real c >= -1/2 the derivative, 0F1(; c + 1; a)/c, is at most exp(|Im 2 sqrt(-a)|)/|c| [DLMF 10.14.4].
     """
-    found = argument.hypgeom_0f1(c)
+    found = argument.hypgeom_0f1(acb(c))
     bits = ctx.prec
-    if found.rel_accuracy_bits() > bits // 2 or argument.rel_accuracy_bits() < bits // 2:
+    if found.rel_accuracy_bits() > bits // 2 or not isinstance(c, fmpq) or c < fmpq(-1, 2) or not argument.is_finite():
         return found
     w = 2 * math.sqrt(float(abs(argument).upper()))
     if w > 2 * bits:
         return found
     with ctx.workprec(bits + int(w / math.log(2)) + 10):
-        return argument.hypgeom_0f1(c)
+        middle = acb(argument.real.mid(), argument.imag.mid()).hypgeom_0f1(acb(c))
+    growth = abs((2 * (-argument).sqrt()).imag).exp()
+    error = ((argument.real.rad() + argument.imag.rad()) * growth / abs(arb(c))).upper()
+    off_axis = 0 if argument.imag == 0 else error
+    return acb(arb(middle.real.mid(), middle.real.rad() + error), arb(middle.imag.mid(), middle.imag.rad() + off_axis))
 
 
 def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution, StandardSolution, Any]:
     """0F1(; 1 +- order; argument), the argument factor z or, `squared`, factor z^2/4; and the factor of the slit."""
 
     def first(order: Any) -> StandardSolution:
-        c = acb(1 + order)
+        c = 1 + order
 
         def value(z: acb) -> State:
             argument, slope = (z * z * (factor / 4), z * (factor / 2)) if squared else (z * factor, acb(factor))
