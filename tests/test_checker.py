@@ -246,7 +246,7 @@ def check_generated(example: strategies.Example) -> None:
     assert said.startswith(("checked: ", *REASONS)), said
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(strategies.examples())
 def test_generated_answers_are_checked(example: strategies.Example) -> None:

@@ -122,6 +122,8 @@ def documented(pages: Path) -> set[str]:
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The reference alone, built."""
+    if find_spec("sphinx") is None or find_spec("myst_nb") is None:
+        pytest.skip("needs what the documentation is built with")
     target = tmp_path_factory.mktemp("reference")
     others = "build,_build,index.md,[!r]*.md,howto,decisions"
     settings = ["-t", "reference", "-c", "docs", "-D", "root_doc=reference/api", "-D", f"exclude_patterns={others}"]
@@ -132,9 +134,6 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.long
-@pytest.mark.skipif(
-    find_spec("sphinx") is None or find_spec("myst_nb") is None, reason="needs what the documentation is built with"
-)
 def test_every_public_attribute_is_on_the_built_pages(pages: Path) -> None:
     names = documented(pages)
     missing = []
