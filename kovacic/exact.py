@@ -238,7 +238,7 @@ def radical(value: Any, n: int = 2) -> Any:
     """
     from sympy import root, sympify
 
-    number, _ = sympify(value).as_coeff_Mul(rational=True)
+    number, _ = sympify(value, strict=True).as_coeff_Mul(rational=True)
     bits = _bits(number)
     if bits > _LONGEST_RADICAND:
         reason = (

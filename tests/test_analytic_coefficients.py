@@ -206,3 +206,20 @@ def test_waves_of_which_the_common_angle_is_small(text: str) -> None:
     first, zeroth = (sympy.lambdify(x, sympy.sympify(part.replace("^", "**")), "mpmath") for part in (b, c))
     (expected, _) = mpmath.odefun(lambda z, y: [y[1], -first(z) * y[1] - zeroth(z) * y[0]], 0.6, [1, 0])(1.4)
     assert abs(float(value) - expected) < 1e-10
+
+
+@parametrize(
+    ("text", "stop"),
+    [
+        ("y'' + sin(31*x)/sin(x)*y = 0", 5),
+        ("y'' + (1 - cos(40*x))/sin(x)^2*y = 0", 5),
+        ("y'' + sin(x/2)/(90*sin(x/14))*y' + cos(x/3)*y = 0", 50),
+        ("y'' + sin(31*x)*csc(x)*y = 0", 5),
+        ("y'' + (tan(20*x)*cos(20*x) + cot(x)*tan(x))*y = 0", 5),
+    ],
+    ordinary=2,
+)
+def test_quotients_of_waves_without_singular_points_are_on_the_way(text: str, stop: int) -> None:
+    there = kovacic.evaluate(text, stop, x0=1, y0=1, dy0=0, derivative=True, digits=25)
+    back = kovacic.evaluate(text, 1, x0=stop, y0=there[0], dy0=there[1])
+    assert abs(float(back) - 1) < 1e-9

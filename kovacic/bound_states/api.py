@@ -302,7 +302,7 @@ def _excluded(question: Question, ends: list[End]) -> list[Any]:
         is_chosen = question.friedrichs and not end.oscillates
         if is_chosen or end.circle is False or signs.holds(end.circle) is False:
             continue
-        circle = sympy.sympify(end.circle)
+        circle = sympy.sympify(end.circle, strict=True)
         if signs.holds(circle):
             found[sympy.true] = None
         else:

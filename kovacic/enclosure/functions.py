@@ -50,6 +50,7 @@ def coefficients_of_any(equation: Any, params: Mapping[str, object] | None, limi
 #: Of S in t up to which coefficients are evaluated in t: beyond, as for cos(x) beside tan(x/5) and csc(x/9), powers of t cost
 #: more than the functions that they stand for.
 _DEGREES = 24
+_WITH_POLES = (sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.tanh, sympy.coth, sympy.sech, sympy.csch)
 
 
 @lru_cache(maxsize=64)
@@ -58,13 +59,35 @@ def _of_text(text: str, limits: Limits) -> Coefficients:
 
 
 def _of_input(equation: Any, limits: Limits) -> Coefficients:
-    """In t where there is such a variable: then what cancels is known; as it is written where its degrees are high in t."""
+    """In t where there is such a variable: then what cancels is known.
+
+    As it is written where nothing can cancel, and its degrees are high in t.
+    """
     try:
         parsed = read_input(equation, limits=limits, exponentials=True)
     except NotRational:
         return as_written(equation, None, limits)
-    written = change_of(parsed) is None or parsed.S.num.degree + parsed.S.den.degree > _DEGREES
-    return as_written(equation, None, limits) if written else _of_parsed(parsed)
+    if change_of(parsed) is None:
+        return as_written(equation, None, limits)
+    if parsed.S.num.degree + parsed.S.den.degree > _DEGREES:
+        written = as_written(equation, None, limits)
+        if all(_nothing_cancels(part, written.variable) for part in written.parts):
+            return written
+    return _of_parsed(parsed)
+
+
+def _nothing_cancels(part: Any, x: Any) -> bool:
+    """Is at most one term singular somewhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2?"""
+    singular = [term for term in sympy.Add.make_args(part) if _may_be_singular(term, x)]
+    if len(singular) > 1:
+        return False
+    factors = [factor for term in singular for factor in sympy.Mul.make_args(term) if factor.has(x)]
+    return len(factors) <= 1 and all(isinstance(f.as_base_exp()[0], sympy.Function) for f in factors)
+
+
+def _may_be_singular(term: Any, x: Any) -> bool:
+    inverses = [p for p in term.atoms(sympy.Pow) if p.exp.is_negative and p.base.has(x)]
+    return bool(inverses) or term.has(*_WITH_POLES)
 
 
 def _of_parsed(parsed: Any) -> Coefficients:
