@@ -11,6 +11,7 @@ import pytest
 
 import kovacic
 from kovacic.cli import main
+from kovacic.enclosure.states import journey_of
 
 ROOT = Path(kovacic.__file__).parent.parent
 README = ROOT / "README.md"
@@ -36,6 +37,7 @@ def sessions(*pages: Path) -> list[tuple[str, str, str]]:
 def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
     program, *arguments = shlex.split(command)
     assert program == "kovacic"
+    journey_of.cache_clear()  # a command is a process of its own: an earlier one's precision would change the radius
     main.run(arguments)
     shown = capsys.readouterr()
     assert shown.out + shown.err == output
