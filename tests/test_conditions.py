@@ -961,3 +961,35 @@ def test_pi_of_sympy_is_that_of_a_text() -> None:
     """Read in x, in which the coefficient is rational."""
     z, a = sympy.symbols("x a")
     assert str(kovacic.conditions(sympy.pi * z**2 + a, var=z)) == str(kovacic.conditions("pi*x^2 + a", var="x"))
+
+
+@pytest.mark.parametrize(
+    ("S", "unsaid"),
+    [
+        ("a/x + b/x^2 + c + x^2", {"b": 0, "a": 1, "c": 2}),
+        ("x^6 + a*x^2 + c + l*(l+1)/x^2", {"l": -1, "a": 4, "c": 1}),
+        ("-E - a/x + l*(l+1)/x^2 + x", {"l": 0, "E": 1, "a": 1}),
+        ("A/x + B/(x-1) + 1/4", {"A": 0, "B": "1/2"}),
+        ("-2*E - 2*Z/x + l*(l+1)/x^2", {"E": 0, "Z": 1, "l": 1}),
+    ],
+)
+def test_no_region_says_what_holds_otherwise(S: str, unsaid: dict[str, object]) -> None:
+    """A theorem lists where there are solutions: "b = 0: none" isn't said, since no case with a solution is about it."""
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    assert all(region.case is not None for region in answer.regions)
+    assert answer.region_at(unsaid) is None
+    assert answer.case_at(unsaid) is None
+    assert answer.solve_at(unsaid).case is None
+
+
+def test_a_needed_exclusion_is_said() -> None:
+    """B = 0 gives case 2 for half of Lame's equation, but not where g2^3 = 27 g3^2: that region stays."""
+    S = "(-16*B*g2*x - 16*B*g3 + 64*B*x^3 - 3*g2^2 - 36*g2*x^2 - 108*g3*x)/(16*(-g2*x - g3 + 4*x^3)^2)"
+    answer = kovacic.conditions(S, var="x")
+    texts = [str(region.statement) for region in answer.regions]
+    assert texts[0] == "g2 = 0, and g3 = 0, and B = 0"
+    assert "g2^3 = 27*g3^2" in texts
+    assert answer.case_at({"B": 0, "g2": 3, "g3": 1}) == 1
+    assert answer.case_at({"B": 0, "g2": 3, "g3": 2}) == 2
+    assert answer.case_at({"B": 1, "g2": 12, "g3": 8}) is None

@@ -74,7 +74,7 @@ def test_lame_in_n_and_its_accessory_parameter() -> None:
     ("S", "line"),
     [
         ("a*x^2 + c + l*(l+1)/x^2 + x^6", "l = 0 or -1, and a = +-(2*d + 3), d in N, and Delta_d = 0: case 1"),
-        ("-E - a/x + l*(l+1)/x^2 + x", "l = 0 or -1: no Liouvillian solution"),
+        ("l*(l+1)/x^2 + E/x - 1/4 + m/(x-1)", "l = 0 or -1, and m = 0, and 2*E*I is an even integer: case 1"),
     ],
 )
 def test_regions_that_a_symmetry_exchanges_are_one_line(S: str, line: str) -> None:

@@ -396,3 +396,24 @@ def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
     assert found.hint.endswith("a polynomial of degree 4: max_degree=4")
     assert kovacic.spectrum("x^6 - 11*x^2", max_degree=4).algebraic[0].degree == 4
     assert not kovacic.spectrum("x^4 - x^2").hint
+
+
+def test_equal_strengths_are_in_the_same_variable_as_one_function() -> None:
+    """1/sin(x)^2 + 1/cos(x)^2 = 4/sin(2 x)^2, with the same levels (1 + sqrt(5) + 2 n)^2."""
+    both = kovacic.spectrum("1/sin(x)^2 + 1/cos(x)^2", domain=(0, "pi/2"))
+    one = kovacic.spectrum("4/sin(2*x)^2", domain=(0, "pi/2"))
+    assert both.complete and one.complete
+    assert both.levels[0].energy == one.levels[0].energy == (2 * sympy.Symbol("n") + 1 + sympy.sqrt(5)) ** 2
+
+
+def test_a_formula_that_holds_for_no_n_is_left_out() -> None:
+    """A step, Woods and Saxon's potential on the line, has no bound states."""
+    step = kovacic.spectrum("-20/(1 + exp(x))")
+    assert step.complete
+    assert step.levels == ()
+
+
+def test_states_are_numbered_by_their_zeros() -> None:
+    """The exceptional oscillator of degree 2: its ground state -3, and 2 n + 3 with n + 1 zeros."""
+    states = kovacic.spectrum("x^2 + 8*(2*x^2-1)/(2*x^2+1)^2").states(count=3)
+    assert [(state.number, state.energy) for state in states] == [(0, -3), (1, 3), (2, 5), (3, 7)]

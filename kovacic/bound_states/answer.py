@@ -357,7 +357,8 @@ def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[St
         here = {**at, levels.number: sympy.Integer(n)}
         if all(_is_true(condition, here) for condition in levels.conditions):
             energy = sympy.simplify(levels.energy.subs(here))
-            yield State(n, energy, levels.wave.subs(here).doit(), int(levels.zeros.subs(here)))
+            zeros = int(levels.zeros.subs(here))
+            yield State(zeros, energy, levels.wave.subs(here).doit(), zeros)
         elif levels.above:
             return
 

@@ -275,7 +275,9 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
             reason = f"undecided: {_at_a_wall(question, wall)}"
             return _spectrum(question, ends, excluded=tuple(excluded), reason=reason)
         return _one_by_one(question, ends, excluded, max_degree, str(uncovered), budget)
-    levels = _merged([_levels(question, family) for family in families])
+    found = (_levels(question, family) for family in families)
+    possible = [levels for levels in found if sympy.false not in levels.conditions]
+    levels = _merged(possible)
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
 

@@ -19,11 +19,12 @@ from kovacic.exact import whole
 from kovacic.limits import Budget, Limits, bounded_work
 from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.parametric.cases import without_redundant
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty, without_implied
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import Given
 from kovacic.parametric.statements import Statement
@@ -73,6 +74,9 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, field, constant, parsed.variable, budget)
     result = _under(assumptions, replace(found, regions=tuple(regions)), parsed.S, budget)
+    with budget.watched(), suppress(LimitExceeded):
+        generic = result.generic if result.complete is True else None
+        result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
     regions = [_finished(region, parsed.equation, max_degree, budget) for region in result.regions]
     return ParametricAnswer(
         shown,
@@ -112,7 +116,7 @@ def _distinct(
     numbers = (*constant.names, *(name for name in field.names if name == PI))
     different: dict[Statement, ParameterRegion] = {}
     for region in regions:
-        statement = reduced(region.statement, constant).avoiding(names, numbers)
+        statement = without_implied(reduced(region.statement, constant)).avoiding(names, numbers)
         different.setdefault(statement, replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):
@@ -133,10 +137,6 @@ def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budge
         statement = region.statement.narrowed(assumptions)
         if decided is None and statement.decided(assumptions) is not False:
             regions.append(replace(region, statement=statement))
-    nothing = RegionVerdict(None)
-    if complete is True and generic == nothing:
-        while regions and regions[-1].plain and regions[-1].verdict == nothing:
-            regions.pop()
     return Partition(generic, complete, found.theory, tuple(regions))
 
 

@@ -7,17 +7,20 @@ be said where the two exclude one another, or meet in values of an earlier case.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
+from kovacic.limits import check_time
 from kovacic.parametric.assumptions import NOTHING_ASSUMED
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, holds_on
 from kovacic.parametric.restriction import hypersurface, over_all
+from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
 
 
@@ -61,12 +64,65 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
         before = [case.statement for case in found if not case.without]
         charts = _within(region.statement, _everything(regions))
         left = []
-        for other in unsolvable:
+        for other in [] if _proves_a_solution(region) else unsolvable:
             common = _within(region.statement, _within(other, charts))
             if not _covered(common, before):
                 left.append(_left_to_say(other, region.statement, charts))
         found.append(Case((region,), _shortest(left)))
     return _joined(found)
+
+
+def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> list[ParameterRegion]:
+    """The regions without those of whose values the later ones say the same, and the generic verdict; None claims nothing.
+
+    "l = 0: no Liouvillian solution" needn't be said where no later region with a solution meets l = 0.
+    """
+    kept = [*regions]
+    for k in reversed(range(len(regions))):
+        check_time()
+        if _is_redundant(kept[k], kept[:k], kept[k + 1 :], generic):
+            del kept[k]
+    return kept
+
+
+def _is_redundant(
+    region: ParameterRegion,
+    before: list[ParameterRegion],
+    after: list[ParameterRegion],
+    generic: RegionVerdict | None,
+) -> bool:
+    """Do the later regions say the same at each value of this one that is in none before?"""
+    if not _is_known(region) or region.complete is not True:
+        return False
+    charts = _within(region.statement, _everything([region]))
+    known = [one.statement for one in before]
+    for other in after:
+        common = _within(other.statement, charts)
+        if all(_is_said(known, other.statement, chart) for chart in common):
+            continue
+        if _says_the_same(other, region):
+            if _covered(charts, [other.statement]):
+                return True
+        elif region.case is not None or not _proves_a_solution(other):
+            return False
+    return generic is not None and _is_same(generic, region.verdict)
+
+
+def _says_the_same(other: ParameterRegion, region: ParameterRegion) -> bool:
+    is_complete = other.defined and other.complete is True
+    return is_complete and _is_same(other.verdict, region.verdict)
+
+
+def _is_same(first: RegionVerdict, second: RegionVerdict) -> bool:
+    return first == second and first.group == second.group
+
+
+def _proves_a_solution(region: ParameterRegion) -> bool:
+    """Does its statement hold only where there is a solution, also at values that an earlier region has?
+
+    Those about Delta_d are decided at each point by the equation there.
+    """
+    return region.case is not None and any(isinstance(part, Natural) for part in both(region.statement).parts)
 
 
 def _everything(regions: Sequence[ParameterRegion]) -> list[ParameterPoint]:
@@ -152,6 +208,31 @@ def _covered(charts: list[ParameterPoint], statements: Sequence[Statement]) -> b
     return all(any(_covers(known, chart) for known in statements) for chart in charts)
 
 
+def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterPoint) -> bool:
+    """Does one of the known statements hold at all values of the chart at which this one does?"""
+    if _covered([chart], known):
+        return True
+    try:
+        parts = _restricted(statement, chart)
+    except (TypeError, ValueError, ZeroDivisionError):  # not about functions of the parameters of the chart
+        return False
+    for one in known:
+        with suppress(TypeError, ValueError, ZeroDivisionError):
+            if _restricted(one, chart) <= parts:
+                return True
+    return False
+
+
+def _restricted(statement: Statement, chart: ParameterPoint) -> set[Statement]:
+    """What it says on the chart: all of these statements."""
+    on_chart = statement.rewritten(lambda function: over_parameters(chart.at(function)))
+    return {part for part in both(on_chart).parts if not _is_true(part)}
+
+
+def _is_true(statement: Statement) -> bool:
+    return isinstance(statement, Vanishes) and not statement.function
+
+
 def _covers(statement: Statement, chart: ParameterPoint) -> bool:
     """Does it provably hold at all values of the chart?"""
     is_point = chart.field.ground == QQ
@@ -188,7 +269,11 @@ def _on_chart(statement: Statement, chart: ParameterPoint) -> list[ParameterPoin
         if isinstance(statement, Vanishes):
             return _where_zero(chart.at(statement.function), chart)
         if isinstance(statement, Congruence):
-            return _without_unknown(chart.at(statement.equation), chart)
+            equation = chart.at(statement.equation)
+            return [] if statement.holds_for(equation) is False else _without_unknown(equation, chart)
+        if isinstance(statement, Schwarz):
+            chart.at(statement.cubic)
+            return [chart]
         if isinstance(statement, Natural):
             parts = (_without_unknown(chart.at(factor), chart) for factor in statement.factors or ())
             return [chart] if statement.factors is None else _union(parts, chart)

@@ -97,6 +97,13 @@ class Congruence(Statement):
         roots = rational_roots(point.at(self.equation))
         return any(coset.contains(N) for coset, N in product(self.cosets, roots))
 
+    def holds_for(self, equation: Poly) -> bool | None:
+        """Is it true where this is the equation?  None where there are parameters in it."""
+        numbers = _without_parameters(equation)
+        if numbers is None:
+            return None
+        return any(coset.contains(N) for coset, N in product(self.cosets, rational_roots(numbers)))
+
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         made = Congruence.make(change(self.equation), self.residues, self.modulus)
         return replace(made, letter=self.letter, fixed=self.fixed)

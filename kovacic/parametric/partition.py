@@ -318,10 +318,18 @@ def _rest(
         verdict = replace(verdict, known=False)
         if isinstance(field, AlgebraicField):  # no parameter can be eliminated
             complete = f"except for special values with {statement.text()}"
+    if surface.curve:
+        verdict = _without_formulas(verdict)
     origin = None
     if verdict.known and verdict.case == 1 and not surface.curve:
         origin = partial(solutions_there, S, settings.variable)
     return ParameterRegion(statement, verdict, complete, origin=origin)
+
+
+def _without_formulas(verdict: RegionVerdict) -> RegionVerdict:
+    """Without a family whose name has functions of the parameter of a curve in it, which isn't one of the user's."""
+    has_roots = "sqrt" in (verdict.family or "")
+    return replace(verdict, family=None) if has_roots else verdict
 
 
 def _at_a_value(
@@ -345,6 +353,7 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
         if isinstance(first, Vanishes) and str(first.function) in elsewhere:
             continue
         if surface.curve:
-            region = replace(region, statement=region.statement.rewritten(surface.back), origin=None)
+            verdict = _without_formulas(region.verdict)
+            region = replace(region, statement=region.statement.rewritten(surface.back), verdict=verdict, origin=None)
         special.append(region)
     return special

@@ -344,6 +344,21 @@ def _alternatives(statement: Statement) -> Sequence[Statement]:
     return statement.parts if isinstance(statement, Either) else (statement,)
 
 
+def without_implied(statement: Statement) -> Statement:
+    """The statement without an equation that follows from the others: g2 = g3 = 0 implies g2^3 = 27 g3^2."""
+    if not isinstance(statement, Both):
+        return statement
+    parts = [*statement.parts]
+    for part in statement.parts:
+        functions = tuple(other.function for other in parts if isinstance(other, Vanishes) and other is not part)
+        if not isinstance(part, Vanishes) or len(functions) < 2:
+            continue
+        chart = _common_zeros(functions)
+        if chart is not None and holds_on(part, chart, NOTHING_ASSUMED):
+            parts.remove(part)
+    return Both(tuple(parts))
+
+
 def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions without those that earlier ones cover, for example because they say the same and more."""
     kept: list[ParameterRegion] = []
@@ -422,9 +437,14 @@ def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) ->
     try:
         if isinstance(statement, Vanishes):
             return not chart.at(statement.function)
-        if isinstance(statement, Congruence) and known:
-            equation = over_parameters(chart.at(statement.equation))
-            return Congruence.make(equation, statement.residues, statement.modulus).decided(known) is True
+        if isinstance(statement, Congruence):
+            equation = chart.at(statement.equation)
+            for_numbers = statement.holds_for(equation)
+            if for_numbers is not None or not known:
+                return for_numbers is True
+            return (
+                Congruence.make(over_parameters(equation), statement.residues, statement.modulus).decided(known) is True
+            )
     except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
         pass
     return False

@@ -136,6 +136,9 @@ class Either(_Several):
 
     decisive = True
 
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return either(*(part.rewritten(change) for part in self.parts))
+
     def sample(self, random: Random) -> list[FunctionPoly]:
         return random.choice(self.parts).sample(random)
 

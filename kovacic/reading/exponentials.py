@@ -180,7 +180,8 @@ def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
         tangent = _substituted(exponential, (1 + T * i) / (1 - T * i))
         found.append((tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
     below = [(_over_base(*monic), expression) for monic, expression in found]
-    best, variable = min(below, key=partial(_preference, sympy.expand(rate * x)))
+    angles = [sympy.expand(h * rate * x) for h in (1, g // 2)]
+    best, variable = min(below, key=partial(_preference, angles))
     return best, as_text(variable)
 
 
@@ -211,11 +212,14 @@ def _in_hyperbolic(form: _ThetaForm) -> Iterator[tuple[Monic, Any]]:
             yield quotient, function
 
 
-def _preference(angle: Any, pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
-    """Rational coefficients, few singular points; three of these are Gauss' equation, which is real in cos(x) and sin(x)."""
+def _preference(angles: list[Any], pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
+    """Rational coefficients, few singular points; three of these are Gauss' equation, which is real in cos(x) and sin(x).
+
+    The angle is the given one, or has half of the frequency of everything: so 1/sin(x)^2 + 1/cos(x)^2 = 4/sin(2 x)^2 is in cos(2 x).
+    """
     monic, expression = pair
     places = _singular_points(*monic)
-    is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] == angle
+    is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] in angles
     return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
 
 
