@@ -215,7 +215,7 @@ def _in_hyperbolic(form: _ThetaForm) -> Iterator[tuple[Monic, Any]]:
 def _preference(angles: list[Any], pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
     """Rational coefficients, few singular points; three of these are Gauss' equation, which is real in cos(x) and sin(x).
 
-    The angle is the given one, or has half of the frequency of everything: so 1/sin(x)^2 + 1/cos(x)^2 = 4/sin(2 x)^2 is in cos(2 x).
+    The angle is the given one, or has half of the frequency of everything: 1/sin(x)^2 + 1/cos(x)^2 is in cos(2 x).
     """
     monic, expression = pair
     places = _singular_points(*monic)
