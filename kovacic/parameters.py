@@ -98,7 +98,7 @@ class Conditions(ParametricAnswer):
         <BLANKLINE>
         has Liouvillian solutions if and only if the following holds:
         <BLANKLINE>
-        mu = 2, 4 mod 6.
+        mu = +-2 mod 6.
         """
         from kovacic.views.theorem import theorem
 

@@ -43,6 +43,15 @@ def numbers_said(statement: Natural, values: Values) -> set[int]:
         raise NotReadError(text)
     if " for integers " in text:
         return _sums_of_exponents(text, values)
+    if match := re.fullmatch(r"`(.*)` for an integer `(\w+)` from (\d+) to (\d+)", text):
+        equation, j, least, most = match.groups()
+        integers = range(int(least), int(most) + 1)
+        pairs = product(range(RANGE.stop), integers)
+        return {
+            d
+            for d, k in pairs
+            if _has_value(equation, {**values, statement.letter: sympy.Integer(d), j: sympy.Integer(k)})
+        }
     if " = +-" in text and " +- " in text:
         return _sums_with_signs(text.strip("`"), statement.letter, values)
     return {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
@@ -111,7 +120,8 @@ def _alternatives(text: str, values: Values) -> bool:
 
 def _listed(text: str) -> Iterator[str]:
     for value in text.split(", "):
-        yield from (value[2:], f"-({value[2:]})") if value.startswith("+-") else (value,)
+        center, found, rest = value.rpartition("+-")
+        yield from (f"{center}+({rest})", f"{center}-({rest})") if found else (value,)
 
 
 def _one_of(left: list[str], right: list[str], values: Values) -> bool:
@@ -122,7 +132,7 @@ def _one_of(left: list[str], right: list[str], values: Values) -> bool:
 def _kind(words: str) -> Callable[[Any], bool]:
     """Which numbers "an odd integer n" or "an integer = 1, 2 mod 5" means."""
     match = re.fullmatch(
-        r"an (odd |even )?integer(?: \w+)?(?: not divisible by (\d+)| = ([\d, ]+) mod (\d+))?", words.strip()
+        r"an (odd |even )?integer(?: \w+)?(?: not divisible by (\d+)| = ([\d, +-]+) mod (\d+))?", words.strip()
     )
     if match is None:
         raise NotReadError(words)
@@ -135,7 +145,7 @@ def _kind(words: str) -> Callable[[Any], bool]:
             return bool(number % 2 == (parity == "odd "))
         if divisor is not None:
             return bool(number % int(divisor) != 0)
-        return residues is None or number % int(modulus) in {int(r) for r in residues.split(",")}
+        return residues is None or number % int(modulus) in {int(r) % int(modulus) for r in _listed(residues)}
 
     return belongs
 
@@ -146,18 +156,18 @@ def _integer(said: str, letter: str, values: Values) -> bool:
         return bool(read(match[1], values).is_Integer)
     if match := re.fullmatch(r"`([^`]*) = ([^`=]*) mod ([^`]*)`", text):
         form, modulus = read(match[1], values), sympy.Rational(match[3])
-        return any(((form - sympy.Rational(residue)) / modulus).is_Integer for residue in match[2].split(", "))
+        return any(((form - read(residue, {})) / modulus).is_Integer for residue in _listed(match[2]))
     if match := re.fullmatch(r"`([^`]*)` is (.*)", text):
         belongs = _kind(match[2])
         return any(belongs(sympy.simplify(read(form, values))) for form in _signs(match[1]))
-    match = re.fullmatch(r"`([^`]*)`( \(.*?\))?(,? .*)", text)
+    match = re.fullmatch(r"`([^`]*)`( \(.*\))?( for .*)", text)
     if match is None:
         raise NotReadError(said)
     equation, note, rest = match.groups()
     for n in _possible(rest, letter, values):
         there = {**values, letter: n}
         zero = re.findall(rf"`([^`]*) = 0` where `{letter} = ([^`]*)`", note or "")
-        special = [factor for factor, root in zero if sympy.Rational(root) == n]
+        special = [factor for factor, root in zero if read(root, values) == n]
         holds = any(read(f, values) == 0 for f in special) if special else _has_value(equation, there)
         if holds:
             return True
@@ -183,11 +193,11 @@ def _possible(rest: str, letter: str, values: Values) -> Iterator[Any]:
     if match := re.fullmatch(r" for (an .*)", rest):
         belongs = _kind(match[1])
         yield from (sympy.Integer(k) for k in RANGE if belongs(sympy.Integer(k)))
-    elif match := re.fullmatch(r", `([^`]*) in Z`", rest):
+    elif match := re.fullmatch(rf" for a number `{letter}` with `([^`]*) in Z`", rest):
         yield from (_solved(match[1], k, n, values) for k in RANGE)
-    elif match := re.fullmatch(r", `([^`]*)` or `([^`]*) in N`", rest):
+    elif match := re.fullmatch(rf" for a number `{letter}` with `([^`]*)` or `([^`]*) in N`", rest):
         yield from (_solved(form, k, n, values) for form in match.groups() for k in RANGE if k >= 0)
-    elif match := re.fullmatch(r", `([^`]*)` is (an .*)", rest):
+    elif match := re.fullmatch(rf" for a number `{letter}` with `([^`]*)` (an .*)", rest):
         belongs = _kind(match[2])
         yield from (_solved(match[1], k, n, values) for k in RANGE if belongs(sympy.Integer(k)))
     else:

@@ -32,44 +32,44 @@ def residual(solution: Any, S: Any, point: Any) -> Any:
 POTENTIALS = {
     "Morse": (
         "A^2*exp(-2*x) - 2*A*b*exp(-x) - E",
-        "E = -n^2, n - b - 1/2 in Z: case 1",
+        "E = -(n + 2*b)^2/4 for an odd integer n: case 1",
         lambda n, a, b: {"A": a, "b": b, "E": -((b - n - F(1, 2)) ** 2)},
     ),
     "Poeschl-Teller": (
         "-l*(l+1)*sech(x)^2 - E",
-        "l in Z or E = -n^2, n + l or n - l - 1 in N: case 1",
+        "l in Z, or E = -(n - l)^2 for an integer n: case 1",
         lambda n, a, _: {"l": a, "E": -((a - n) ** 2)},
     ),
     "Poeschl-Teller, trigonometric": (
         "a*(a-1)/sin(x)^2 + b*(b-1)/cos(x)^2 - E",
-        "E = n^2, n + b - a is an odd integer or n + b + a - 1 is an odd integer: case 1",
+        "E = (n - b + a)^2 for an odd integer n, or E = (2*n - b - a)^2 for an integer n: case 1",
         lambda n, a, b: {"a": a, "b": b, "E": (a + b + 2 * n) ** 2},
     ),
     "Rosen-Morse": (
         "b*tanh(x) - l*(l+1)*sech(x)^2 - E",
         "2*l + 1 +- sqrt(-E + b) +- sqrt(-E - b) is an odd integer, "
-        "that is E = -n^2 - b^2/(4*n^2) (b = 0 where n = 0), n + l or n - l - 1 in N: case 1",
+        "that is E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n: case 1",
         lambda n, a, b: {"l": a, "b": b, "E": -((a - n) ** 2) - b * b / (4 * (a - n) ** 2)},
     ),
     "Eckart": (
         "-2*b*coth(x) + a*(a-1)*csch(x)^2 - E",
         "2*a + 1 +- sqrt(-E + 2*b) +- sqrt(-E - 2*b) is an odd integer, "
-        "that is E = -n^2 - b^2/n^2 (b = 0 where n = 0), n + a or n - a - 1 in N: case 1",
+        "that is E = -(n - a)^2 - b^2/(n - a)^2 (b = 0 where n = a) for an integer n: case 1",
         lambda n, a, b: {"a": a, "b": b, "E": -((a + n) ** 2) - b * b / (a + n) ** 2},
     ),
     "Rosen-Morse, trigonometric": (
         "l*(l+1)/sin(x)^2 + 2*b*cot(x) - E",
-        "E = n^2 - b^2/n^2 (b = 0 where n = 0), n + l or n - l - 1 in N: case 1",
+        "E = (n - l)^2 - b^2/(n - l)^2 (b = 0 where n = l) for an integer n: case 1",
         lambda n, a, b: {"l": a, "b": b, "E": (a + n + 1) ** 2 - b * b / (a + n + 1) ** 2},
     ),
     "Scarf": (
         "(A^2 - A + B^2)/cos(x)^2 - B*(2*A-1)*sin(x)/cos(x)^2 - E",
-        "E = n^2, n + A or n - A - 1 in N or n - B - 1/2 in Z: case 1",
+        "E = (n - A)^2 for an integer n, or E = (n + 2*B)^2/4 for an odd integer n: case 1",
         lambda n, a, b: {"A": a, "B": b, "E": (a + n) ** 2},
     ),
     "Scarf, hyperbolic": (
         "-(A^2 + A - B^2)/cosh(x)^2 + B*(2*A+1)*sinh(x)/cosh(x)^2 - E",
-        "E = -n^2, n + A or n - A - 1 in N or 2*B*I +- 2*sqrt(-E) is an odd integer: case 1",
+        "E = -(n - A)^2 for an integer n, or 2*B*I +- 2*sqrt(-E) is an odd integer: case 1",
         lambda n, a, b: {"A": a, "B": b, "E": -((a - n) ** 2)},
     ),
 }

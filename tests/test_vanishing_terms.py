@@ -48,7 +48,7 @@ def test_a_symbol_in_an_exponent_beside_parameters_is_refused(equation: str) -> 
 @pytest.mark.parametrize(
     ("equation", "case"),
     [
-        ("y'' = (x^(2*g) + a/x^2)*y", "a = (n*g + n - 1)*(n*g + n + 1)/4 for an odd integer n"),
+        ("y'' = (x^(2*g) + a/x^2)*y", "a = (g*n + n - 1)*(g*n + n + 1)/4 for an odd integer n"),
         ("y'' + y'/x + (x^(2*g-2) - n^2/x^2)*y = 0", "n/g - 1/2 in Z"),
     ],
 )

@@ -25,6 +25,8 @@ from kovacic.writing.formula import Math, caret, latex_text
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
+#: How much longer a quotient may become so that its denominator is in factors.
+_FOR_FACTORS = 4
 #: A power of a polynomial in the parameters, flint's.
 Power = tuple[Any, int]
 #: Around formulas among words.
@@ -81,10 +83,20 @@ def shifted(text: str, value: Poly) -> str:
     return f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
 
 
-def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
-    """The shortest of the usual forms; `letter` is the name of the polynomial variable."""
+def shortest_length(function: FunctionPoly | RatFunc, letter: str = "x") -> int:
+    """How many characters the shortest of the usual forms has."""
     above, below, names = _cleared(function, letter)
-    return min((_sum(form, names) for form in _forms(above, below)), key=len)
+    return min(len(_sum(form, names)) for form in _forms(above, below))
+
+
+def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
+    """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
+    above, below, names = _cleared(function, letter)
+    forms = [*_forms(above, below)]
+    in_factors = _sum(forms[-1], names)
+    shortest = min((_sum(form, names) for form in forms), key=len)
+    is_expanded = re.search(r"/\([^()]* [+-] [^()]*\)", shortest) is not None
+    return in_factors if is_expanded and len(in_factors) <= len(shortest) + _FOR_FACTORS else shortest
 
 
 def partial_fractions(S: RatFunc, variable: str) -> str:
@@ -98,9 +110,9 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
         for _ in range(k):
             above, digit = divmod(above, factor)
             digits_from_below.append(digit)
-        for j, digit in enumerate(digits_from_below):
+        for j, digit in enumerate(reversed(digits_from_below), 1):
             if digit:
-                terms.append(_in_factors(RatFunc(digit, factor ** (k - j)), variable))
+                terms.append(_in_factors(RatFunc(digit, factor**j), variable))
     return _joined(terms)
 
 
@@ -111,6 +123,10 @@ def _monomial(coefficient: Poly, variable: str, k: int) -> str:
     power = variable if k == 1 else f"{variable}^{k}"
     if text in ("1", "-1"):
         return text[:-1] + power
+    number = re.fullmatch(r"(-?)(\d+)/(\d+)", text)
+    if number is not None:
+        sign, above, below = number.groups()
+        return f"{sign}{above}*{power}/{below}" if above != "1" else f"{sign}{power}/{below}"
     return f"({text})*{power}" if " " in text else f"{text}*{power}"
 
 
@@ -237,8 +253,11 @@ def _joined(terms: Iterable[str]) -> str:
 
 
 def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
-    """The expanded polynomial, in the order of its terms."""
-    return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], str(polynomial))
+    """The expanded polynomial, in the order of its terms; the variable stands behind the parameters."""
+    text = re.sub(
+        r"\b(x(?:\^\d+)?)((?:\*t\d+(?:\^\d+)?)+)", lambda match: f"{match[2][1:]}*{match[1]}", str(polynomial)
+    )
+    return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], text)
 
 
 def _term(term: _Term, names: Sequence[str]) -> str:

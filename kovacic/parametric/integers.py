@@ -27,7 +27,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     values_at_integers,
 )
-from kovacic.parametric.spectra import Notation, families, integer_condition, kind
+from kovacic.parametric.spectra import Notation, classes, families, integer_condition, kind
 from kovacic.parametric.statements import ALWAYS, Statement, Vanishes, either
 
 #: What integers are called, the first that isn't a parameter.
@@ -99,7 +99,7 @@ class Congruence(Statement):
 
     def holds_for(self, equation: Poly) -> bool | None:
         """Is it true where this is the equation?  None where there are parameters in it."""
-        numbers = _without_parameters(equation)
+        numbers = equation if equation.field.ground == QQ else _without_parameters(equation)
         if numbers is None:
             return None
         return any(coset.contains(N) for coset, N in product(self.cosets, rational_roots(numbers)))
@@ -183,19 +183,19 @@ class Congruence(Statement):
             return integer_condition(self.equation, [*map(int, self.residues)], int(self.modulus), n)
         if len(self.residues) == 1:
             return self._one_class(self.form, n)
-        return f"`{n.function(self.form)} = {', '.join(map(str, self.residues))} mod {self.modulus}`"
+        return f"`{n.function(self.form)} = {classes(self.residues, self.modulus)} mod {self.modulus}`"
 
     def _one_class(self, form: FunctionPoly, n: Notation) -> str:
         """That a form is congruent to one number."""
-        (residue,) = self.residues
-        modulus = self.modulus
+        scaled = over_parameters(form * self.modulus.denominator)
+        residue = self.residues[0] * self.modulus.denominator
+        modulus = Fraction(self.modulus.numerator)
         if modulus == 1:
             shift = f" - {residue}" if residue else ""
-            return f"`{n.function(form)}{shift} in Z`"
-        if not residue and modulus.numerator == 1:
-            return f"`{n.function(form * modulus.denominator)} in Z`"
+            return f"`{n.function(scaled)}{shift} in Z`"
         if modulus == 2 and residue.denominator == 1:
-            return f"`{n.function(form)}` is {kind(self.residues, modulus)}"
+            return f"`{n.function(scaled)}` is {kind([residue], modulus)}"
+        residue, modulus = self.residues[0], self.modulus
         scale = lcm(residue.denominator, modulus.denominator)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         if sum(map(bool, degrees(equation))) > 1 and families(equation):

@@ -18,8 +18,8 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from random import Random
 
-from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Field
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
@@ -51,7 +51,7 @@ from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
-from kovacic.parametric.spectra import Notation, alternatives
+from kovacic.parametric.spectra import Notation, alternatives, families
 from kovacic.parametric.statements import Statement
 
 #: The largest number that is tried for an example.
@@ -105,11 +105,12 @@ class Determinant:
     def __str__(self) -> str:
         if self.factors is None:
             return NO_FORMULA
-        single = len(self.factors) == 1 and not self.system
-        parts = [shown(f) if single else f"({shown(f)})" for f in self.factors]
+        parts = sorted(map(shown, self.factors), key=len)
+        if len(parts) > 1 or self.system:
+            parts = [_in_parentheses(part) for part in parts]
         if self.system:
             parts.append(f"({', '.join(map(shown, self.system))})")
-        return " * ".join(parts) or "1"
+        return "*".join(parts) or "1"
 
 
 @dataclass(frozen=True)
@@ -258,7 +259,8 @@ class Natural(Statement):
         found: list[str] = []
         if self.factors is not None:
             listed = alternatives(self.factors, Notation(self.letter, self.fixed))
-            if len(text_of(listed)) <= (_WRITTEN_OUT if self.m == 1 else _EQUATIONS):
+            is_solved = "= 0" not in listed
+            if is_solved and len(text_of(listed)) <= (_WRITTEN_OUT if self.m == 1 else _EQUATIONS):
                 return listed
             found.append(listed)
         sums = self._by_exponents()
@@ -282,11 +284,36 @@ class Natural(Statement):
         for _ in roots:
             letters.append(free_letter([*names, *letters], "jkmnl"))
         terms = [str(numbers.constant), *(f"{k}*{root}" for k, root in zip(letters, roots, strict=True))]
+        terms = [re.sub(r"^(\w+)\*(\d+)\*", r"\2*\1*", term) for term in terms]
         bounds = [f"`{k}` from -{largest} to {largest}" for k, (_, largest) in zip(letters, numbers.roots, strict=True)]
         constant = over_parameters(field.poly([-numbers.constant, 1]))
+        has_zero = self.factors is None or constant in self.factors
+        if len(letters) == 1:
+            solved = self._solved_for_a_parameter(numbers.constant, *numbers.roots[0], letters[0], 0 if has_zero else 1)
+            if solved is not None:
+                return solved
         excluded = ", not 0" if len(letters) == 1 else ", not all 0"
-        without = "" if self.factors is None or constant in self.factors else excluded
+        without = "" if has_zero else excluded
         return f"`{d} = {' + '.join(terms)}` for integers {', '.join(bounds)}{without}"
+
+    def _solved_for_a_parameter(self, constant: int, square: Poly, largest: int, j: str, least: int) -> str | None:
+        """(d - constant)^2 = j^2 square, solved for a parameter that is linear in the square; None where there is none."""
+        names = parameters_of(square.field)
+        field = FunctionField((*names, j))
+        square = over_parameters(over_parameters(square).value_at([field.generator(name) for name in names], field))
+        d = field.poly([0, 1])
+        equation = over_parameters((d - constant) ** 2 - field.generator(j) ** 2 * square)
+        solved = families(equation, (*self.fixed, j))
+        if not solved or any(_has_others(part, j) for part in (solved[0][1].num, solved[0][1].den)):
+            return None  # where numerator and denominator vanish for some parameters, more would have to be said
+        said = Notation(self.letter).equals(*solved[0])
+        return f"{said} for an integer `{j}` from {least} to {largest}"
+
+
+def _has_others(part: Poly, j: str) -> bool:
+    """Are there parameters beside j in it?"""
+    function = over_parameters(part)
+    return any(degree for name, degree in zip(function.field.names, degrees(function), strict=True) if name != j)
 
 
 def _in_parentheses(text: str) -> str:

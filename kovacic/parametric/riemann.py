@@ -113,6 +113,10 @@ def _key(differences: Sequence[Fraction]) -> tuple[int, ...]:
     return tuple(sorted(map(_sixtieths, differences)))
 
 
+#: The group where all exponents are rational, and a solution has a rational omega.
+_CYCLIC = "finite cyclic, or `G_a` extended by a finite cyclic group"
+
+
 @dataclass(frozen=True)
 class Schwarz(Statement):
     """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table."""
@@ -321,10 +325,17 @@ def group(problem: Problem, structure: Structure) -> str | None:
     split = _split(cubic)
     if structure is Structure.REDUCIBLE:
         if None not in split.constants and len(split.constants) >= 2:
-            return "`mu_n`, or `G_a` extended by `mu_n`"  # a third difference is rational because their sum is
-        where = f"where {', '.join(f'`{name}`' for name in differences(cubic))} are rational"
-        return f"`mu_n`, or `G_a` extended by `mu_n`, {where}; else `G_m`, or the Borel group"
+            return _CYCLIC  # a third difference is rational because their sum is
+        return f"{_CYCLIC}, where {_rational(differences(cubic))}; else `G_m`, or the Borel group"
     return _imprimitive_group(split) if structure is Structure.IMPRIMITIVE else None
+
+
+def _rational(names: Iterable[str]) -> str:
+    """That the exponent differences are rational, those that aren't numbers anyway."""
+    free = [name for name in dict.fromkeys(names) if not re.fullmatch(r"[\d/]+", name)]
+    if len(free) == 1 and free[0].startswith("(the "):
+        return "the exponent differences are rational"
+    return f"{', '.join(f'`{name}`' for name in free)} {'is' if len(free) == 1 else 'are'} rational"
 
 
 def _imprimitive_group(split: _Split) -> str:
@@ -388,16 +399,21 @@ def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fra
     """That the exponent differences are in the rows of the structure."""
     has_half_integer = any(d is not None and d % 1 == _F(1, 2) for d in constants)
     if structure is Structure.IMPRIMITIVE and has_half_integer:
-        return _one_more_half_integer(cubic)
+        return _half_integers(cubic, 1)
+    if structure is Structure.IMPRIMITIVE and any(k > 1 for _, k in cubic.field.factor(cubic)):
+        return _half_integers(cubic, 2)
     return Schwarz(cubic, (structure,))
 
 
-def _one_more_half_integer(cubic: FunctionPoly) -> Statement:
-    """That an exponent difference that depends on the parameters is a half-integer: its square N^2/4 with an odd N."""
+def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
+    """That one that depends on the parameters, and is so many of the exponent differences, is a half-integer.
+
+    Its square is N^2/4 with an odd N.
+    """
     field = cubic.field
     found = []
-    for factor in _each_factor(cubic):
-        if any(field.rational_value(c) is None for c in factor):
+    for factor, multiplicity in field.factor(cubic):
+        if multiplicity >= times and any(field.rational_value(c) is None for c in factor):
             equation = over_parameters(factor(field.poly([0, 0, _F(1, 4)])))
             found.append(integer_roots(equation, [1], 2))
     return either(*found)

@@ -18,7 +18,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY
-from kovacic.parametric.formulas import root_written, text_of, written
+from kovacic.parametric.formulas import root_written, shortest_length, text_of, written
 from kovacic.parametric.functions import (
     constant_term,
     degrees,
@@ -29,9 +29,11 @@ from kovacic.parametric.functions import (
 )
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
-_BESIDE, _LONGER = 90, 40
+_BESIDE, _LONGER = 120, 40
 #: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
 _WEIGHT, _LATER = 3, 10
+#: What it costs that n is another number than an integer, of which something has to be said.
+_NO_INTEGER = 25
 #: For which rational numbers n is something possible?
 Possible = Callable[[Fraction], bool]
 
@@ -42,6 +44,11 @@ class Notation:
 
     letter: str = "n"
     fixed: tuple[str, ...] = ()
+
+    @property
+    def some(self) -> str:
+        """What is said before the property that a number has, which is no integer."""
+        return f" for a number `{self.letter}` with"
 
     def function(self, function: Poly | RatFunc) -> str:
         """The shortest form of a function of the parameters and the integer."""
@@ -116,21 +123,41 @@ def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
 
 
 def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[str]:
-    """How the functions are written, with one text for f and -f."""
+    """How the functions are written, with one text `c +- f` for c + f and c - f, c free of the integer."""
     texts: dict[RatFunc, str] = {}
     for f in functions:
-        if -f not in texts:
+        other = next((g for g in texts if _have_a_center(f, g) and texts[g] == n.function(g)), None)
+        if other is None:
             texts[f] = n.function(f)
             continue
-        value = n.function(min((-f, f), key=lambda g: _is_negative(n, g)))
+        center = (f + other) / 2
+        value = n.function(min((other - center, f - center), key=lambda g: _is_negative(n, g)))
         inside = re.sub(r"[({][^()]*[)}]", "", value)
         is_sum = " + " in inside or " - " in inside
-        texts[-f] = f"+-({value})" if is_sum else f"+-{value}"
+        signed = f"+-({value})" if is_sum else f"+-{value}"
+        texts[other] = f"{n.function(center)} {signed[:2]} {signed[2:]}" if center else signed
     return [*texts.values()]
+
+
+def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
+    """Is their sum 0, or a function of the parameters without the integer in it?"""
+    total = f + g
+    if total.num.degree > 0 or total.den.degree > 0:
+        return False
+    return not total or total.field.rational_value(over_parameters(total.num)) is None
 
 
 def _is_negative(n: Notation, f: RatFunc) -> bool:
     return n.function(f).lstrip("(").startswith("-")
+
+
+def classes(residues: Sequence[Fraction | int], modulus: Fraction | int) -> str:
+    """Classes modulo a number: `1, 2`, or `+-1/6, 1/2` where r and -r come in pairs."""
+    if {-residue % modulus for residue in residues} != {*residues}:
+        return ", ".join(map(str, residues))
+    half = Fraction(modulus) / 2
+    signs = {residue: "" if residue in (0, half) else "+-" for residue in residues if residue <= half}
+    return ", ".join(f"{sign}{residue}" for residue, sign in signs.items())
 
 
 def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: str = "") -> str:
@@ -144,7 +171,7 @@ def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: st
         return f"an odd integer{name}"
     if len(residues) > 1 and list(residues) == list(range(1, int(modulus))):
         return f"an integer{name} not divisible by {modulus}"
-    equation = f"{letter} = {', '.join(map(str, residues))} mod {modulus}"
+    equation = f"{letter} = {classes(residues, modulus)} mod {modulus}"
     return f"an integer `{equation}`" if letter else f"an integer`{equation}`"
 
 
@@ -173,7 +200,9 @@ def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: 
     shortest = 0
     for k, (name, f) in enumerate(energies or known):
         for choice in _choices(equation, f, residues, modulus, n):
-            length = _LATER * k + _WEIGHT * len(n.function(choice.f)) + len(text_of(choice.what))
+            length = _LATER * k + _WEIGHT * shortest_length(choice.f, n.letter) + len(text_of(choice.what))
+            if choice.what.startswith(n.some):
+                length += _NO_INTEGER
             if best is None or length < shortest:
                 best = (name, choice)
                 shortest = length
@@ -192,8 +221,11 @@ def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
         return []
     notes: list[str] = []
     for factor, _ in f.field.factor(f.den):
-        root = f.field.rational_value(-factor[0]) if factor.degree == 1 else None
-        if root is None or not choice.is_possible(root):
+        if factor.degree > 1:
+            continue
+        root = over_parameters(-factor[0])
+        number = f.field.rational_value(root)
+        if number is not None and not choice.is_possible(number):
             continue
         value = over_parameters(f.num(root))
         zeros = [n.function(zero) for zero in irreducible_factors(value)]
@@ -202,7 +234,7 @@ def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
         zero = zeros[0]
         if len(zeros) > 1:
             zero = f"({')*('.join(zeros)})"
-        notes.append(f"`{zero} = 0` where `{n.letter} = {root}`")
+        notes.append(f"`{zero} = 0` where `{n.letter} = {n.function(root)}`")
     return notes
 
 
@@ -242,7 +274,8 @@ def _choices(
         yield _centered(f(RatFunc(N * modulus + center)), u, n)
     if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
         form = over_parameters(N + center)
-        yield _Choice(f(RatFunc(form)), f", `{n.function(form)}` is {kind(residues, modulus)}", lambda n: True)
+        what = f"{n.some} `{n.function(form)}` {kind(residues, modulus)}"
+        yield _Choice(f(RatFunc(form)), what, lambda n: True)
 
 
 def _centered(f: RatFunc, u: FunctionPoly, n: Notation) -> _Choice:
@@ -252,9 +285,9 @@ def _centered(f: RatFunc, u: FunctionPoly, n: Notation) -> _Choice:
     plus = n.function(N + u - constant)
     if constant.denominator == 1 and f(RatFunc(-N)) == f:
         minus = n.function(N - u + constant - 1)
-        return _Choice(f, f", `{plus}` or `{minus} in N`", lambda n: True)
+        return _Choice(f, f"{n.some} `{plus}` or `{minus} in N`", lambda n: True)
     shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
-    return _Choice(f, f", `{plus}{shift} in Z`", lambda n: True)
+    return _Choice(f, f"{n.some} `{plus}{shift} in Z`", lambda n: True)
 
 
 def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:

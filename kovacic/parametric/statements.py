@@ -152,16 +152,31 @@ class Either(_Several):
         heads, separators, ends = zip(*(part.rpartition(" for ") for part in parts), strict=True)
         if len(set(ends)) == 1 and all(separators):
             return f"{' or '.join(heads)} for {ends[0]}"
-        heads, separators, ends = zip(*(part.partition("`, ") for part in parts), strict=True)
+        heads, separators, ends = zip(*(part.partition(" with ") for part in parts), strict=True)
         if len(set(heads)) == 1 and all(separators):
-            return f"{heads[0]}`, {' or '.join(ends)}"
-        return " or ".join(parts)
+            return f"{heads[0]} with {' or '.join(ends)}"
+        is_long = any(" for " in part or ", " in part for part in parts)
+        return _one_of(parts) or (", or " if is_long else " or ").join(parts)
 
     @property
     def is_about_one_value(self) -> bool:
         """Is it "n = 0 or -1"?"""
         heads = {part.text().partition(" = ")[0] for part in self.parts}
         return len(heads) == 1 and all(isinstance(part, Vanishes) for part in self.parts)
+
+
+def _one_of(parts: list[str]) -> str | None:
+    """That one of several formulas is an integer of some kind; None where another thing is said of one of them."""
+    properties = {"` is ": "", " in Z`": "an integer"}
+    for separator, kind in properties.items():
+        formulas, separators, kinds = zip(*(part.partition(separator) for part in parts), strict=True)
+        simple = all(separators) and len(set(kinds)) == 1 and not any("`" in formula[1:] for formula in formulas)
+        if simple and (len(parts) > 2 or not kind):
+            *first, last = (formula.strip("`") for formula in formulas)
+            listed = ", ".join(f"`{formula}`" for formula in first)
+            one_of = "one of " if first[1:] else ""
+            return f"{one_of}{listed} or `{last}` is {kind or kinds[0]}"
+    return None
 
 
 class Both(_Several):
