@@ -296,7 +296,7 @@ class Natural(Statement):
         without = "" if has_zero else excluded
         return f"`{d} = {' + '.join(terms)}` for integers {', '.join(bounds)}{without}"
 
-    def _solved_for_a_parameter(self, constant: int, square: Poly, largest: int, j: str, least: int) -> str | None:
+    def _solved_for_a_parameter(self, constant: Fraction, square: Poly, largest: int, j: str, least: int) -> str | None:
         """(d - constant)^2 = j^2 square, solved for a parameter that is linear in the square; None where there is none."""
         names = parameters_of(square.field)
         field = FunctionField((*names, j))
