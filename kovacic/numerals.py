@@ -60,8 +60,10 @@ def in_a_message(number: int) -> str:
     return digits(number) if bits <= _BITS_IN_A_MESSAGE else f"of {bits} bits"
 
 
-def as_text(value: Any) -> str:
+def as_text(value: Any, first: Any = None) -> str:
     """What `str` gives for an integer, a `Fraction` or a SymPy expression, with numbers of any length.
+
+    Polynomials in the symbol `first`, if there is one, begin with its highest power: x - c, not -c + x.
 
     >>> as_text(Fraction(-1, 2))
     '-1/2'
@@ -75,7 +77,9 @@ def as_text(value: Any) -> str:
         above = digits(value.numerator)
         return above if value.denominator == 1 else f"{above}/{digits(value.denominator)}"
     text, _ = _printers()
-    return text(_settings(value)).doprint(value)  # type: ignore[no-any-return]
+    printer = text(_settings(value))
+    printer.first = first
+    return printer.doprint(value)  # type: ignore[no-any-return]
 
 
 def plain_text(value: Any) -> str:
@@ -92,10 +96,30 @@ def plain_text(value: Any) -> str:
         return type(value).__name__
 
 
-def as_latex(expression: Any) -> str:
-    """What `sympy.latex` gives for an expression, with numbers of any length."""
+def as_latex(expression: Any, first: Any = None) -> str:
+    """What `sympy.latex` gives for an expression, with numbers of any length; `first` as for `as_text`."""
     _, latex = _printers()
-    return latex(_settings(expression)).doprint(expression)  # type: ignore[no-any-return]
+    printer = latex(_settings(expression))
+    printer.first = first
+    return printer.doprint(expression)  # type: ignore[no-any-return]
+
+
+def _powers_first(terms: list[Any], first: Any) -> list[Any]:
+    """The terms of a sum by their powers of a symbol, where each is one times something without the symbol."""
+    degrees = {term: _degree(term, first) for term in terms}
+    if first is None or None in degrees.values():
+        return terms
+    by_power = sorted(terms, key=lambda term: degrees[term], reverse=True)
+    return terms if by_power[0].could_extract_minus_sign() else by_power
+
+
+def _degree(term: Any, x: Any) -> Any:
+    """Of c x^k: k; None for another term."""
+    _, dependent = term.as_independent(x, as_Add=False)
+    base, exponent = dependent.as_base_exp()
+    if dependent == 1:
+        return 0
+    return exponent if base == x and exponent.is_Rational else None
 
 
 def for_json(number: int) -> int | str:
@@ -126,6 +150,11 @@ def _printers() -> tuple[type[Any], type[Any]]:
     from sympy.printing.str import StrPrinter
 
     class Text(StrPrinter):  # type: ignore[misc]
+        first: Any = None
+
+        def _as_ordered_terms(self, expr: Any, order: Any = None) -> list[Any]:
+            return _powers_first(super()._as_ordered_terms(expr, order), self.first)
+
         def _print_int(self, number: int) -> str:
             return digits(number)
 
@@ -136,6 +165,11 @@ def _printers() -> tuple[type[Any], type[Any]]:
             return as_text(Fraction(int(number.p), int(number.q)))
 
     class Latex(LatexPrinter):  # type: ignore[misc]
+        first: Any = None
+
+        def _as_ordered_terms(self, expr: Any, order: Any = None) -> list[Any]:
+            return _powers_first(super()._as_ordered_terms(expr, order), self.first)
+
         def _print_int(self, number: int) -> str:
             return digits(number)
 

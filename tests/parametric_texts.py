@@ -52,7 +52,7 @@ def numbers_said(statement: Natural, values: Values) -> set[int]:
             for d, k in pairs
             if _has_value(equation, {**values, statement.letter: sympy.Integer(d), j: sympy.Integer(k)})
         }
-    if " = +-" in text and " +- " in text:
+    if re.fullmatch(rf"`{statement.letter}\b[^`=]* = \+-[^`]*`", text):
         return _sums_with_signs(text.strip("`"), statement.letter, values)
     return {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
 

@@ -161,3 +161,14 @@ def test_regions_without_known_solutions_and_pickles(capsys: pytest.CaptureFixtu
         main(["conditions", "--explain", "(4*n^2-1)/(4*x^2) - 1"])
     assert status.value.code == 0
     assert "where n - 1/2 is a natural number" in capsys.readouterr().out
+
+
+def test_no_formula_is_offered_where_its_degree_is_never_natural() -> None:
+    """With two half-integers in x^2 the equation in x is reducible, and its solutions aren't Jacobi's polynomials."""
+    answer = kovacic.conditions("(m^2-1/4)/x^2 + a/(x^2-1) + b/(x^2-1)^2", var="x")
+    region = answer.region_at({"m": "9/2", "a": 0, "b": "-7/2"})
+    assert region is not None
+    assert region.case == 1
+    assert region.solution() == ()
+    assert "solve_at" in region.why_no_solution
+    assert answer.solve_at({"m": "9/2", "a": 0, "b": "-7/2"}).case == 1

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import groupby
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -21,19 +22,16 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, holds_on
 from kovacic.parametric.restriction import hypersurface, over_all
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, both, either
 
 
 @dataclass(frozen=True)
 class Case:
     """Where `statement` holds, none of `without`, and no case before: what is said is that of each of the `regions`."""
 
+    statement: Statement
     regions: tuple[ParameterRegion, ...]
     without: tuple[Statement, ...] = ()
-
-    @property
-    def statement(self) -> Statement:
-        return either(*(region.statement for region in self.regions))
 
     @property
     def verdict(self) -> RegionVerdict:
@@ -68,8 +66,8 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
             common = _within(region.statement, _within(other, charts))
             if not _covered(common, before):
                 left.append(_left_to_say(other, region.statement, charts))
-        found.append(Case((region,), _shortest(left)))
-    return _joined(found)
+        found.append(Case(region.statement, (region,), _shortest(left)))
+    return _joined(_mirrored(found))
 
 
 def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> list[ParameterRegion]:
@@ -176,17 +174,70 @@ def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
     return tuple(found)
 
 
+def _mirrored(cases: Iterable[Case]) -> list[Case]:
+    """The cases, those of l = 0 and of l = -1 in one where the same is said in them but for the solutions.
+
+    Cases in a row that begin with the same vanishing function are a block.  Two blocks in a row that say the same are one:
+    no value belongs to both, because their functions differ by a number.
+    """
+    merged: list[tuple[list[Vanishes], list[Case]]] = []
+    found: list[Case] = []
+    for first, group in groupby(cases, key=lambda case: next(iter(both(case.statement).parts), ALWAYS)):
+        block = [*group]
+        if not isinstance(first, Vanishes) or any(len(both(case.statement).parts) < 2 for case in block):
+            found += _with_firsts(merged)
+            merged = []
+            found += block
+            continue
+        inner = _mirrored(_without_first(case) for case in block)
+        last = merged[-1] if merged else None
+        if last is not None and _exclude_each_other(first, last[0][-1]) and _say_the_same(last[1], inner):
+            last[0].append(first)
+            pairs = zip(last[1], inner, strict=True)
+            last[1][:] = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
+        else:
+            merged.append(([first], inner))
+    return found + _with_firsts(merged)
+
+
+def _without_first(case: Case) -> Case:
+    return replace(case, statement=Both(both(case.statement).parts[1:]))
+
+
+def _with_firsts(blocks: Iterable[tuple[list[Vanishes], list[Case]]]) -> list[Case]:
+    found: list[Case] = []
+    for firsts, block in blocks:
+        found += [replace(case, statement=both(either(*firsts), case.statement)) for case in block]
+    return found
+
+
+def _exclude_each_other(first: Vanishes, second: Vanishes) -> bool:
+    difference = first.function - second.function
+    return first.function.field.rational_value(difference) not in (None, 0)
+
+
+def _say_the_same(first: list[Case], second: list[Case]) -> bool:
+    return [*map(_said, first)] == [*map(_said, second)]
+
+
+def _said(case: Case) -> tuple[Statement, tuple[Statement, ...], RegionVerdict, str]:
+    verdict = case.regions[0].verdict
+    return case.statement, case.without, verdict, verdict.group
+
+
 def _joined(cases: Iterable[Case]) -> list[Case]:
     joined: list[Case] = []
     for case in cases:
         if joined and _can_be_joined(joined[-1], case):
-            case = Case((*joined.pop().regions, *case.regions), case.without)
+            last = joined.pop()
+            case = Case(either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
         joined.append(case)
     return joined
 
 
 def _can_be_joined(last: Case, case: Case) -> bool:
-    return last.without == case.without and _are_one(last.regions[-1], case.regions[0])
+    is_single = both(case.statement).parts == both(case.regions[0].statement).parts
+    return last.without == case.without and is_single and _are_one(last.regions[-1], case.regions[0])
 
 
 def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:

@@ -78,7 +78,7 @@ def shifted(text: str, value: Poly) -> str:
     if not value:
         return text
     amount = shown(over_parameters(value))
-    if not re.fullmatch(r"-?[\w/]+", amount):
+    if not re.fullmatch(r"-?[\w/*^]+(\([\w*^]+\))?", amount):
         return f"{text} - ({amount})"
     return f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
 

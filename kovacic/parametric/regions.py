@@ -24,7 +24,7 @@ from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.solutions import Origin, PolynomialSolution
 from kovacic.parametric.spectra import families
-from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, both, either
 
 #: Characters up to which statements share a line.
 _LINE = 100
@@ -298,13 +298,15 @@ def _mirrored(regions: Sequence[ParameterRegion]) -> Iterator[ParameterRegion]:
         else:
             merged.append(([first], block))
     for firsts, block in merged:
-        for region in block:
+        has_more = any(both(region.statement).parts for region in block)
+        for region in _mirrored(block) if has_more else block:
             parts = (either(*firsts), *both(region.statement).parts)
             yield replace(region, statement=Both(parts) if len(parts) > 1 else parts[0])
 
 
 def _first_part(region: ParameterRegion) -> Statement:
-    return both(region.statement).parts[0]
+    """ALWAYS for a region of which nothing is said beside what its block has in common."""
+    return next(iter(both(region.statement).parts), ALWAYS)
 
 
 def _is_mirrored(

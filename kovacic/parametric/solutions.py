@@ -236,10 +236,16 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
             return polynomial.to_sympy(x)
         return sympy.Add(*(part.to_sympy(x) * constant**k for k, part in enumerate(polynomial.parts)))
 
-    factors = [shown(power.base) ** sympy.factor(shown(power.exponent)) for power in y.powers]
+    factors = [_without_constant(shown(power.base), x) ** sympy.factor(shown(power.exponent)) for power in y.powers]
     exponential = sympy.exp(sympy.expand(shown(y.exponential.num) / shown(y.exponential.den)))
     degree = sympy.Integer(max(riccati.P.degree, 0))
     return (PolynomialSolution(sympy.Mul(*factors, exponential), degree, (), "the region's statement holds"),)
+
+
+def _without_constant(base: Any, x: Any) -> Any:
+    """The base of a power times a constant, so that it has no denominator: k x^2 - 1 for x^2 - 1/k."""
+    above, below = sympy.fraction(sympy.together(base))
+    return base if below.has(x) or below.is_number else above
 
 
 def _constant(field: Field, below: Field) -> Any:
@@ -256,7 +262,17 @@ def _constant(field: Field, below: Field) -> Any:
     x = sympy.Symbol("x")
     half, rest = (field.modulus[1] / 2).to_sympy(x), field.modulus[0].to_sympy(x)
     square = sympy.factor(half**2 - rest)
-    return None if has_long_numbers(square) else sympy.sqrt(square) - half
+    return None if has_long_numbers(square) else _square_root(square) - half
+
+
+def _square_root(square: Any) -> Any:
+    """One of the square roots of an expression in factors, with those that are squares outside of it."""
+    inside, outside = [], []
+    for factor in sympy.Mul.make_args(square):
+        base, k = factor.as_base_exp()
+        is_even = k.is_Integer and k % 2 == 0 and not base.is_number
+        (outside if is_even else inside).append(base ** (k / 2) if is_even else factor)
+    return sympy.Mul(*outside) * sympy.sqrt(sympy.Mul(*inside))
 
 
 def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:

@@ -66,7 +66,7 @@ from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
-from kovacic.parametric.solutions import BySigns, PolynomialSolution, Signed, jacobi, root
+from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import NEVER, Statement, both
 from kovacic.reading.symbolic import read_expression
 
@@ -133,17 +133,17 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
         if riemann.is_fuchsian(equation) and riemann.singular_points(equation) <= 3:
             points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
             origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
-            regions = (
-                replace(region, origin=origin if region.case == 1 else None)
-                for region in structures(equation, coordinate.n)
-            )
             name = f"at most three regular {points}: Kimura's theorem"
-            return Theorem(name, restriction.confluence(problem), regions)
+            return Theorem(name, restriction.confluence(problem), structures(equation, coordinate.n, origin))
     return None
 
 
-def structures(problem: Problem, n: int) -> Iterator[ParameterRegion]:
-    """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it."""
+def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRegion]:
+    """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it.
+
+    `origin` has the solutions where the equation in z = x^n is reducible; two half-integers there make the one in x reducible,
+    for an even n, with other solutions.
+    """
     for structure, statement in riemann.structures(problem):
         family = riemann.group(problem, structure)
         if structure is Structure.IMPRIMITIVE and n % 2 == 0:
@@ -154,7 +154,8 @@ def structures(problem: Problem, n: int) -> Iterator[ParameterRegion]:
             yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group"))
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             family = "binary tetrahedral, or octahedral"
-        yield ParameterRegion(statement, RegionVerdict(structure, family=family))
+        solutions = origin if structure is Structure.REDUCIBLE else None
+        yield ParameterRegion(statement, RegionVerdict(structure, family=family), origin=solutions)
 
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
@@ -180,9 +181,9 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
     (c, first), (c1, second), (c2, third) = points
     z = base**n
     if c2 is None:
-        argument, last = 1 - 2 * (z - c) / (c1 - c), sympy.Integer(1)
+        argument, last = 1 - 2 * sympy.factor((z - c) / (c1 - c)), sympy.Integer(1)
     else:
-        argument, last = 1 - 2 * (z - c) * (c1 - c2) / ((z - c2) * (c1 - c)), z - c2
+        argument, last = 1 - 2 * sympy.factor((z - c) * (c1 - c2) / ((z - c2) * (c1 - c))), z - c2
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         f, g, h = signs

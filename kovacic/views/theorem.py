@@ -47,6 +47,8 @@ _SIGNS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
 _ONE_BY_ONE = 2
 #: Alternatives from which on they stand in a table.
 _TABLE = 3
+#: Characters of Delta_d above which nobody prints it.
+_LONGEST = 240
 _GROUP_NAME = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _NOUNS = ("integer", "half-integer")
 
@@ -213,35 +215,44 @@ class _Writer:
     # Solutions
 
     def _solutions(self, case: Case) -> Iterator[Block]:
-        for region in case.regions:
-            if len(case.regions) > 1:
+        blocks = [[*self._solutions_in(region, case)] for region in case.regions]
+        if all(block == blocks[0] for block in blocks):
+            yield from blocks[0]
+            return
+        for region, block in zip(case.regions, blocks, strict=True):
+            if block:
                 yield say("For ", *_said(region.statement), ":")
-            natural = [part for part in both(region.statement).parts if isinstance(part, Natural)]
-            weight = natural[0] if natural and natural[0].m == 1 else None
-            if weight is not None:
-                yield from self._with_determinant(region, weight)
-                yield from _values(weight, len(region.determinants))
-                continue
-            one_by_one = region.solution()
-            together = general(region.origin, self.signs) if len(one_by_one) > _ONE_BY_ONE else None
-            if together is not None:
-                yield from self._with_degree(together)
-                continue
-            for solution in one_by_one:
-                yield from self._with_degree(solution)
+            yield from block
 
-    def _with_degree(self, solution: PolynomialSolution) -> Iterator[Block]:
+    def _solutions_in(self, region: ParameterRegion, case: Case) -> Iterator[Block]:
+        """The formulas for one region."""
+        natural = [part for part in both(region.statement).parts if isinstance(part, Natural)]
+        weight = natural[0] if natural and natural[0].m == 1 else None
+        if weight is not None:
+            yield from self._with_determinant(region, weight)
+            yield from _values(weight, len(region.determinants))
+            return
+        one_by_one = region.solution()
+        together = general(region.origin, self.signs) if len(one_by_one) > _ONE_BY_ONE else None
+        if together is not None:
+            yield from self._with_degree(together, case)
+            return
+        for solution in one_by_one:
+            yield from self._with_degree(solution, case)
+
+    def _with_degree(self, solution: PolynomialSolution, case: Case) -> Iterator[Block]:
         """A formula, with symbols for signs maybe, where its degree, which gets a name, is a natural number."""
         if not solution.degree.free_symbols:
-            yield Formula(_named_solution(solution))
+            yield Formula(self._named_solution(solution))
             return
-        letter = sympy.Symbol(free_letter([*map(str, solution.y.free_symbols), *self.answer.parameters]))
+        taken = [*map(str, solution.y.free_symbols), *self.answer.parameters, *_letters(case.statement)]
+        letter = sympy.Symbol(free_letter(taken))
         y = solution.y.xreplace({solution.degree: letter})
-        degree = of_sympy(solution.degree)
+        degree = of_sympy(self._collected(solution.degree))
         if y.has(letter):
             degree = _name(letter.name).equals(degree)
         used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
-        yield Formula(_named_solution(replace(solution, y=y)))
+        yield Formula(self._named_solution(replace(solution, y=y)))
         yield say("where ", degree, " is a natural number", *_chosen(used), ".")
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
@@ -257,9 +268,40 @@ class _Writer:
         if isinstance(region.origin, Given):
             solution = replace(solution, y=region.origin.translated(solution.y))
         used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
-        yield Formula(_named_solution(solution))
-        degree = _name(natural.letter).equals(of_sympy(solution.degree))
+        yield Formula(self._named_solution(solution))
+        degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
         yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(used), ".")
+
+    def _named_solution(self, solution: PolynomialSolution) -> Math:
+        """`y = ...`, with exponents as one fraction, and the variable first in sums."""
+        y = solution.y.replace(
+            lambda e: e.is_Pow and e.exp.free_symbols & {*self.signs},
+            lambda e: sympy.Pow(e.base, self._collected(e.exp), evaluate=False),
+        )
+        return Math("y", "y").equals(of_sympy(y, first=sympy.Symbol(self._variable)))
+
+    @property
+    def _variable(self) -> str:
+        """The user's."""
+        change = self.answer.equation and self.answer.equation.change
+        return change.variable if change else self.answer.variable
+
+    def _collected(self, expression: sympy.Expr) -> sympy.Expr:
+        """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""
+        by_sign = sympy.collect(sympy.expand(expression), self.signs, evaluate=False)
+        numbers, others = [], []
+        for sign, coefficient in by_sign.items():
+            number, other = sympy.factor(coefficient).as_coeff_Mul()
+            is_negative = other.could_extract_minus_sign()
+            numbers.append(-number if is_negative else number)
+            others.append((-other if is_negative else other) * sign)
+        if len(numbers) < 2:
+            return expression
+        below = sympy.ilcm(1, *(number.q for number in numbers))
+        sign = -1 if all(number < 0 for number in numbers) else 1
+        above = sympy.Add(*(sign * below * number * other for number, other in zip(numbers, others, strict=True)))
+        factor = sympy.Rational(sign, below)
+        return above if factor == 1 else sympy.Mul(factor, above, evaluate=False)
 
     # Delta_d
 
@@ -277,7 +319,7 @@ class _Writer:
                 theta = Math("theta", r"\theta")
                 yield say(
                     delta, " vanishes exactly where the linear system for the coefficients of ", P, ", of degree ",
-                    _name(d), ", has a solution:"
+                    _name(d), ", has a solution", *_where_several_vanish(self.answer.regions), ":"
                 )  # fmt: skip
                 yield Formula(Math(text, latex))
                 yield say("with ", theta, " the logarithmic derivative of ", Math("y/P", f"y/P_{{{d}}}"), ".")
@@ -292,7 +334,7 @@ class _Writer:
         answer = self.answer
         yield Heading("Proof")
         if answer.complete is True:
-            yield say("The list is complete: ", *_theory(answer), ".")
+            yield say("The list is complete (", *_theory(answer), ").")
         else:
             yield say(f"The list is complete {answer.complete} (", *_theory(answer), ").")
         notices = (notice for notice in answer.notices if not notice.startswith(f"in {answer.variable} = "))
@@ -303,6 +345,12 @@ class _Writer:
             keys["Kim69"] = None
         yield Heading("References")
         yield from (say(literature()[key].text()) for key in (keys or {"Kov86": None}))
+
+
+def _where_several_vanish(regions: Iterable[ParameterRegion]) -> list[str]:
+    """What a list of polynomials in the place of Delta_d means, where there may be one."""
+    has_systems = any(re.search(r"\([^()]*, ", text) for region in regions for text in region.determinants)
+    return [" (all of the polynomials in parentheses vanish, where there are several)"] * has_systems
 
 
 def _name(name: str) -> Math:
@@ -333,7 +381,7 @@ def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
 
 def _group(verdict: RegionVerdict) -> list[str | Math]:
     """The name of the group; what looks like a formula in it is one."""
-    written = verdict.group_written
+    written = re.sub("^(reducible|imprimitive): ", "", verdict.group_written)
     return sentence_of(written if "`" in written else _GROUP_NAME.sub(r"`\g<0>`", written))
 
 
@@ -380,21 +428,27 @@ def _schwarz(statement: Statement) -> Iterator[tuple[list[Sentence], list[list[S
         yield ["group", *heads], [[structure.value, *map(sentence_of, values)] for structure, values in rows]
 
 
-def _named_solution(solution: PolynomialSolution) -> Math:
-    return Math("y", "y").equals(of_sympy(solution.y))
+def _letters(statement: Statement) -> list[str]:
+    """The names in what a statement says."""
+    return re.findall(r"[^\W\d]\w*", statement.text())
 
 
 def _values(natural: Natural, number: int) -> Iterator[Block]:
-    """The first determinants: d, where it is the degree, and Delta_d in factors."""
+    """The first determinants: d, where it is the degree, and Delta_d in factors; as far as they can be printed."""
     rows: list[list[Sentence]] = []
+    delta = Math(f"Delta_{natural.letter}", rf"\Delta_{{{natural.letter}}}")
     for d in range(number):
         found: dict[str, list[Determinant]] = defaultdict(list)
         for determinant in natural.determinants(d):
             found[str(determinant)].append(determinant)
+        if any(len(value) > _LONGEST for value in found):
+            break
+        if {*found} == {NO_FORMULA}:
+            yield say(delta, f" is given by {NO_FORMULA}.")
+            return
         for value, determinants in found.items():
             places = dict.fromkeys(f"`{equation_written(determinant.exponents)}`" for determinant in determinants)
             said = value if value == NO_FORMULA else f"`{value}`"
             rows.append([str(d), sentence_of(" or ".join(places)), sentence_of(said)])
     if rows:
-        delta = Math(f"Delta_{natural.letter}", rf"\Delta_{{{natural.letter}}}")
         yield Table([_name(natural.letter), "where", delta], rows)

@@ -167,9 +167,9 @@ def _degrees(function: RatFunc) -> str:
     return f"(too long to print: degree {above}" + (f" over degree {below})" if below > 0 else ")")
 
 
-def of_sympy(expression: Any) -> Math:
-    """A SymPy expression."""
-    return Math(caret(as_text(expression)), as_latex(expression))
+def of_sympy(expression: Any, first: Any = None) -> Math:
+    """A SymPy expression; polynomials in the symbol `first` begin with its highest power."""
+    return Math(caret(as_text(expression, first)), as_latex(expression, first))
 
 
 def rational_functions(generator: str) -> Math:
