@@ -324,3 +324,29 @@ def test_the_command_prints_the_theorem(capsys: pytest.CaptureFixture[str]) -> N
     assert "mu is an odd integer." in capsys.readouterr().out
     assert run(["conditions", "--format", "latex", "--assume", "mu=positive", "x^2 + mu"]) == 0
     assert r"Let $\mu$ be a complex number, $\mu$ a positive number" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("S", "sentence"),
+    [
+        # A name means one thing: the integer of the condition isn't the degree, and no group is named after a parameter.
+        ("l*(l+1)/x^2 + x^2 - E", "where N = -(E*epsilon + zeta*(2*l + 1) + 2)/4 is a natural number"),
+        (
+            "((n^2+n)*x^2 - n^2 - n - 1)/(x^2-1)^2",
+            "The group is finite cyclic, or G_a extended by a finite cyclic group.",
+        ),
+        # What holds for l = 0 and l = -1 is said once.
+        ("a*x^2 + c + l*(l+1)/x^2 + x^6", "(1) l = 0 or -1, and a = +-(2*d + 3), d in N, and Delta_d = 0."),
+        # No condition that follows from the others.
+        ("a*x^2 + c + l*(l+1)/x^2 + x^6", "(2) a = +-(2*d + 2*l + 5) or +-(2*d - 2*l + 3), d in N, and Delta_d = 0."),
+        # One of several forms; the variable comes first.
+        (hypergeometric(("l", "m", "n")), "(1) one of l + m + n, l + m - n, l - m + n or l - m - n is an odd integer."),
+        ("b/(x-c)^2 + q + r/(x-c)", "y'' = (q + r/(x - c) + b/(x - c)^2) y"),
+        ("b/(x-c)^2 + q + r/(x-c)", "y = (x - c)^((sqrt(4*b + 1) + 1)/2)"),
+    ],
+)
+def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> None:
+    text = kovacic.conditions(S, var="x").theorem()
+    assert sentence in text
+    assert "mu_n" not in text
+    assert not re.search(r"\*1\b|\b1\*|\+ -|For [^\n]*:\n\n(?!    )", text)

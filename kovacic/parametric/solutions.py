@@ -267,7 +267,8 @@ def _constant(field: Field, below: Field) -> Any:
 
 def _square_root(square: Any) -> Any:
     """One of the square roots of an expression in factors, with those that are squares outside of it."""
-    inside, outside = [], []
+    inside: list[Any] = []
+    outside: list[Any] = []
     for factor in sympy.Mul.make_args(square):
         base, k = factor.as_base_exp()
         is_even = k.is_Integer and k % 2 == 0 and not base.is_number

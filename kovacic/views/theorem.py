@@ -322,7 +322,7 @@ class _Writer:
                     _name(d), ", has a solution", *_where_several_vanish(self.answer.regions), ":"
                 )  # fmt: skip
                 yield Formula(Math(text, latex))
-                yield say("with ", theta, " the logarithmic derivative of ", Math("y/P", f"y/P_{{{d}}}"), ".")
+                yield say("with ", theta, " the logarithmic derivative of ", Math(f"y/P_{d}", f"y/P_{{{d}}}"), ".")
             else:
                 what = f" for an invariant of degree {m} says that there is a rational function of x that is "
                 what += f"a form of degree {m} in two solutions and has "
