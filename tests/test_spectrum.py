@@ -418,3 +418,25 @@ def test_states_are_numbered_by_their_zeros() -> None:
     """The exceptional oscillator of degree 2: its ground state -3, and 2 n + 3 with n + 1 zeros."""
     states = kovacic.spectrum("x^2 + 8*(2*x^2-1)/(2*x^2+1)^2").states(count=3)
     assert [(state.number, state.energy) for state in states] == [(0, -3), (1, 3), (2, 5), (3, 7)]
+
+
+@pytest.mark.parametrize(
+    ("V", "domain", "energies"),
+    [
+        ("sqrt(2)*x^2 - sqrt(3)*x", ("-oo", "oo"), "2^(1/4)*(2*n + 1) - 3*sqrt(2)/8"),
+        ("x^2 + sqrt(1 + sqrt(2))*x", ("-oo", "oo"), "2*n + 1 - (1 + sqrt(2))/4"),
+        ("sqrt(7)/x^2 - sqrt(5)/x", (0, "oo"), "-5/(2*n + 1 + sqrt(1 + 4*sqrt(7)))^2"),
+        ("sqrt(a)*x^2", ("-oo", "oo"), "sqrt(sqrt(a))*(2*n + 1)"),
+    ],
+)
+def test_answers_are_in_the_roots_of_the_user(V: str, domain: tuple[object, object], energies: str) -> None:
+    """Not in a generator of the field of all roots, nor in a letter for one of them."""
+    assume = {"a": "positive"} if "a" in V.replace("sqrt", "") else None
+    answer = kovacic.spectrum(V, domain=domain, assume=assume, var="x")
+    assert answer.complete
+    (levels,) = answer.levels
+    assert levels.conditions == ()
+    assert sympy.simplify(levels.energy - read_expression(energies)) == 0
+    assert {symbol.name for symbol in levels.wave.free_symbols} <= {"x", "n", "a"}
+    assert "root_" not in str(answer)
+    assert "alpha" not in str(answer)

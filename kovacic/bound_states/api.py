@@ -21,6 +21,7 @@ from kovacic.bound_states.families import (
     no_families,
 )
 from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
+from kovacic.bound_states.letters import assumed_of_letters, in_their_meanings, with_named_roots
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.quasi import Found, degree_beyond, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
@@ -162,13 +163,18 @@ def spectrum(
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
     most = whole(max_degree, "max_degree")
+    V, roots = with_named_roots(V)
+    if roots:
+        assume = {**(assume or {}), **dict.fromkeys(roots, "positive")}
     question = _question(V, domain, energy, var, assume, boundary, limits)
+    meanings = {**dict(question.parsed.letters), **roots}
     budget = Budget(limits)
     with budget.watched():
         try:
-            return _answered(question, most, budget)
+            found = _answered(question, most, budget)
         except (Uncovered, LimitExceeded) as reason:
-            return _spectrum(question, [], reason=f"undecided: {reason}")
+            found = _spectrum(question, [], reason=f"undecided: {reason}")
+    return in_their_meanings(found, meanings) if meanings else found
 
 
 def _question(
@@ -184,6 +190,7 @@ def _question(
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     parsed = read_input(S, var=name, limits=limits, exponentials=True)
     S, parsed, assume = with_values(S, parsed, assume, limits)
+    assume = assumed_of_letters(assume, parsed.letters)
     names = parameters_of(parsed.S.field)
     ends = [_end(value) for value in domain]
     in_the_domain = {symbol.name for end in ends for symbol in end.free_symbols}

@@ -198,7 +198,8 @@ def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parse
     found = found or in_powers(written, limits)
     if found is None:
         return None
-    said = [f"{letter} is {meaning}" for letter, meaning in lettered.meanings.items()]
+    renamed = {letter: meaning for letter, meaning in lettered.meanings.items() if str(letter) != str(meaning)}
+    said = [f"{letter} is {meaning}" for letter, meaning in renamed.items()]
     letters = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
     return replace(found, notices=(*said, *found.notices), letters=letters)
 
