@@ -54,7 +54,11 @@ def numbers_said(statement: Natural, values: Values) -> set[int]:
         }
     if re.fullmatch(rf"`{statement.letter}\b[^`=]* = \+-[^`]*`", text):
         return _sums_with_signs(text.strip("`"), statement.letter, values)
-    return {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
+    notes = re.findall(r"`([^`]*) = 0` where `\w+ = (\d+)`", text)
+    text = re.sub(r" \((?:`[^`]* = 0` where `\w+ = \d+`(?:, )?)+\)", "", text)
+    found_at_poles = {int(root) for factor, root in notes if read(factor, values) == 0}
+    numbers = {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
+    return numbers | found_at_poles
 
 
 def _sums_of_exponents(text: str, values: Values) -> set[int]:
@@ -94,8 +98,8 @@ def read(text: str, values: Values) -> Any:
 
 
 def _is_true(equation: str, values: Values) -> bool:
-    left, right = equation.split(" = ")
-    return _is_zero(read(left, values) - read(right, values))
+    left, right = (read(side, values) for side in equation.split(" = "))
+    return bool(left.is_finite and right.is_finite) and _is_zero(left - right)
 
 
 def _is_zero(value: Any) -> bool:

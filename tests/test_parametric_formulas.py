@@ -46,8 +46,7 @@ def solutions_are_right(name: str, points: int) -> None:
 EACH = [pytest.param(name, marks=pytest.mark.slow if k % 12 else pytest.mark.long) for k, name in enumerate(ALL)]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", SOME)
+@parametrize("name", SOME, ordinary=2)
 def test_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 3)
 
@@ -144,8 +143,7 @@ def texts_say_what_is_meant(name: str, points: int) -> None:
     assert not wrong, wrong[:3]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", SOME)
+@parametrize("name", SOME, ordinary=2)
 def test_texts_say_what_is_meant(name: str) -> None:
     texts_say_what_is_meant(name, 6)
 

@@ -91,7 +91,9 @@ def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
             functions.setdefault(name, []).append(function)
         else:
             said.append(equation_text(equation, n))
-    said += [_one_of(name, known, n) for name, known in functions.items()]
+    for name, known in functions.items():
+        notes = dict.fromkeys(note for f in known for note in _notes_at_poles(_Choice(f, "", _is_natural), n))
+        said.append(_one_of(name, known, n) + (f" ({', '.join(notes)})" if notes else ""))
     return " or ".join(said)
 
 
@@ -249,6 +251,10 @@ class _Choice:
 
 def _is_integer(n: Fraction) -> bool:
     return n.denominator == 1
+
+
+def _is_natural(n: Fraction) -> bool:
+    return n.denominator == 1 and n >= 0
 
 
 def _choices(
