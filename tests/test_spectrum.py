@@ -440,3 +440,13 @@ def test_answers_are_in_the_roots_of_the_user(V: str, domain: tuple[object, obje
     assert {symbol.name for symbol in levels.wave.free_symbols} <= {"x", "n", "a"}
     assert "root_" not in str(answer)
     assert "alpha" not in str(answer)
+
+
+def test_energies_are_written_without_the_imaginary_unit() -> None:
+    """Rosen and Morse's trigonometric potential, whose exponents are conjugate: with A (A - 1) = 5 and B = -3/2."""
+    (levels,) = kovacic.spectrum("5*cot(x)^2 - 3*cot(x)", domain=(0, "pi")).levels
+    assert not levels.energy.has(sympy.I)
+    A = (1 + sympy.sqrt(21)) / 2
+    n = levels.number
+    printed = (A + n) ** 2 - sympy.Rational(9, 4) / (A + n) ** 2 - 5
+    assert sympy.simplify(levels.energy - printed) == 0

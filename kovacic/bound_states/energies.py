@@ -127,6 +127,8 @@ def _zeros(equation: Any, unknown: Any) -> list[Any]:
 
 def shortest(*forms: Any) -> Any:
     """The shortest of some ways to write what the forms are: as products, as sums, as partial fractions in n."""
+    real = [_real_part(form) for form in forms if form.has(sympy.I)]
+    forms = (*(form for form in real if form is not None), *forms)
     candidates = [*forms]
     for form in forms:
         expanded = sympy.expand(form)
@@ -137,7 +139,19 @@ def shortest(*forms: Any) -> Any:
                 _shifted(part, number) for part in sympy.Add.make_args(sympy.apart(sympy.factor(form), number))
             ]
             candidates.append(sympy.Add(*fractions))
-    return min(candidates, key=lambda form: (sympy.count_ops(form), len(str(form)), str(form)))
+    return min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(str(form)), str(form)))
+
+
+def _real_part(form: Any) -> Any:
+    """The same without I where the imaginary part vanishes: that of an energy whose two roots are conjugate; else None."""
+    if not all(symbol.is_real for symbol in form.free_symbols):
+        return None
+    real, imaginary = form.as_real_imag()
+    if real.has(sympy.re, sympy.im) or sympy.cancel(sympy.together(imaginary)) != 0:
+        return None
+    return real.replace(
+        lambda e: e.is_Pow and e.exp == 2 and e.base.could_extract_minus_sign(), lambda e: (-e.base) ** 2
+    )
 
 
 def _shifted(part: Any, number: Any) -> Any:
