@@ -94,3 +94,21 @@ def test_numbers() -> None:
     answer = kovacic.solve("y'' = a*x^n*y")
     assert answer.case is None
     assert kovacic.Solution.from_json(answer.to_json()) == answer
+
+
+def test_the_degree_of_a_solution_has_the_root_that_is_in_it() -> None:
+    """sqrt(a/m^2) is sqrt(a)/m or minus that; for a negative m the degree and the index of the polynomial would differ."""
+    answer = kovacic.conditions("y'' = (a*x^(2*m-2) + b*x^(m-2))*y")
+    region = answer.region_at({"a": 1, "b": -4, "m": -1})
+    assert region is not None
+    a, b, m, x = sympy.symbols("a b m x")
+    there = {a: 1, b: -4, m: -1}
+    found = [s for s in region.solution() if s.degree.subs(there) in range(9)]
+    assert found
+    for solution in found:
+        (polynomial,) = solution.y.atoms(sympy.assoc_laguerre)
+        assert polynomial.args[0].subs(there) == solution.degree.subs(there)
+        y = solution.y.subs(there)
+        residual = sympy.diff(y, x, 2) - (x**-4 - 4 * x**-3) * y
+        assert sympy.simplify(residual) == 0
+        assert not solution.y.has(sympy.log)

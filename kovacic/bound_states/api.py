@@ -21,7 +21,7 @@ from kovacic.bound_states.families import (
     no_families,
 )
 from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
-from kovacic.bound_states.letters import assumed_of_letters, in_their_meanings, with_named_roots
+from kovacic.bound_states.letters import assumed_of_letters, between, in_their_meanings, with_named_roots
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.quasi import Found, degree_beyond, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
@@ -165,7 +165,7 @@ def spectrum(
     most = whole(max_degree, "max_degree")
     V, roots = with_named_roots(V)
     if roots:
-        assume = {**(assume or {}), **dict.fromkeys(roots, "positive")}
+        assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}
     question = _question(V, domain, energy, var, assume, boundary, limits)
     meanings = {**dict(question.parsed.letters), **roots}
     budget = Budget(limits)

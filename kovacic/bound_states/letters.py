@@ -1,7 +1,8 @@
 """Constants for which letters stand while the spectrum is looked for: sqrt(a), and square roots of several numbers.
 
 One square root, or another root of one number, is computed with as such.  Several of them would have a common generator, that
-isn't written in the user's roots; so each is a positive parameter, and its value is put in at the end.
+isn't written in the user's roots, and beside sines and cosines there is I; so each is a positive parameter, and its value is
+put in at the end.
 """
 
 from __future__ import annotations
@@ -13,12 +14,16 @@ from itertools import count
 from typing import Any
 
 import sympy
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.bound_states.answer import Algebraic, Levels, Spectrum
 from kovacic.errors import InputError
 from kovacic.numerals import as_text
 from kovacic.reading.symbolic import names_of, read_expression
 from kovacic.writing.formula import caret
+
+#: The steps from one number to the next, between which a root is said to lie.
+_STEPS = 10**6
 
 
 def with_named_roots(V: Any) -> tuple[Any, dict[str, Any]]:
@@ -29,7 +34,8 @@ def with_named_roots(V: Any) -> tuple[Any, dict[str, Any]]:
         return V, {}
     powers = (e for e in expression.atoms(sympy.Pow) if e.is_number and not e.exp.is_Integer)
     roots = sorted((e for e in powers if e.is_positive and e.is_algebraic), key=sympy.default_sort_key)
-    if len(roots) < 2:
+    is_enough = len(roots) > 1 or (roots and expression.has(TrigonometricFunction))
+    if not is_enough:
         return V, {}
     outermost = [e for e in roots if not any(e is not other and other.has(e) for other in roots)]
     taken = {*names_of(expression)}
@@ -50,6 +56,12 @@ def assumed_of_letters(
             word = found.pop(own, "nonnegative") if own is not None else "nonnegative"
             found[letter] = "positive" if word in ("positive", ">0") else "nonnegative"
     return found if letters else assume
+
+
+def between(value: Any, name: str) -> str:
+    """That a letter lies between two decimals, as an assumption."""
+    below = sympy.floor(value * _STEPS)
+    return f"{sympy.Rational(below, _STEPS)}<{name}<{sympy.Rational(below + 1, _STEPS)}"
 
 
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:

@@ -31,7 +31,7 @@ from kovacic.numerals import as_text
 from kovacic.parametric.exponents import Exponents, local_parts
 from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
-from kovacic.reading.change_of_variable import solution_in_x
+from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
 from kovacic.writing.formula import caret
 
 
@@ -146,12 +146,21 @@ class Given:
     equation: Equation
 
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        return tuple(replace(solution, y=self.translated(solution.y)) for solution in self.origin(number))
+        return tuple(map(self._given, self.origin(number)))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
         """All of them in one, with symbols for the signs; None where there is no such formula."""
         found = general(self.origin, signs)
-        return None if found is None else replace(found, y=self.translated(found.y))
+        return None if found is None else self._given(found)
+
+    def _given(self, solution: PolynomialSolution) -> PolynomialSolution:
+        """The solution with its degree and its conditions: where t = x^m, the roots in them are those of the translated y."""
+        y, degree, conditions = self.translated(solution.y), solution.degree, solution.conditions
+        if is_power(self.equation):
+            x = user_variable(self.equation)
+            degree = with_roots_of_factors(degree, x)
+            conditions = tuple(with_roots_of_factors(condition, x) for condition in conditions)
+        return replace(solution, y=y, degree=degree, conditions=conditions)
 
     def translated(self, y: Any) -> Any:
         """Times the gauge factor, and in the user's variable."""

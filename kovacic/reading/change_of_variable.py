@@ -110,17 +110,31 @@ def _with_powers(expression: Any, own: Any, k: Any, x: Any) -> Any:
     """With x^k for a variable, by exp(k s) with s = log(x)."""
     s = sympy.Dummy("s")
     joined = _with_joined_powers(expression.xreplace({own: sympy.exp(k * s)}), s)
-    rates = {e: sympy.cancel(sympy.expand(e.exp) / s) for e in joined.atoms(sympy.exp)}
-    powers = {e: x**rate for e, rate in rates.items() if not rate.has(s)}
-    found = joined.xreplace(powers).xreplace({s: sympy.log(x)})
+    in_powers = joined.replace(lambda e: e.func is sympy.exp, lambda e: _as_power(e.exp, s, x))
+    found = in_powers.xreplace({s: sympy.log(x)})
     shorter = {p: x ** sympy.expand(sympy.cancel(p.exp)) for p in found.atoms(sympy.Pow) if p.base == x}
-    # Either sign of a root of a square gives solutions, if it is the same everywhere.
-    roots = {p for p in found.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and not p.has(x)}
+    return with_roots_of_factors(found.xreplace(shorter), x)
+
+
+def _as_power(exponent: Any, s: Any, x: Any) -> Any:
+    """exp(c s + r) = x^c exp(r) with s = log(x)."""
+    terms = sympy.Add.make_args(sympy.expand(exponent))
+    linear = [term for term in terms if not sympy.cancel(term / s).has(s)]
+    rate = sympy.cancel(sympy.Add(*linear) / s)
+    return x**rate * sympy.exp(sympy.Add(*(term for term in terms if term not in linear)))
+
+
+def with_roots_of_factors(expression: Any, x: Any) -> Any:
+    """sqrt(a)/m for sqrt(a/m^2), where x isn't in it.
+
+    Either sign of a root gives solutions, if it is the same everywhere: so in what belongs to a solution, too.
+    """
+    roots = {p for p in expression.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and not p.has(x)}
     forced = {
         p: sympy.powdenest(sympy.expand_power_base(sympy.factor(p.base) ** p.exp, force=True), force=True)
         for p in roots
     }
-    return found.xreplace(shorter).xreplace(forced)
+    return expression.xreplace(forced)
 
 
 def _with_joined_powers(expression: Any, x: Any) -> Any:
