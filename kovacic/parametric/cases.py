@@ -92,16 +92,21 @@ def _is_redundant(
     """Do the later regions say the same at each value of this one that is in none before?"""
     if not _is_known(region) or region.complete is not True:
         return False
-    charts = _within(region.statement, _everything([region]))
+    everything = _everything([region])
+    if not everything:
+        return False
+    charts = _within(region.statement, everything)
     known = [one.statement for one in before]
     for other in after:
+        if region.case is None and _proves_a_solution(other):
+            continue  # they have no value in common
         common = _within(other.statement, charts)
         if all(_is_said(known, other.statement, chart) for chart in common):
             continue
         if _says_the_same(other, region):
             if _covered(charts, [other.statement]):
                 return True
-        elif region.case is not None or not _proves_a_solution(other):
+        else:
             return False
     return generic is not None and _is_same(generic, region.verdict)
 
@@ -264,20 +269,22 @@ def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterP
     if _covered([chart], known):
         return True
     try:
-        parts = _restricted(statement, chart)
+        parts = {*_restricted(statement, chart)}
     except (TypeError, ValueError, ZeroDivisionError):  # not about functions of the parameters of the chart
         return False
     for one in known:
         with suppress(TypeError, ValueError, ZeroDivisionError):
-            if _restricted(one, chart) <= parts:
+            if all(part in parts for part in _restricted(one, chart)):
                 return True
     return False
 
 
-def _restricted(statement: Statement, chart: ParameterPoint) -> set[Statement]:
+def _restricted(statement: Statement, chart: ParameterPoint) -> Iterator[Statement]:
     """What it says on the chart: all of these statements."""
-    on_chart = statement.rewritten(lambda function: over_parameters(chart.at(function)))
-    return {part for part in both(on_chart).parts if not _is_true(part)}
+    for part in both(statement).parts:
+        on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
+        if not _is_true(on_chart):
+            yield on_chart
 
 
 def _is_true(statement: Statement) -> bool:
