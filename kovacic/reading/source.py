@@ -201,35 +201,61 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
     that usually is one (x, t, z, s, r, u, theta, ...); else x, or what the notation stands for (t beside dots, in D2y), and all
     other names are parameters.
     """
-    kinds = tokens.kinds
-    applied, differentiated = ["HEAD", "LPAR", "NAME", "RPAR"], ["NAME", "COMMA", "NAME"]
-    for k in range(len(kinds) - 3):
-        if tokens.pieces[k].rstrip(PRIMES) == unknown and (
-            kinds[k : k + 4] == applied or kinds[k : k + 3] == differentiated
-        ):
-            return tokens.pieces[k + 2], ()
+    named = _argument_of(tokens, unknown)
+    if named is not None:
+        return named, ()
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
+    if DEFAULT_VARIABLE in names and unknown != DEFAULT_VARIABLE:
+        return DEFAULT_VARIABLE, ()
     default = preferred or DEFAULT_VARIABLE
     if default == unknown:
         default = "t"
-    if DEFAULT_VARIABLE in names and unknown != DEFAULT_VARIABLE:
-        return DEFAULT_VARIABLE, ()
     if default in names or not names:
         return default, ()
-    damped = any(name.startswith(_FREQUENCIES) for name in names)
-    usual = [name for name in names if name in USUAL_VARIABLES and not (damped and name in _DAMPING_RATIOS)]
+    usual = _usual_variables(names)
     if len(usual) > 1:
-        hint = f"write {unknown}''(x) for the derivative, or name the variable:"
-        k = tokens.names()[usual[-1]]
-        message = f"{', '.join(usual[:6])}: which is the variable?"
-        raise tokens.error(
-            InputError, message, k, k + 1, hint=f"{hint} var={usual[0]!r}", shell=f"{hint} --var {usual[0]}"
-        )
+        raise _several_variables(tokens, unknown, usual)
     if usual:
         return usual[0], ()
     which = "a parameter" if len(names) == 1 else "parameters"
     return default, (f"{default} is the variable, {', '.join(names[:6])} {which}",)
+
+
+def _argument_of(tokens: Tokens, unknown: str) -> str | None:
+    """The name in y''(x), or in D(y, x); None where the unknown function stands alone."""
+    kinds = tokens.kinds
+    for k in range(len(kinds) - 3):
+        if tokens.pieces[k].rstrip(PRIMES) != unknown:
+            continue
+        is_applied = kinds[k : k + 4] == ["HEAD", "LPAR", "NAME", "RPAR"]
+        is_differentiated = kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]
+        if is_applied or is_differentiated:
+            return tokens.pieces[k + 2]
+    return None
+
+
+def _usual_variables(names: list[str]) -> list[str]:
+    """Those that usually are a variable; beside a frequency the letters of damping ratios are parameters."""
+    usual = [name for name in names if name in USUAL_VARIABLES]
+    is_damped = any(name.startswith(_FREQUENCIES) for name in names)
+    if is_damped:
+        return [name for name in usual if name not in _DAMPING_RATIOS]
+    return usual
+
+
+def _several_variables(tokens: Tokens, unknown: str, usual: list[str]) -> Exception:
+    """The question back, where several names could be the variable."""
+    hint = f"write {unknown}''(x) for the derivative, or name the variable:"
+    k = tokens.names()[usual[-1]]
+    return tokens.error(
+        InputError,
+        f"{', '.join(usual[:6])}: which is the variable?",
+        k,
+        k + 1,
+        hint=f"{hint} var={usual[0]!r}",
+        shell=f"{hint} --var {usual[0]}",
+    )
 
 
 def _only_name(tokens: Tokens, variable: str) -> tuple[str, ...]:

@@ -182,8 +182,7 @@ def _written(
     found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
     for y in found or ():
         _check(y, writer.atoms.x, S, gauge)
-    own = {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
-    return (found[0].xreplace(own), found[1].xreplace(own)) if found and own else found
+    return None if found is None else _in_own_symbols(found, writer)
 
 
 def _check(y: Expr, x: Any, S: RatFunc, gauge: RatFunc) -> None:
@@ -238,34 +237,70 @@ def by_sign(
 def _by_sign(
     pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], singular: Poly | None
 ) -> BySign | None:
+    """The first integer whose sign helps both ways, else the first that helps one; its solutions are checked at a point."""
     import sympy
 
     from kovacic.special.writer import Writer
 
     writer = Writer(gauge, sympy.Symbol(variable), symbols)
-    equation, f = pullback.equation, pullback.f
-    whole = equation.written(writer, f, singular)
-    best = None
-    for number in dict.fromkeys(equation.integers(writer, f)):
-        value = writer.constant(number)
-        is_open = writer.is_integer(number) and not writer.is_natural(number) and not writer.is_natural(-number - 1)
-        natural = _assuming(writer, value, pullback, singular) if is_open else None
-        is_named = natural is not None and any(y.has(sympy.assoc_legendre, sympy.assoc_laguerre) for y in natural)
-        if natural is None or natural == whole or (whole is not None and not is_named):
-            continue
-        found = BySign(value, natural, whole or _assuming(writer, -value - 1, pullback, singular))
-        if found.negative is not None:
-            best = found
-            break
-        best = best or found
+    best = _best(_helpful(pullback, writer, singular))
     if best is None:
         return None
-    for y in (*best.natural, *(best.negative or ())):
-        _check(y, writer.atoms.x, S, gauge)
-    own = {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
-    natural, negative = (pair and (pair[0].xreplace(own), pair[1].xreplace(own)) for pair in best.pairs)
-    assert natural is not None
-    return BySign(best.integer.xreplace(own), natural, negative)
+    for pair in best.pairs:
+        for y in pair or ():
+            _check(y, writer.atoms.x, S, gauge)
+    natural = _in_own_symbols(best.natural, writer)
+    negative = None if best.negative is None else _in_own_symbols(best.negative, writer)
+    return BySign(best.integer.xreplace(_own_symbols(writer)), natural, negative)
+
+
+def _best(candidates: Iterator[BySign]) -> BySign | None:
+    """The first with solutions for both signs, else the first."""
+    best = None
+    for found in candidates:
+        if found.negative is not None:
+            return found
+        best = best or found
+    return best
+
+
+def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Iterator[BySign]:
+    """What each integer gives whose sign is open: solutions that are known only by it, or polynomials that have names."""
+    equation = pullback.equation
+    whole = equation.written(writer, pullback.f, singular)
+    for number in dict.fromkeys(equation.integers(writer, pullback.f)):
+        if not writer.is_integer(number):
+            continue
+        is_sign_known = writer.is_natural(number) or writer.is_natural(-number - 1)
+        if is_sign_known:
+            continue
+        value = writer.constant(number)
+        natural = _assuming(writer, value, pullback, singular)
+        if natural is None or natural == whole:
+            continue
+        if whole is None:
+            yield BySign(value, natural, _assuming(writer, -value - 1, pullback, singular))
+        elif _is_named(natural):
+            yield BySign(value, natural, whole)
+
+
+def _is_named(pair: tuple[Expr, Expr]) -> bool:
+    """Is one of them a polynomial with a name, of Legendre or of Laguerre?"""
+    import sympy
+
+    return any(y.has(sympy.assoc_legendre, sympy.assoc_laguerre) for y in pair)
+
+
+def _own_symbols(writer: Writer) -> dict[Any, Any]:
+    """The user's symbols, which carry assumptions, for those that were computed with."""
+    return {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
+
+
+def _in_own_symbols(pair: tuple[Expr, Expr], writer: Writer) -> tuple[Expr, Expr]:
+    """Both solutions in the user's symbols."""
+    own = _own_symbols(writer)
+    y1, y2 = pair
+    return y1.xreplace(own), y2.xreplace(own)
 
 
 def _assuming(writer: Writer, value: Any, pullback: Pullback, singular: Poly | None) -> tuple[Expr, Expr] | None:

@@ -68,35 +68,53 @@ def render(
     yield style(_given(answer), "title")
     for notice in answer.notices:
         yield style(f"  note: {visible(notice)}", "faint")
-    if answer.equation is not None and not answer.equation.is_normal_form:
+    is_gauged = answer.equation is not None and not answer.equation.is_normal_form
+    if is_gauged:
         where = "" if answer.change is None else f", over {answer.change.field}"
         yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{where}"
     said, more = verdict_of(answer)
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
-    yield from (f"  {line}" for line in solutions or ())
+    if solutions is not None:
+        yield from _indented(solutions)
     if answer.riccati is not None:
-        yield from (f"  {line}" for line in omega_lines(answer.riccati, formulas_of(answer)))
+        yield from _indented(omega_lines(answer.riccati, formulas_of(answer)))
     if answer.omega is not None and solutions is None:
-        is_gauged = answer.equation is not None and not answer.equation.is_normal_form
         of_what = ", a solution of the normal form" if is_gauged else ""
         yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
-    yield from (f"  {line}" for line in _exclusions(answer))
-    if parameters_of(answer.S.field) and answer.status is not Status.UNDECIDED and not answer.assumed:
-        from kovacic.parametric.restriction import generic_conditions
-
-        yield f"  for generic parameters: {generic_conditions(answer)}"
-        yield "  (kovacic conditions tells for which values more is solvable)"
+    yield from _indented(_exclusions(answer))
+    yield from _indented(_for_generic_parameters(answer))
     if answer.verified:
-        if answer.status is Status.LIOUVILLIAN:
-            how = "omega' + omega^2 = S holds exactly"
-            how += ", and what was excluded was recomputed by independent code" if answer.proof else ""
-        elif answer.status is Status.NONE_EXISTS:
-            how = "every exclusion was recomputed by independent code"
-        else:
-            how = "what was excluded before the limit was recomputed by independent code"
-        yield f"  {style('verified', 'good')}: {how}"
+        yield f"  {style('verified', 'good')}: {_how_verified(answer)}"
     elif answer.status is not Status.UNDECIDED:
         yield f"  {style('not verified', 'bad')}"
+
+
+def _indented(lines: Iterable[str]) -> Iterator[str]:
+    """Each line moved to the right, as what belongs to a title is."""
+    for line in lines:
+        yield f"  {line}"
+
+
+def _for_generic_parameters(answer: Answer) -> Iterator[str]:
+    """Which parameters the answer is for, where there are some: all but finitely many, or but some curves of them."""
+    if answer.status is Status.UNDECIDED or answer.assumed:
+        return
+    if parameters_of(answer.S.field):
+        from kovacic.parametric.restriction import generic_conditions
+
+        yield f"for generic parameters: {generic_conditions(answer)}"
+        yield "(kovacic conditions tells for which values more is solvable)"
+
+
+def _how_verified(answer: Answer) -> str:
+    """What was computed once more."""
+    if answer.status is Status.NONE_EXISTS:
+        return "every exclusion was recomputed by independent code"
+    if answer.status is Status.UNDECIDED:
+        return "what was excluded before the limit was recomputed by independent code"
+    if answer.proof:
+        return "omega' + omega^2 = S holds exactly, and what was excluded was recomputed by independent code"
+    return "omega' + omega^2 = S holds exactly"
 
 
 def _given(answer: Answer) -> str:
@@ -133,7 +151,7 @@ def solution_lines(answer: Answer) -> Iterator[str]:
         yield f"{'  ' if answer.case is None else ''}{name}{k} = {shortened(text)}"
     if shorter := shorter_pair(answer, max(map(len, pair), default=0)):
         yield SHORTER
-        yield from (f"  {name.equals(y).text}" for name, y in shorter)
+        yield from _indented(name.equals(y).text for name, y in shorter)
     yield from (f"note: {note}" for note in notes)
 
 
