@@ -8,8 +8,8 @@ put in at the end.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import count
 from typing import Any
 
@@ -32,16 +32,30 @@ def with_named_roots(V: Any) -> tuple[Any, dict[str, Any]]:
         expression = read_expression(V) if isinstance(V, str) else sympy.sympify(V)
     except (InputError, sympy.SympifyError):  # said where it is read
         return V, {}
-    powers = (e for e in expression.atoms(sympy.Pow) if e.is_number and not e.exp.is_Integer)
-    roots = sorted((e for e in powers if e.is_positive and e.is_algebraic), key=sympy.default_sort_key)
+    roots = sorted(_roots_in(expression), key=sympy.default_sort_key)
     is_enough = len(roots) > 1 or (roots and expression.has(TrigonometricFunction))
     if not is_enough:
         return V, {}
-    outermost = [e for e in roots if not any(e is not other and other.has(e) for other in roots)]
+    outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
+    meanings = dict(zip(_free_names(expression), outermost, strict=False))
+    return expression.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()}), meanings
+
+
+def _roots_in(expression: Any) -> Iterator[Any]:
+    """The positive algebraic numbers with a fractional exponent."""
+    for power in expression.atoms(sympy.Pow):
+        is_root = power.is_number and not power.exp.is_Integer
+        if is_root and power.is_positive and power.is_algebraic:
+            yield power
+
+
+def _free_names(expression: Any) -> Iterator[str]:
+    """root_1, root_2, ..., but those which the user has taken."""
     taken = {*names_of(expression)}
-    names = (name for name in map("root_{}".format, count(1)) if name not in taken)
-    meanings = dict(zip(names, outermost, strict=False))
-    return expression.xreplace({e: sympy.Symbol(name) for name, e in meanings.items()}), meanings
+    for number in count(1):
+        name = f"root_{number}"
+        if name not in taken:
+            yield name
 
 
 def assumed_of_letters(
@@ -66,51 +80,74 @@ def between(value: Any, name: str) -> str:
 
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
     """The answer with the meanings in the place of the letters."""
-    values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}
-
-    def put_in(expression: Any) -> Any:
-        return sympy.sympify(expression).xreplace(values)
-
-    def said(text: str) -> str:
-        for name, meaning in meanings.items():
-            text = re.sub(rf"\b{name}\b", lambda _: caret(as_text(meaning)), text)  # noqa: B023
-        return text
-
-    def conditions(one: Levels | Algebraic) -> tuple[Any, ...]:
-        return tuple(c for c in map(put_in, one.conditions) if c != sympy.true)
-
-    levels = [
-        replace(
-            one,
-            energy=put_in(one.energy),
-            wave=put_in(one.wave),
-            conditions=conditions(one),
-            zeros=put_in(one.zeros),
-            norm=None if one.norm is None else put_in(one.norm),
-        )
-        for one in found.levels
-    ]
-    algebraic = [
-        replace(
-            one,
-            constraint=put_in(one.constraint),
-            polynomial=put_in(one.polynomial),
-            wave=put_in(one.wave),
-            conditions=conditions(one),
-        )
-        for one in found.algebraic
-    ]
-    others = {name for meaning in meanings.values() for name in names_of(meaning)}
-    parameters = [name for name in found.parameters if name not in meanings]
-    known = tuple((name, known) for name, known in found.assumptions.known if name not in meanings)
+    letters = _Letters(meanings)
+    levels = [letters.in_levels(one) for one in found.levels]
+    algebraic = [letters.in_algebraic(one) for one in found.algebraic]
+    excluded = [letters.put_in(relation) for relation in found.excluded]
+    known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
     return replace(
         found,
-        potential=put_in(found.potential),
-        parameters=(*parameters, *sorted(others - {*parameters})),
+        potential=letters.put_in(found.potential),
+        parameters=letters.parameters(found.parameters),
         assumptions=replace(found.assumptions, known=known),
-        ends=tuple(map(said, found.ends)),
-        excluded=tuple(e for e in map(put_in, found.excluded) if e != sympy.false),
+        ends=tuple(map(letters.said, found.ends)),
+        excluded=tuple(relation for relation in excluded if relation != sympy.false),
         levels=tuple(one for one in levels if sympy.false not in one.conditions),
         algebraic=tuple(one for one in algebraic if sympy.false not in one.conditions),
-        reason=said(found.reason),
+        reason=letters.said(found.reason),
     )
+
+
+def _replaced(name: str, meaning: str, text: str) -> str:
+    """The text with the meaning for each word that is the name."""
+    return re.sub(rf"\b{name}\b", lambda _: meaning, text)
+
+
+@dataclass(frozen=True)
+class _Letters:
+    """What letters mean, and how it is put in."""
+
+    meanings: Mapping[str, Any]
+
+    def put_in(self, expression: Any) -> Any:
+        """An expression, or a relation, without letters."""
+        values = {sympy.Symbol(name): meaning for name, meaning in self.meanings.items()}
+        return sympy.sympify(expression).xreplace(values)
+
+    def said(self, text: str) -> str:
+        """A sentence without letters."""
+        for name, meaning in self.meanings.items():
+            text = _replaced(name, caret(as_text(meaning)), text)
+        return text
+
+    def conditions(self, one: Levels | Algebraic) -> tuple[Any, ...]:
+        """Those that say something."""
+        found = map(self.put_in, one.conditions)
+        return tuple(condition for condition in found if condition != sympy.true)
+
+    def in_levels(self, one: Levels) -> Levels:
+        """The same levels without letters."""
+        return replace(
+            one,
+            energy=self.put_in(one.energy),
+            wave=self.put_in(one.wave),
+            conditions=self.conditions(one),
+            zeros=self.put_in(one.zeros),
+            norm=None if one.norm is None else self.put_in(one.norm),
+        )
+
+    def in_algebraic(self, one: Algebraic) -> Algebraic:
+        """The same, for levels under a constraint."""
+        return replace(
+            one,
+            constraint=self.put_in(one.constraint),
+            polynomial=self.put_in(one.polynomial),
+            wave=self.put_in(one.wave),
+            conditions=self.conditions(one),
+        )
+
+    def parameters(self, names: Sequence[str]) -> tuple[str, ...]:
+        """The user's own parameters, those that stand only in a meaning last."""
+        plain = [name for name in names if name not in self.meanings]
+        inside = {name for meaning in self.meanings.values() for name in names_of(meaning)}
+        return (*plain, *sorted(inside - {*plain}))

@@ -25,6 +25,7 @@ and values whose factors leave the range of doubles, although they don't.  Nothi
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -271,9 +272,7 @@ class ProductForm:
 
     def _parts(self, x: Any, careful: bool) -> tuple[Complex, Any, Any]:
         """y = value * 2^binary * exp(growth); without any growth 0 if careful, else None."""
-        point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
-        if careful:
-            point = Complex(*(None if part is None else Pair(part, 0.0 * part) for part in (point.re, point.im)))
+        point = self._as_complex(x, careful)
         growth = [self.exponent(point)]
         t = point
         size = max(abs(self.region.low), abs(self.region.high))
@@ -284,27 +283,38 @@ class ProductForm:
             size = np.max(np.abs(double(parameter)), initial=0.0)
         product = _Product(t, careful, size + self._reach)
         if self.polynomial is not None:
-            numbers, powers = self.polynomial.parts(x)
-            if careful:
-                numbers = [v if isinstance(v, Pair) else Pair(v, 0.0 * v) for v in numbers]
-            product.value = Complex(*numbers)
-            product.binary = 0 if powers is None else powers
+            product.begin(*self.polynomial.parts(x))
         for f in self.factors:
             product.multiply(f, growth)
         total = _sum_of([g for g in growth if g is not None])
         if total is not None and self.is_real:
             total = Complex(total.re)
-        one = Complex(np.ones(x.shape) if careful or total is None else 1.0)
         if careful:
             zero = 0.0 * x.real
             total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
-        return product.value or one, product.binary, total
+        if product.value is not None:
+            return product.value, product.binary, total
+        one = 1.0 if total is not None and not careful else np.ones(x.shape)
+        return Complex(one), product.binary, total
+
+    def _as_complex(self, x: Any, careful: bool) -> Complex:
+        """The points x, their parts double-doubles if careful."""
+        re = x if self.region.is_real else x.real
+        im = None if self.region.is_real else x.imag
+        if not careful:
+            return Complex(re, im)
+        return Complex(_with_low_part(re), None if im is None else _with_low_part(im))
 
     @property
     def _reach(self) -> float:
         """The largest modulus of a zero or a singular point."""
         sizes = [math.hypot(f.zeta.re.hi, 0.0 if f.zeta.im is None else f.zeta.im.hi) for f in self.factors]
         return max(sizes, default=0.0)
+
+
+def _with_low_part(v: Any) -> Any:
+    """The same numbers as double-doubles."""
+    return v if isinstance(v, Pair) else Pair(v, 0.0 * v)
 
 
 def _sum_of(terms: list[Complex]) -> Complex | None:
@@ -316,10 +326,18 @@ class _Product:
     """The product of the factors with small powers, value * 2^binary; the others go into the exponent of the form."""
 
     def __init__(self, t: Complex, careful: bool, reach: float) -> None:
-        self.t, self.careful = t, careful
+        self.t = t
+        self.careful = careful
         self.value: Complex | None = None
         self.binary: Any = 0
-        self.bits, self.degree_bits = 0.0, math.log2(reach + 2.0)
+        self.bits = 0.0
+        self.degree_bits = math.log2(reach + 2.0)
+
+    def begin(self, numbers: Iterable[Any], powers: Any) -> None:
+        """The first factor, a tabulated one: its real part, and its imaginary one if it has one, times 2^powers."""
+        parts = [_with_low_part(v) for v in numbers] if self.careful else numbers
+        self.value = Complex(*parts)
+        self.binary = 0 if powers is None else powers
 
     def multiply(self, f: RootFactor, growth: list[Complex | None]) -> None:
         """One factor more."""

@@ -89,26 +89,42 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
             spaces = [invariants_modulo(h, problem, m, valuations, N, margin) for h in bundle]
         except BadPrimeError:
             continue
-        for h, (space, point) in zip(bundle, spaces, strict=True):
-            if not space:
-                return NoInvariant(m, prime=h.p, point=point, degree=N)
+        excluded = _excluded(bundle, spaces, m, N)
+        if excluded is not None:
+            return excluded
         bases = [space for space, _ in spaces]
-        if len({len(space) for space in bases}) > 1:
+        dimensions = {len(space) for space in bases}
+        if len(dimensions) > 1:
             continue
         forms = [Form(m, R0, P) for P in lifter.add(bundle, bases) or ()]
         if forms and all(form.is_form(problem) for form in forms):
             return forms
-        if not all(_all_close(h, problem, m, R0, space) for h, space in zip(bundle, bases, strict=True)):
+        if not _are_forms(bundle, problem, m, R0, bases):
             margin *= 2
             lifter = Lifter(problem.field)
             continue
-        is_single = len(bases[0]) == 1
+        is_single = dimensions == {1}
         if is_single and not recurrence_tried and _recurrence_is_cheaper(problem, m, N, lifter.primes_used):
             recurrence_tried = True
             form = _by_recurrence(problem, m, N, valuations, R0)
             if form is not None:
                 return [form]
     raise AssertionError("the sequence of primes is infinite")
+
+
+def _excluded(
+    bundle: Sequence[Homomorphism], spaces: Sequence[tuple[list[Any], int]], m: int, N: int
+) -> NoInvariant | None:
+    """The proof by the first prime modulo which there is none; None if there is one modulo each."""
+    for h, (space, point) in zip(bundle, spaces, strict=True):
+        if not space:
+            return NoInvariant(m, prime=h.p, point=point, degree=N)
+    return None
+
+
+def _are_forms(bundle: Sequence[Homomorphism], problem: Problem, m: int, R0: Poly, bases: Sequence[list[Any]]) -> bool:
+    """Are all that were found modulo the primes forms there?  Too few equations let others pass."""
+    return all(_all_close(h, problem, m, R0, space) for h, space in zip(bundle, bases, strict=True))
 
 
 def _by_recurrence(problem: Problem, m: int, N: int, valuations: list[int], R0: Poly) -> Form | None:

@@ -101,24 +101,11 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
 
     By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
     """
-    found: Any = special_functions(
-        solution.S,
-        solution.gauge,
-        solution.variable,
-        budget,
-        symbols=question.parameters,
-        joined=True,
-    )
+    how: dict[str, Any] = {"symbols": question.parameters, "joined": True}
+    found: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
     is_asked = not question.conditions or bool(limit_points(question))
     if not found or (is_asked and question.equation.is_homogeneous):
-        halves = by_sign(
-            solution.S,
-            solution.gauge,
-            solution.variable,
-            budget,
-            symbols=question.parameters,
-            joined=True,
-        )
+        halves = by_sign(solution.S, solution.gauge, solution.variable, budget, **how)
         if halves is not None:
             return halves
     equation = question.equation
