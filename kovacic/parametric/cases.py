@@ -25,6 +25,10 @@ from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, both, either
 
 
+#: Regions above which not all are compared: general Heun has some hundreds.
+_MANY = 100
+
+
 @dataclass(frozen=True)
 class Case:
     """Where `statement` holds, none of `without`, and no case before: what is said is that of each of the `regions`."""
@@ -73,13 +77,16 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
 def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> list[ParameterRegion]:
     """The regions without those of whose values the later ones say the same, and the generic verdict; None claims nothing.
 
-    "l = 0: no Liouvillian solution" needn't be said where no later region with a solution meets l = 0.
+    "l = 0: no Liouvillian solution" needn't be said where no later region with a solution meets l = 0.  Of very many regions
+    only the last ones are looked at, because each is compared with all of the others.
     """
     kept = [*regions]
     for k in reversed(range(len(regions))):
         check_time()
         if _is_redundant(kept[k], kept[:k], kept[k + 1 :], generic):
             del kept[k]
+        elif len(regions) > _MANY:
+            break
     return kept
 
 
@@ -92,23 +99,24 @@ def _is_redundant(
     """Do the later regions say the same at each value of this one that is in none before?"""
     if not _is_known(region) or region.complete is not True:
         return False
+    is_generic = generic is not None and _is_same(generic, region.verdict)
+    is_variety = all(isinstance(part, Vanishes) for part in both(region.statement).parts)
     everything = _everything([region])
-    if not everything:
+    if not everything or not (is_generic or is_variety):
         return False
     charts = _within(region.statement, everything)
     known = [one.statement for one in before]
     for other in after:
         if region.case is None and _proves_a_solution(other):
             continue  # they have no value in common
-        common = _within(other.statement, charts)
-        if all(_is_said(known, other.statement, chart) for chart in common):
-            continue
         if _says_the_same(other, region):
             if _covered(charts, [other.statement]):
                 return True
-        else:
+            continue
+        common = _within(other.statement, charts)
+        if not all(_is_said(known, other.statement, chart) for chart in common):
             return False
-    return generic is not None and _is_same(generic, region.verdict)
+    return is_generic
 
 
 def _says_the_same(other: ParameterRegion, region: ParameterRegion) -> bool:
@@ -266,6 +274,9 @@ def _covered(charts: list[ParameterPoint], statements: Sequence[Statement]) -> b
 
 def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterPoint) -> bool:
     """Does one of the known statements hold at all values of the chart at which this one does?"""
+    known = _possible(known, chart)
+    if not known:
+        return False
     if _covered([chart], known):
         return True
     try:
@@ -277,6 +288,22 @@ def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterP
             if all(part in parts for part in _restricted(one, chart)):
                 return True
     return False
+
+
+def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[Statement]:
+    """Those that don't begin with a function that vanishes at some values of the chart at most: many begin with the same one."""
+    is_zero: dict[FunctionPoly, bool] = {}
+    found = []
+    for statement in statements:
+        first = next(iter(both(statement).parts), None)
+        if isinstance(first, Vanishes):
+            function = first.function
+            if function not in is_zero:
+                is_zero[function] = holds_on(first, chart, NOTHING_ASSUMED)
+            if not is_zero[function]:
+                continue
+        found.append(statement)
+    return found
 
 
 def _restricted(statement: Statement, chart: ParameterPoint) -> Iterator[Statement]:
