@@ -24,7 +24,6 @@ from kovacic.parametric.restriction import hypersurface, over_all
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, both, either
 
-
 #: Regions above which not all are compared: general Heun has some hundreds.
 _MANY = 100
 
