@@ -290,7 +290,7 @@ def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterP
 
 
 def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[Statement]:
-    """Those that don't begin with a function that vanishes at some values of the chart at most: many begin with the same one."""
+    """Those that don't begin with a function that vanishes at some values of the chart at most."""
     is_zero: dict[FunctionPoly, bool] = {}
     found = []
     for statement in statements:
