@@ -172,3 +172,16 @@ def test_no_formula_is_offered_where_its_degree_is_never_natural() -> None:
     assert region.solution() == ()
     assert "solve_at" in region.why_no_solution
     assert answer.solve_at({"m": "9/2", "a": 0, "b": "-7/2"}).case == 1
+
+
+def test_a_solution_doesnt_vanish_where_a_root_in_it_does() -> None:
+    """y'' = (6/x^2 + a) y has solutions exp(sqrt(a) x) (a x^2 - 3 sqrt(a) x + 3)/x^2, and 3/x^2 for a = 0."""
+    answer = kovacic.conditions("6/x^2 + a + b*x^2", var="x")
+    region = answer.region_at({"a": 0, "b": 0})
+    assert region is not None
+    (solution,) = region.solution()
+    x, a = sympy.symbols("x a")
+    for value in (0, 1, 4):
+        y = solution.y.subs(a, value)
+        assert y != 0
+        assert sympy.simplify(sympy.diff(y, x, 2) - (6 / x**2 + value) * y) == 0

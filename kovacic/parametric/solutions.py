@@ -253,8 +253,15 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
 
 def _without_constant(base: Any, x: Any) -> Any:
     """The base of a power times a constant, so that it has no denominator: k x^2 - 1 for x^2 - 1/k."""
-    above, below = sympy.fraction(sympy.together(base))
-    return base if below.has(x) or below.is_number else above
+    radicands = [p.base for p in base.atoms(sympy.Pow) if abs(p.exp) == sympy.S.Half]
+    signs = {radicand * sign: sign for radicand in radicands for sign in (1, -1) if (radicand * sign).is_Symbol}
+    roots = {name: sympy.Dummy(positive=True) for name in signs}
+    # sqrt(a) is a letter, so that it is no factor of everything: that would vanish where a does.
+    in_letters = base.subs({name: signs[name] * root**2 for name, root in roots.items()})
+    above, below = sympy.fraction(sympy.cancel(in_letters))
+    if below.has(x) or below.is_number:
+        return base
+    return above.subs({root: sympy.sqrt(signs[name] * name) for name, root in roots.items()})
 
 
 def _constant(field: Field, below: Field) -> Any:
