@@ -208,7 +208,7 @@ def all_half_integers(problem: Problem) -> Statement:
 
     Then there is an invariant of degree 4 for every accessory parameter: the equation is that of the potential
     sum l_i (l_i + 1) p(z - w_i) in x = p(z), l_i the integers nearest to the differences, of which two solutions have an
-    elliptic product [Darboux, C. R. Acad. Sci. 94 (1882) 1645; Treibich & Verdier 1990].
+    elliptic product [Darboux, C. R. Acad. Sci. 94 (1882); Treibich & Verdier 1990].
     """
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
