@@ -450,3 +450,10 @@ def test_energies_are_written_without_the_imaginary_unit() -> None:
     n = levels.number
     printed = (A + n) ** 2 - sympy.Rational(9, 4) / (A + n) ** 2 - 5
     assert sympy.simplify(levels.energy - printed) == 0
+
+
+def test_the_sign_of_a_quotient_is_that_of_its_denominator() -> None:
+    """The Coulomb potential without a condition on l: l + n + 1 > 0, not 1/(l + n + 1) > 0."""
+    answer = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=(0, "oo"), assume={"Z": "positive"})
+    n, l = sympy.symbols("n l")  # noqa: E741
+    assert [levels.above for levels in answer.levels] == [(n > -l - 1,), (n > l,)]

@@ -97,6 +97,10 @@ def _solved(condition: Any, signs: Signs) -> Any:
     greater = sympy.StrictGreaterThan if strict else sympy.GreaterThan
     less = sympy.StrictLessThan if strict else sympy.LessThan
     rest = _without_signs(condition.gts - condition.lts, signs)
+    number, factor = rest.as_coeff_Mul()
+    base, exponent = factor.as_base_exp()
+    if strict and exponent == -1:  # 1/p > 0 where p > 0
+        rest = sympy.expand(number * base)
     for unknown in (signs.n, *sorted(rest.free_symbols - {signs.n}, key=str)):
         if not rest.is_polynomial(unknown) or sympy.degree(rest, unknown) != 1:
             continue
