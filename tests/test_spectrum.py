@@ -203,12 +203,46 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
     assert not found.levels
 
 
-@parametrize("V", ["1/(a^2 + 1 + cos(x))", "x^4 - x^2", "x^4 + x^3", "x^2 + 1/(x^2 + 5)", "cosh(x)"], ordinary=2)
+@parametrize("V", ["1/(a^2 + 1 + cos(x))", "x^2 + 1/(x^2 + 5)", "x^4 + 2*x"], ordinary=2)
 def test_what_is_not_covered_is_undecided(V: str) -> None:
+    """The last one has a Liouvillian solution for E = 0, which isn't square integrable."""
     found = kovacic.spectrum(V)
-    assert not found.complete
+    assert not found.is_decided
     assert not found.levels
     assert found.reason.startswith("undecided: ")
+
+
+@parametrize(
+    ("V", "domain"),
+    [
+        ("x^4 + a*x^2", ("-oo", "oo")),
+        ("x^4 + x^3", ("-oo", "oo")),
+        ("x^6 + 7*x^2", ("-oo", "oo")),
+        ("cosh(x)", ("-oo", "oo")),
+        ("x", HALF),
+    ],
+    ordinary=3,
+)
+def test_no_wave_function_is_liouvillian(V: str, domain: tuple[object, object]) -> None:
+    """The conditions on E say so; for x^6 + 7 x^2 there are two that aren't real."""
+    found = kovacic.spectrum(V, domain=domain, boundary="friedrichs")
+    assert found.is_decided
+    assert found.closed_forms_complete
+    assert not found.complete
+    assert not found.levels
+    assert not found.algebraic
+    assert "no eigenfunction has a closed form" in found.text()
+
+
+@parametrize("d", range(7), ordinary=2)
+def test_all_levels_of_a_sextic_potential_that_are_liouvillian(d: int) -> None:
+    """x^6 + 2 a x^4 + (a^2 - 2 d - 3) x^2 has d // 2 + 1 of them, with polynomials of degree d; not all unless d is tried."""
+    V = f"x^6 + 2*x^4 - {2 * d + 2}*x^2"
+    found = kovacic.spectrum(V, max_degree=d)
+    assert found.closed_forms_complete
+    assert [state.number for state in found.states()] == list(range(d % 2, d + 1, 2))
+    if d > 0:
+        assert not kovacic.spectrum(V, max_degree=d - 1).is_decided
 
 
 @parametrize(
@@ -364,8 +398,9 @@ def test_a_periodic_potential_on_the_line_has_no_poles(V: str, pole: str, shell:
 def test_levels_of_a_periodic_potential_on_a_half_line_are_open() -> None:
     assert kovacic.spectrum("cos(x)", domain=HALF).needs_boundary_condition
     found = kovacic.spectrum("cos(x)", domain=HALF, boundary="friedrichs")
-    assert not found.is_decided
-    assert "V is periodic" in found.reason
+    assert not found.complete
+    assert found.closed_forms_complete  # Mathieu's equation has no Liouvillian solution
+    assert "V is periodic" in found.ends[1]
 
 
 def test_the_only_name_is_the_variable_where_it_usually_is_one() -> None:

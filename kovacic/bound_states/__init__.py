@@ -6,5 +6,6 @@ In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api`
 2. `frame`: the coordinates z(x) in which the equation may be a standard one;
 3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E,
    `waves` writes the solutions and their norms, `ranges` the conditions;
-4. `answer`: what is returned.
+4. `quasi`: where no formula is known, levels one degree at a time; `liouvillian`: are these all with a closed form?
+5. `answer`: what is returned.
 """

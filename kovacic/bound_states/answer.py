@@ -90,6 +90,9 @@ class Spectrum:
         The levels of a quasi-exactly solvable potential, by the degree d.
     complete : bool
         Is it proven that these are all eigenvalues, for all values that the conditions, the assumptions and `excluded` admit?
+    closed_forms_complete : bool
+        Where `complete` is False: is it proven that no other level has a Liouvillian wave function?  Without any levels in the
+        answer it says that none has.
     reason : str
         The theorem that proves it, or why it is undecided.
     ends : tuple of str
@@ -116,6 +119,7 @@ class Spectrum:
     levels: tuple[Levels, ...] = ()
     algebraic: tuple[Algebraic, ...] = ()
     complete: bool = False
+    closed_forms_complete: bool = False
     reason: str = ""
     notices: tuple[str, ...] = ()
     hint: str = ""
@@ -128,8 +132,9 @@ class Spectrum:
 
     @property
     def is_decided(self) -> bool:
-        """Were all eigenvalues found, or some, or was it found that a boundary condition is missing?"""
-        return self.complete or bool(self.levels or self.algebraic) or self.needs_boundary_condition
+        """Were all eigenvalues found, or some, or those with a closed form, or that a boundary condition is missing?"""
+        is_proven = self.complete or self.closed_forms_complete
+        return is_proven or bool(self.levels or self.algebraic) or self.needs_boundary_condition
 
     def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[State, ...]:
         """The lowest levels at exact values of the parameters, at most `count` of each formula, by their energies.
@@ -228,8 +233,19 @@ class Spectrum:
             lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
         if self.complete and not self.levels:
             lines.append("no eigenvalues")
-        lines.append(f"({'proven to be all eigenvalues; ' if self.complete else ''}{self.reason})")
+        if self.closed_forms_complete and not self.algebraic:
+            lines.append("no eigenfunction has a closed form")
+        lines.append(f"({self._proven}{self.reason})")
         return lines
+
+    @property
+    def _proven(self) -> str:
+        """What is proven of the list as a whole, before the reason."""
+        if self.complete:
+            return "proven to be all eigenvalues; "
+        if not self.closed_forms_complete:
+            return ""
+        return "proven to be all eigenfunctions with a closed form; " if self.algebraic else "proven; "
 
     def __str__(self) -> str:
         return self.text()
@@ -316,6 +332,7 @@ class Spectrum:
                 for one in self.algebraic
             ],
             "complete": self.complete,
+            "closed_forms_complete": self.closed_forms_complete,
             "reason": self.reason,
             "notices": [*self.notices],
             "hint": self.hint,

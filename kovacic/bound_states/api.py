@@ -22,6 +22,7 @@ from kovacic.bound_states.families import (
 )
 from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
 from kovacic.bound_states.letters import assumed_of_letters, between, in_their_meanings, with_named_roots
+from kovacic.bound_states.liouvillian import with_closed_forms
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.quasi import Found, degree_beyond, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
@@ -137,8 +138,8 @@ def spectrum(
     Returns
     -------
     Spectrum
-        Its `levels` have E_n and y_n for all n at once; `complete` says whether it is proven that these are all, and `reason`
-        why, or why it is undecided.
+        Its `levels` have E_n and y_n for all n at once; `complete` says whether it is proven that these are all,
+        `closed_forms_complete` whether no other level has a closed form, and `reason` why, or why it is undecided.
 
     Raises
     ------
@@ -159,6 +160,9 @@ def spectrum(
     True
     >>> print(kovacic.spectrum("x^2", domain=(0, "oo"), boundary="friedrichs").levels[0].energy)
     4*n + 3
+    >>> quartic = kovacic.spectrum("x^4")
+    >>> quartic.complete, quartic.closed_forms_complete, quartic.levels
+    (False, True, ())
 
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
@@ -174,6 +178,7 @@ def spectrum(
             found = _answered(question, most, budget)
         except (Uncovered, LimitExceeded) as reason:
             found = _spectrum(question, [], reason=f"undecided: {reason}")
+        found = with_closed_forms(found, question.parsed, question.known, limits)
     return in_their_meanings(found, meanings) if meanings else found
 
 

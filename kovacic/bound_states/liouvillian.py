@@ -1,0 +1,107 @@
+"""Which levels have a closed form, where no formula is known for all levels.
+
+A wave function with a closed form is a Liouvillian solution of y'' = (V - E) y at a value of E.  So the conditions on E and the
+parameters under which there is one, where they are proven to be complete, say what can't be missing in a list of levels:
+
+- no value admits one: no level has a closed form;
+- there are no parameters, and E is a zero of one of finitely many polynomials: where each one with a real zero was found to
+  give levels, these are all levels with a closed form;
+- each value is of case 1: then omega is rational, and each level with a closed form has a polynomial of some degree d.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.answer import Spectrum
+from kovacic.equation import Parsed
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Limits
+from kovacic.parametric.answer import ParametricAnswer
+from kovacic.parametric.api import conditions_of
+from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.statements import Either, Statement, Vanishes
+
+
+def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limits: Limits) -> Spectrum:
+    """The same spectrum, with what is proven of the levels that have a closed form, where the others aren't known."""
+    if found.complete or found.needs_boundary_condition:
+        return found
+    conditions = _conditions(parsed, known, limits)
+    if conditions is None:
+        return found
+    listed = _polynomials((one.polynomial for one in found.algebraic), found.energy)
+    possible = _possible(found, conditions)
+    if possible is not None and possible <= listed:
+        return replace(found, closed_forms_complete=True, reason=_reason(found, conditions), hint="", shell="")
+    if found.algebraic and all(region.case == 1 for region in conditions.regions):
+        shown = found.reason.partition(";")[0]
+        reason = f"{shown}; each level with a closed form has a polynomial of some degree d: {conditions.theory}"
+        return replace(found, reason=reason)
+    return found
+
+
+def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> ParametricAnswer | None:
+    """For which E and parameters is there a Liouvillian solution?  None where that isn't proven, or holds in general."""
+    with suppress(LimitExceeded):
+        conditions = conditions_of(parsed, known, 0, limits)
+        if conditions.complete is True and conditions.generic.known and conditions.generic.case is None:
+            return conditions
+    return None
+
+
+def _possible(found: Spectrum, conditions: ParametricAnswer) -> set[Any] | None:
+    """The irreducible polynomials of which the energies with a closed form are real zeros; None where they aren't known."""
+    if not conditions.regions:
+        return set()
+    if found.parameters:
+        return None
+    functions: list[Any] = []
+    for region in conditions.regions:
+        zeros = _zeros_of(region.statement)
+        if zeros is None:
+            return None
+        functions += zeros
+    energy = sympy.Symbol(found.energy)
+    if any(function.free_symbols != {energy} for function in functions):
+        return None
+    possible = _polynomials(functions, found.energy)
+    return {polynomial for polynomial in possible if sympy.Poly(polynomial, energy).count_roots()}
+
+
+def _zeros_of(statement: Statement) -> list[Any] | None:
+    """The functions of which one vanishes, if the statement says just that."""
+    if isinstance(statement, Vanishes):
+        return [statement.function.to_sympy(sympy.Dummy("x"))]
+    if not isinstance(statement, Either):
+        return None
+    functions: list[Any] = []
+    for part in statement.parts:
+        zeros = _zeros_of(part)
+        if zeros is None:
+            return None
+        functions += zeros
+    return functions
+
+
+def _polynomials(functions: Iterable[Any], energy: str) -> set[Any]:
+    """The irreducible factors over Q that depend on the energy, each monic."""
+    E = sympy.Symbol(energy)
+    factors: set[Any] = set()
+    for function in functions:
+        for factor, _ in sympy.factor_list(function)[1]:
+            if factor.free_symbols == {E}:
+                factors.add(sympy.Poly(factor, E).monic().as_expr())
+    return factors
+
+
+def _reason(found: Spectrum, conditions: ParametricAnswer) -> str:
+    if not found.algebraic:
+        energies = "any E" if not conditions.regions else "any real E"
+        return f"the equation has no Liouvillian solution for {energies}: {conditions.theory}"
+    return f"a level with k zeros is number k (Sturm); {conditions.theory}"
