@@ -6,6 +6,8 @@ A mathematical "no" is a value, never an exception.  An exhausted budget is a va
 
 from __future__ import annotations
 
+import sys
+import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
@@ -147,3 +149,14 @@ def _packages_of(extra: str) -> list[str]:
         return []
     ending = f"; extra == '{extra}'"
     return [line.removesuffix(ending) for line in declared if line.endswith(ending)]
+
+
+def warn_user(text: str, category: type[Warning] = UserWarning) -> None:
+    """A warning at the line that called the package: a public function may call another one, or be called through a wrapper."""
+    package = __name__.partition(".")[0]
+    frame = sys._getframe()
+    level = 1
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        frame = frame.f_back
+        level += 1
+    warnings.warn(text, category, stacklevel=level)

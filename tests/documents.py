@@ -40,7 +40,8 @@ def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str])
     journey_of.cache_clear()  # a command is a process of its own: an earlier one's precision would change the radius
     main.run(arguments)
     shown = capsys.readouterr()
-    assert shown.out + shown.err == output
+    found = shown.out + shown.err
+    assert found == output, f"{command}\nprints\n{found}"
 
 
 def check_python(page: Path) -> None:

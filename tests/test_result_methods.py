@@ -8,11 +8,14 @@ import shlex
 import subprocess
 import sys
 import tomllib
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import sympy
 from clocks import controlled
+from flint import arb
 
 import kovacic
 
@@ -152,3 +155,17 @@ def test_views_keep_the_limits_of_solve() -> None:
     assert "limits" not in json.loads(hurried.to_json())
     tetrahedral = kovacic.solve("-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))")
     assert replace(tetrahedral, limits=kovacic.Limits(seconds=0)).group is None
+
+
+def test_warnings_name_the_line_of_the_user() -> None:
+    """Not one of this package: through functions, methods and objects that call one another."""
+    x, k, L = sympy.symbols("x k L")
+    y = sympy.Function("y")
+    wide = arb(3, 0.1)
+    with warnings.catch_warnings(record=True, action="always") as found:
+        kovacic.dsolve(y(x).diff(x, 2) + k**2 * y(x), ics={y(0): 0, y(L): 0})
+        kovacic.evaluate("x", wide, x0=0, y0=1, dy0=0)
+        kovacic.solve("x").at(wide, x0=0, y0=1, dy0=0)
+        kovacic.prepared("x", x0=0, y0=1, dy0=0)(wide)
+    assert len(found) >= 4
+    assert {warning.filename for warning in found} == {__file__}

@@ -5,10 +5,9 @@ equations (`derivation`, from the definitions), the closed forms of omega_3 and 
 `picture`, imported by name, for they need NumPy).  Read `body` first.
 """
 
-import warnings
-
 from kovacic.ball.body import BallOnSphere, InRoots, RollingBall, U, X
 from kovacic.ball.theorems import BallSolution, closed_form
+from kovacic.errors import warn_user
 
 __all__ = ["BallOnSphere", "BallSolution", "InRoots", "RollingBall", "U", "X", "closed_form"]
 
@@ -20,5 +19,5 @@ def __getattr__(name: str) -> type:
     if name not in _FORMER_NAMES:
         raise AttributeError(f"module 'kovacic.ball' has no attribute {name!r}")
     found = _FORMER_NAMES[name]
-    warnings.warn(f"kovacic.ball.{name} is called {found.__name__} now", DeprecationWarning, stacklevel=2)
+    warn_user(f"kovacic.ball.{name} is called {found.__name__} now", DeprecationWarning)
     return found

@@ -16,7 +16,6 @@ the Taylor route (without initial values a constant factor is free: it is fixed 
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Required, Unpack
@@ -36,7 +35,7 @@ from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import Path
 from kovacic.enclosure.variable import with_variable
-from kovacic.errors import InputError, LimitExceeded, check_keywords
+from kovacic.errors import InputError, LimitExceeded, check_keywords, warn_user
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 
@@ -286,7 +285,7 @@ def _warn_of(found: Measured | str) -> None:
     else:
         reason = found if isinstance(found, str) else "all samples are beyond the range of doubles"
         text = f"the error of this function couldn't be measured: {reason}"
-    warnings.warn(text, AccuracyWarning, stacklevel=4)
+    warn_user(text, AccuracyWarning)
 
 
 def measure(

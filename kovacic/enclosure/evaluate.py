@@ -13,7 +13,6 @@ Frobenius series (`kovacic.enclosure.frobenius`), unless FLINT's functions have 
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterable, Mapping, Sequence, Set
 from decimal import Decimal
 from fractions import Fraction
@@ -24,7 +23,7 @@ from kovacic.enclosure.precision import AccuracyWarning, Method
 from kovacic.enclosure.problem import change_of
 from kovacic.enclosure.states import Path, question_of
 from kovacic.enclosure.variable import with_variable
-from kovacic.errors import NotRational, check_keywords
+from kovacic.errors import NotRational, check_keywords, warn_user
 from kovacic.limits import Limits, limited
 
 
@@ -253,7 +252,7 @@ class Prepared:
         results = self._question.states(points)
         for result in results:
             if result.note is not None:
-                warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=4)
+                warn_user(f"at x = {result.x}: {result.note}", AccuracyWarning)
         return [(result.y, result.dy) if derivative else result.y for result in results]
 
 

@@ -8,8 +8,7 @@ of `jacobian` on curves of positive genus, and `gauged` the group of the equatio
 'mu_4'
 """
 
-import warnings
-
+from kovacic.errors import warn_user
 from kovacic.galois.decide import group_of
 from kovacic.galois.gauged import EquationGroup, equation_group
 from kovacic.galois.group import Ground, Group, GroupKind
@@ -21,5 +20,5 @@ def __getattr__(name: str) -> type:
     """The names of version 0.2."""
     if name != "Kind":
         raise AttributeError(f"module 'kovacic.galois' has no attribute {name!r}")
-    warnings.warn("kovacic.galois.Kind is called GroupKind now", DeprecationWarning, stacklevel=2)
+    warn_user("kovacic.galois.Kind is called GroupKind now", DeprecationWarning)
     return GroupKind

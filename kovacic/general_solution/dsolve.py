@@ -18,10 +18,9 @@ from collections.abc import Mapping
 from contextlib import suppress
 from functools import partial
 from typing import Any
-from warnings import warn
 
 from kovacic.decision import Status
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
 from kovacic.general_solution.constants import Case, Outcome, can_be, condition_of
@@ -157,7 +156,7 @@ def dsolve(
     _check_method(hint, xi, eta)
     found, notices = _answered(_single(eq, "equation"), _single(func, "function"), ics=ics, var=var, limits=limits)
     for notice in notices:
-        warn(notice, stacklevel=2)
+        warn_user(notice)
     return [found] if isinstance(eq, list | tuple) else found
 
 
