@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
 import pty
 import re
@@ -138,6 +139,15 @@ def test_evaluate_says_its_route(
     assert again == values
     assert said.startswith(f"kovacic: route: {route}")
     assert "kovacic: run 1, 73 bits: " in said
+
+
+def test_a_wrong_command_leaves_no_watch_behind(capsys: pytest.CaptureFixture[str]) -> None:
+    """The routes of the next command in the same process aren't said, on a stream that is closed by then."""
+    assert main.run(["evaluate", "-v", "--x0", "-1", "--y0", "0", "--dy0", "0", "--at", "1"]) == 2
+    capsys.readouterr()
+    assert main.run(["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]) == 0
+    assert capsys.readouterr().err == ""
+    assert not logging.getLogger("kovacic").isEnabledFor(logging.INFO)
 
 
 def test_evaluate_prints_values_with_bounds(capsys: pytest.CaptureFixture[str]) -> None:

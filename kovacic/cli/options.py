@@ -194,9 +194,15 @@ def _watch(context: click.Context, _: click.Parameter, given: int) -> None:
     said = logging.StreamHandler()
     said.setFormatter(logging.Formatter("kovacic: %(message)s"))
     logger = logging.getLogger("kovacic")
+    level = logger.level
+
+    def unwatch() -> None:
+        logger.removeHandler(said)
+        logger.setLevel(level)
+
     logger.addHandler(said)
     logger.setLevel(logging.INFO if given == 1 else logging.DEBUG)
-    context.call_on_close(lambda: logger.removeHandler(said))
+    context.find_root().call_on_close(unwatch)  # a subcommand whose other arguments are wrong has no end of its own
 
 
 VERBOSE = click.option(
