@@ -19,6 +19,8 @@ import sympy
 from sympy import cos, cosh, sin, sinh
 from sympy.simplify.fu import TR8
 
+from kovacic.general_solution.substitution import size
+
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]  # u + i v
 #: The largest degree of a polynomial, and number of terms, that is solved for.
@@ -41,9 +43,29 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         if Q is None:
             return None
         A, B = (sympy.Add(*(pair[part] * x**k for k, pair in Q.items())) for part in (0, 1))
-        wave = sympy.expand_mul(A * cos(frequency * x) - B * sin(frequency * x))
-        total.append(sympy.exp(rate * x) * wave)
+        total.append(sympy.exp(rate * x) * _wave(A, B, frequency * x))
     return sympy.Add(*total)
+
+
+def _wave(A: Expr, B: Expr, angle: Expr) -> Expr:
+    """A cos(angle) - B sin(angle): a term each, or over one denominator where that has parameters and is shorter.
+
+    >>> a, b, t = sympy.symbols("a b t")
+    >>> _wave(a / (a**2 + b**2), -b / (a**2 + b**2), t)
+    (a*cos(t) + b*sin(t))/(a**2 + b**2)
+    """
+    expanded = sympy.expand_mul(A * cos(angle) - B * sin(angle))
+    denominators = [sympy.denom(sympy.together(part)) for part in (A, B)]
+    common = sympy.lcm(*denominators)
+    if not common.free_symbols or not common.is_polynomial():
+        return expanded
+    numerators = [sympy.cancel(part * common) for part in (A, -B)]
+    shared = sympy.gcd(*numerators)
+    if shared == 0:
+        return expanded
+    first, second = (sympy.cancel(part / shared) for part in numerators)
+    joined = sympy.factor(shared / common) * (first * cos(angle) + second * sin(angle))
+    return min(expanded, joined, key=size)
 
 
 @dataclass(frozen=True)
