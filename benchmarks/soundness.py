@@ -7,7 +7,8 @@ ended goes on after its last one.
 Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a
 tolerance of 1e-12, has to agree to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits
 decides); and the sharper midpoint has to lie in the wider ball: the ratio is its distance from the midpoint over the radius.
-One call in twenty is compared with `odefun` in any case.
+One call in twenty is compared with `odefun` in any case.  Starts at regular singular points are compared with Frobenius' series,
+summed by mpmath with 60 digits.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import random
 import time
 import warnings
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -34,6 +36,8 @@ import kovacic
 x = sympy.Symbol("x")
 _SIZE = 1e-7
 _EVERY = 20
+_NEAR, _CIRCLE = 0.01, 0.125
+"""Nearer to a removable singularity a coefficient is the mean of its values on a circle of that radius."""
 
 
 @dataclass(frozen=True)
@@ -55,12 +59,72 @@ class Call:
         return f"y'' + ({self.b})*y' + ({self.c})*y = {self.f}"
 
     def start(self, *, wide: bool) -> dict[str, Any]:
-        y0: Any = self.y0
-        if wide:
-            value = Fraction(self.y0.strip("()"))
-            y0 = flint.arb(value.numerator, 1e-12) / value.denominator
-        given = {"x0": self.x0, "y0": y0, "dy0": self.dy0}
+        given: dict[str, Any] = {"x0": self.x0, "y0": widened(self.y0) if wide else self.y0, "dy0": self.dy0}
         return given | ({"params": self.params} if self.params else {})
+
+
+@dataclass(frozen=True)
+class FromSingular:
+    """t^2 y'' + t p(t) y' + q(t) y = 0 from t = x - x0 = 0 to `place`: c1 y1 + c2 y2 of the Frobenius basis, without logarithms.
+
+    p and q are polynomials, so that the series converge everywhere; low and high are the exponents.
+    """
+
+    p: tuple[Fraction, ...]
+    q: tuple[Fraction, ...]
+    exponents: tuple[Fraction, Fraction]
+    x0: str
+    place: str
+    weights: tuple[str, str]
+    kind = "Frobenius starts"
+
+    @property
+    def equation(self) -> str:
+        t = f"(x - ({self.x0}))"
+        p, q = (" + ".join(f"({value})*{t}^{k}" for k, value in enumerate(part)) for part in (self.p, self.q))
+        return f"{t}^2*y'' + {t}*({p})*y' + ({q})*y = 0"
+
+    def start(self, *, wide: bool) -> dict[str, Any]:
+        c1, c2 = self.weights
+        if c1 == "0":
+            return {"x0": self.x0, "which": "regular"}
+        return {"x0": self.x0, "frobenius": (widened(c1) if wide else c1, c2)}
+
+    def by_series(self) -> tuple[Any, Any]:
+        """y and y' at the end, from the recurrence of the coefficients."""
+        with mpmath.workdps(60):
+            t = mpmath.mpmathify(sympy.N(sympy.sympify(self.place) - sympy.sympify(self.x0), 70))
+            y, dy = mpmath.mpc(0), mpmath.mpc(0)
+            for exponent, weight in zip(self.exponents, self.weights, strict=True):
+                if weight != "0":
+                    part = self._series(exponent, t)
+                    y += as_mpf(Fraction(weight.strip("()"))) * part[0]
+                    dy += as_mpf(Fraction(weight.strip("()"))) * part[1]
+            return y, dy
+
+    def _series(self, exponent: Fraction, t: Any) -> tuple[Any, Any]:
+        r, known, y, dy = as_mpf(exponent), [mpmath.mpf(1)], mpmath.mpf(0), mpmath.mpf(0)
+        p, q = map(as_mpf, self.p), map(as_mpf, self.q)
+        pairs = list(zip(p, q, strict=True))
+        for n in range(2000):
+            if n:
+                former = (known[n - k] * (pk * (r + n - k) + qk) for k, (pk, qk) in enumerate(pairs) if 1 <= k <= n)
+                known.append(-sum(former) / ((r + n) * (r + n - 1) + pairs[0][0] * (r + n) + pairs[0][1]))
+            y += known[n] * t**n
+            dy += (r + n) * known[n] * t**n
+            if n > 20 and max(map(abs, known[-3:])) * abs(t) ** n * (n + 1) < mpmath.mpf(10) ** -60:
+                break
+        return y * t**r, dy * t ** (r - 1)
+
+
+def as_mpf(value: Fraction) -> Any:
+    return mpmath.mpf(value.numerator) / value.denominator
+
+
+def widened(number: str) -> Any:
+    """A ball with it as its midpoint."""
+    value = Fraction(number.strip("()"))
+    return flint.arb(value.numerator, 1e-12) / value.denominator
 
 
 def number(rng: random.Random, least: int = -9, most: int = 9) -> str:
@@ -129,19 +193,61 @@ def functions(rng: random.Random) -> tuple[str, str, str]:
     return rng.choice(first), c, rng.choice(["0", "0", "log(x)", "exp(-x^2)", "sin(x^2)"])
 
 
+def removable(rng: random.Random) -> tuple[str, str, str]:
+    """Coefficients that are entire, or analytic in |x| < 2, though not as they are written: x = 0 is on the way."""
+    parts = [
+        "sin(x)/x",
+        "(exp(x) - 1)/x",
+        "(1 - cos(x))/x^2",
+        "tan(x/2)/x",
+        "log(1 + x/4)/x",
+        "x/(exp(x) - 1)",
+        "x^2/sin(x/2)^2",
+        "(sin(x) - x)/x^3",
+        "x*cot(x/2)",
+    ]
+    first = ["0", "0", "sin(x)/x", "x/tan(x/2)", "1/x - cot(x)"]
+    c = " + ".join(f"{number(rng)}*({part})" for part in rng.sample(parts, rng.randint(1, 2)))
+    return rng.choice(first), c, rng.choice(["0", "0", "sin(x)/x", "(cos(x) - 1)/x"])
+
+
 KINDS = {"rational": rational, "irregular": irregular, "algebraic constants": algebraic, "right-hand sides": forced}
 KINDS |= {"sines and exponentials": waves, "any functions": functions}
+KINDS |= {"removable singularities": removable}
 
 
-def call(rng: random.Random) -> Call:
-    kind = rng.choice(list(KINDS))
+def from_singular(rng: random.Random) -> FromSingular:
+    low = Fraction(rng.randint(-8, 8), rng.choice([1, 2, 3, 4, 5]))
+    high = low + Fraction(rng.randint(1, 12), rng.choice([2, 3, 4, 5]))
+    regular = (high - low).denominator == 1 or rng.random() < 0.3
+    p0 = 1 - low - high
+    p, q = [p0], [low * high]
+    for _ in range(rng.randint(1, 3)):
+        p.append(Fraction(rng.randint(-4, 4), rng.randint(1, 3)))
+        q.append(Fraction(rng.randint(-9, 9), rng.randint(1, 3)))
+    x0 = str(Fraction(rng.randint(-9, 9), rng.randint(1, 4)))
+    place = f"{x0} + {rng.randint(2, 30)}/10"
+    if rng.random() < 0.25:
+        place = f"{place} + {rng.choice(['-', ''])}{rng.randint(1, 9)}/10*I"
+    weights = ("0", "1") if regular else (number(rng, 1), number(rng))
+    return FromSingular(tuple(p), tuple(q), (low, high), x0, place, weights)
+
+
+def call(rng: random.Random) -> Call | FromSingular:
+    kind = rng.choice([*KINDS, FromSingular.kind])
+    if kind == FromSingular.kind:
+        return from_singular(rng)
     b, c, f = KINDS[kind](rng)
     params = {}
     if rng.random() < 0.15:
         c, params = f"{c} + a*x", {"a": rng.choice(["sqrt(2)", "1/3", "pi"])}
     x0, place = (f"{rng.randint(5, 38)}/10" for _ in range(2))
+    if kind == "removable singularities":
+        x0, place = rng.choice(["0", f"-{rng.randint(1, 15)}/10"]), f"{rng.randint(1, 15)}/10"
     if rng.random() < 0.25:
         place = f"{place} + {rng.choice(['-', ''])}{rng.randint(1, 9)}/10*I"
+    elif rng.random() < 0.1 and kind != "removable singularities":
+        x0 = f"{x0} + {rng.choice(['-', ''])}{rng.randint(1, 9)}/10*I"
     return Call(kind, b, c, f, x0, place, number(rng), number(rng), params)
 
 
@@ -152,7 +258,24 @@ def exact(value: str) -> complex:
 def coefficients(asked: Call, module: str) -> list[Any]:
     values = {sympy.Symbol(name): sympy.sympify(value) for name, value in asked.params.items()}
     texts = (part.replace("^", "**") for part in (asked.b, asked.c, asked.f))
-    return [sympy.lambdify(x, sympy.sympify(text).subs(values), module) for text in texts]
+    functions = [sympy.lambdify(x, sympy.sympify(text).subs(values), module) for text in texts]
+    if asked.kind == "removable singularities":
+        return [continued(function, 16 if module == "scipy" else 48) for function in functions]
+    return functions
+
+
+def continued(function: Callable[[Any], Any], points: int) -> Callable[[Any], Any]:
+    """The same, and near 0 the mean over so many points of a circle: r^points times a Taylor coefficient is left out."""
+    circle = [mpmath.mpf(_CIRCLE) * mpmath.expjpi(mpmath.mpf(2 * k + 1) / points) for k in range(points)]
+
+    def value(z: Any) -> Any:
+        if abs(z) > _NEAR:
+            return function(z)
+        if isinstance(z, complex):
+            return sum(function(z + complex(step)) for step in circle) / points
+        return sum(function(z + step) for step in circle) / points
+
+    return value
 
 
 def by_dop853(asked: Call) -> tuple[complex, complex, float] | None:
@@ -195,9 +318,12 @@ def distance(ball: Any, other: Any) -> float:
 def check(seed: int) -> dict[str, Any]:
     rng = random.Random(seed)
     asked, digits, wide = call(rng), rng.choice([5, 8, 15, 30]), rng.random() < 0.1
+    at: Any = asked.place
+    if "I" not in asked.place and rng.random() < 0.1:
+        at = widened(str(sympy.sympify(asked.place)))
     row: dict[str, Any] = {"seed": seed, "kind": asked.kind, "call": f"{asked.equation}, {asked.x0} to {asked.place}"}
     try:
-        balls = kovacic.evaluate(asked.equation, asked.place, derivative=True, digits=digits, **asked.start(wide=wide))
+        balls = kovacic.evaluate(asked.equation, at, derivative=True, digits=digits, **asked.start(wide=wide))
         sharp = kovacic.evaluate(
             asked.equation, asked.place, derivative=True, digits=digits + 25, **asked.start(wide=False)
         )
@@ -205,18 +331,26 @@ def check(seed: int) -> dict[str, Any]:
         return {**row, "refused": f"{type(reason).__name__}: {reason}"}
     ratios = [distance(ball, other) for ball, other in zip(balls, sharp, strict=True)]
     row["ratio"] = max(ratios)
+    if isinstance(asked, FromSingular):
+        row["series"] = difference(sharp, asked.by_series(), 0)
+        return row | {"wrong": row["series"] > 1e-25 or row["ratio"] > 1}
     own = by_dop853(asked)
     far = own is None or any(
         abs(complex(ball) - value) > _SIZE * own[2] + ball.radius for ball, value in zip(balls, own[:2], strict=True)
     )
     if far or seed % _EVERY == 0:
         precise = by_mpmath(asked)
-        size = max(abs(value) for value in precise) + (own[2] if own else 0)
-        with mpmath.workdps(60):
-            row["odefun"] = max(float(abs(s.to_mpmath() - v) / size) for s, v in zip(sharp, precise, strict=True))
+        row["odefun"] = difference(sharp, precise, own[2] if own else 0)
         far = row["odefun"] > 1e-15
     row["wrong"] = bool(far or row["ratio"] > 1)
     return row
+
+
+def difference(balls: Any, others: Any, size: float) -> float:
+    """The greatest, over the greatest of the values and `size`."""
+    whole = max(abs(value) for value in others) + size
+    with mpmath.workdps(60):
+        return max(float(abs(s.to_mpmath() - v) / whole) for s, v in zip(balls, others, strict=True))
 
 
 def main() -> None:
@@ -257,6 +391,8 @@ def report(rows: list[dict[str, Any]], seed: int) -> None:
         f"Worst distance of the sharper value from the midpoint, over the radius: {max(row['ratio'] for row in done):.3g}.",
         f"Compared with `odefun` by 30 digits: {sum('odefun' in row for row in done)}, worst difference over the size "
         f"{max((row['odefun'] for row in done if 'odefun' in row), default=0.0):.2g}.",
+        f"Compared with Frobenius' series by 60 digits: {sum('series' in row for row in done)}, worst difference over the size "
+        f"{max((row['series'] for row in done if 'series' in row), default=0.0):.2g}.",
         "",
         *frame.table(["kind", "calls"], [[kind, str(count)] for kind, count in sorted(kinds.items())]),
     ]
