@@ -7,8 +7,8 @@ ended goes on after its last one.
 Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a
 tolerance of 1e-12, has to agree to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits
 decides); and the sharper midpoint has to lie in the wider ball: the ratio is its distance from the midpoint over the radius.
-One call in twenty is compared with `odefun` in any case.  Starts at regular singular points are compared with Frobenius' series,
-summed by mpmath with 60 digits.
+One call in twenty is compared with `odefun` in any case.  Starts at regular singular points are compared with Frobenius'
+series, summed by mpmath with 60 digits.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Call:
 
 @dataclass(frozen=True)
 class FromSingular:
-    """t^2 y'' + t p(t) y' + q(t) y = 0 from t = x - x0 = 0 to `place`: c1 y1 + c2 y2 of the Frobenius basis, without logarithms.
+    """t^2 y'' + t p(t) y' + q(t) y = 0 from t = x - x0 = 0 to `place`: c1 y1 + c2 y2 of the basis without logarithms.
 
     p and q are polynomials, so that the series converge everywhere; low and high are the exponents.
     """

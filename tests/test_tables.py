@@ -73,6 +73,51 @@ def test_derivatives_are_those_of_evaluate() -> None:
     )
 
 
+BALL = "-3/(16*(x - 1)^2) - 3/(16*(x + 2)^2) + 17/(72*(x - 1)*(x + 2))"  # R/R1 = 1/3
+
+
+@parametrize(
+    ("equation", "interval"),
+    [
+        ("x^2 - 7", (-3, 3)),  # three zeros, 0 among them
+        ("y'' - 2*x*y' + 16*y = 0", (-3, 3)),
+        ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", (0.1, 20)),  # a complex form
+        ("10/(x^2 + 1)^2", (-3, 3)),
+        ("1/x - 3/(16*x^2)", (0, 9)),  # the line s^2 = x
+        ("-3/(16*x^2) - 3/(16*(x-1)^2) + 7/(16*x*(x-1))", (0, 1)),  # the ellipse
+        (BALL, (2, 9)),  # the hyperbola
+        (BALL, (-9, -3)),
+        ("x^2 - 801", (-3, 3)),  # the polynomial is a table
+        ("x^2 + 3", (-1 - 1j, 2 + 1j)),
+    ],
+    ordinary=3,
+)
+@pytest.mark.parametrize("careful", [True, False])
+def test_derivatives_of_product_forms_are_those_of_evaluate(equation: str, interval: Any, careful: bool) -> None:
+    form = kovacic.solve(equation).lambdify(interval=interval, check=False, careful=careful)
+    low, high = form.region.low, form.region.high
+    points = low + (high - low) * np.array([0.07, 0.24, 0.41, 0.5, 0.63, 0.92])
+    points = points if np.iscomplexobj(form.region.points(points.real)) else points.real
+    y, dy = form(points), form.derivative(points)
+    first = int(np.argmin(np.abs(y) + np.abs(dy)))  # from there the other solution doesn't grow faster
+    number = complex if np.iscomplexobj(y) else float
+    place = [number(x) if np.iscomplexobj(points) else float(x) for x in points]
+    start = {"x0": place[first], "y0": number(y[first]), "dy0": number(dy[first])}
+    balls = kovacic.evaluate(equation, place, derivative=True, method="taylor", **start)
+    sizes = np.array([abs(complex(a)) + abs(complex(b)) for a, b in balls])
+    assert (np.abs(dy - np.array([complex(b) for _, b in balls])) < 1e-12 * sizes).all()
+
+
+def test_derivatives_at_zeros_and_of_combinations() -> None:
+    """x (4 x^4 - 20 x^2 + 15), and cos on 10,000 periods."""
+    hermite = kovacic.solve("y'' - 2*x*y' + 10*y = 0").lambdify(interval=(-2, 2))
+    assert hermite.derivative(0.0) / hermite(1.0) == pytest.approx(15 / (4 - 20 + 15), rel=1e-14)
+    cosine = kovacic.solve("-1").lambdify(interval=(0, 62_000), **SINE).derivative
+    points = np.linspace(0, 62_000, 1001)
+    assert np.abs(cosine(points) - np.cos(points)).max() < 1e-14
+    assert cosine.interval == (0, 62_000)
+
+
 @pytest.mark.parametrize("make", ["table", "product"])
 def test_nan_stays_nan(make: str) -> None:
     f: Any = kovacic.tabulate("-1", 0, 3, **SINE)

@@ -10,6 +10,7 @@ is no basis for this: the other solution may become larger, and a table serves.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -19,7 +20,7 @@ from flint import acb
 
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import RationalChart
-from kovacic.doubles.product_form import ProductForm
+from kovacic.doubles.product_form import ProductDerivative, ProductForm
 from kovacic.doubles.region import Measured, Region, facts
 from kovacic.enclosure.closed_form import closed_form_of, decided, omega
 from kovacic.enclosure.points import ExactPoint, as_point, working_precision
@@ -81,11 +82,7 @@ class Combination:
         >>> print(f"{f(1.0):.12f}")
         1.543080634815
         """
-        values = [replace(form, careful=self.careful)(x) for form in self.forms]
-        if len(values) == 1:
-            return 2 * np.real(self.factors[0] * values[0])
-        with np.errstate(all="ignore"):
-            return self.factors[0].real * values[0] + self.factors[1].real * values[1]
+        return self.sum_of(self.forms, x)
 
     def __repr__(self) -> str:
         return f"<Combination on {self.region}>"
@@ -97,6 +94,38 @@ class Combination:
     def interval(self) -> tuple[float, float]:
         """The ends of the interval, doubles."""
         return self.region.interval
+
+    @property
+    def derivative(self) -> CombinationDerivative:
+        """y', for the same arguments; its error isn't measured."""
+        return CombinationDerivative(self)
+
+    def sum_of(self, functions: Sequence[ProductForm | ProductDerivative], x: Any) -> Any:
+        """c1 f1 + c2 f2 at x, of y1 and y2 or of their derivatives."""
+        values = [replace(function, careful=self.careful)(x) for function in functions]
+        if len(values) == 1:
+            return 2 * np.real(self.factors[0] * values[0])
+        with np.errstate(all="ignore"):
+            return self.factors[0].real * values[0] + self.factors[1].real * values[1]
+
+
+@dataclass(frozen=True, eq=False)
+class CombinationDerivative:
+    """y' of a combination."""
+
+    combination: Combination
+
+    def __call__(self, x: Any) -> Any:
+        """y'(x), of the shape of x; raises InputError outside of the interval."""
+        return self.combination.sum_of([form.derivative for form in self.combination.forms], x)
+
+    def __repr__(self) -> str:
+        return f"<CombinationDerivative on {self.combination.region}>"
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The ends of the interval, doubles."""
+        return self.combination.interval
 
 
 def combination(

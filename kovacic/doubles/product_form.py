@@ -26,108 +26,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
-from enum import Enum
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from kovacic.doubles.double_double import (
-    LOG_2,
-    Complex,
-    Pair,
-    absolute,
-    angle,
-    double,
-    horner,
-    log,
-    select,
-    split,
-    square_root,
-)
+from kovacic.doubles.double_double import LOG_2, Complex, Pair, absolute, angle, double, log, split
+from kovacic.doubles.factors import Conic, RationalFunction, RootFactor, sum_of
 from kovacic.doubles.region import Measured, Region, facts, in_blocks
 from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.points import ExactPoint
 
-_MULTIPLIED_OUT = 8
-"""Powers up to here are multiplied out, if they are integers."""
-
 _ROOM = 900.0
 """Bits that a plain product may grow by before its binary exponent is taken out."""
-
-
-class Shape(Enum):
-    """The three parametrisations (1)."""
-
-    LINE = "line"
-    HYPERBOLA = "hyperbola"
-    ELLIPSE = "ellipse"
-
-
-@dataclass(frozen=True)
-class Conic:
-    """s^2 = sigma g: `vertex` is -g(0) or -g'(0)/2, `m` as in (1), `ends` the real zeros of g for deg g = 2, in order.
-
-    The numbers are Pairs here, and real balls in `kovacic.doubles.arrangement`.
-    """
-
-    shape: Shape
-    sigma: int
-    vertex: Any
-    m: Any = None
-    ends: tuple[Any, ...] = ()
-
-    def coordinates(self, x: Any) -> tuple[Any, Any]:
-        """(t, s) at points with sigma g(x) > 0, Pairs or arrays."""
-        X = x - self.vertex
-        if self.shape is Shape.LINE:
-            s = square_root(X if self.sigma > 0 else -X)
-            return s, s
-        if self.shape is Shape.ELLIPSE:
-            left, right = x - self.ends[0], self.ends[1] - x
-            return square_root(right / left), square_root(left * right)
-        # The differences are exact near a branch point, unlike X^2 + m; for X < 0, X + s would cancel, and m/(s - X) doesn't.
-        s = square_root((x - self.ends[0]) * (x - self.ends[1]) if self.ends else X * X + self.m)
-        far = absolute(X) + s
-        return select(double(X) < 0, self.m / far, far), s
-
-
-@dataclass(frozen=True)
-class RootFactor:
-    """((t - zeta)/turn)^power; a natural power up to 8 stands without its turn.
-
-    `paired` stands for the product with the complex conjugate factor, which is positive for real t.
-    """
-
-    zeta: Complex
-    power: Complex
-    turn: Complex
-    paired: bool
-
-    @property
-    def whole(self) -> int | None:
-        """The power, where that is a small integer."""
-        k = self.power.re.hi
-        return round(k) if self.power.im is None and abs(k) <= _MULTIPLIED_OUT and k == round(k) else None
-
-
-@dataclass(frozen=True)
-class RationalFunction:
-    """Polynomial (coefficients high to low) plus the sum of c/(x - a)^k over `polar` = ((a, c, k), ...)."""
-
-    polynomial: tuple[Complex, ...] = ()
-    polar: tuple[tuple[Complex, Complex, int], ...] = ()
-
-    def __call__(self, x: Complex, times: Complex | None = None) -> Complex | None:
-        """The value at x, `times` something; None for the zero function."""
-        terms = [horner(self.polynomial, x)] if self.polynomial else []
-        for a, c, k in self.polar:
-            inverse = (x - a).reciprocal()
-            for _ in range(k):
-                c *= inverse
-            terms.append(c)
-        total = _sum_of(terms)
-        return total if total is None or times is None else total * times
 
 
 @dataclass(frozen=True)
@@ -175,7 +86,7 @@ class ProductForm:
     factors: tuple[RootFactor, ...]
     exponent: RationalFunction
     is_real: bool
-    sheet: RationalFunction = RationalFunction()
+    sheet: RationalFunction = field(default_factory=RationalFunction)
     conic: Conic | None = None
     polynomial: TabulatedFunction | None = None
     careful: bool = True
@@ -191,6 +102,11 @@ class ProductForm:
     def interval(self) -> tuple[float, float]:
         """The ends of the interval, doubles; of a rectangle those of its real parts."""
         return self.region.interval
+
+    @property
+    def derivative(self) -> ProductDerivative:
+        """y', for the same arguments; its error isn't measured."""
+        return ProductDerivative(self, self.careful)
 
     def __call__(self, x: Any) -> Any:
         """y(x).
@@ -286,7 +202,7 @@ class ProductForm:
             product.begin(*self.polynomial.parts(x))
         for f in self.factors:
             product.multiply(f, growth)
-        total = _sum_of([g for g in growth if g is not None])
+        total = sum_of([g for g in growth if g is not None])
         if total is not None and self.is_real:
             total = Complex(total.re)
         if careful:
@@ -312,14 +228,101 @@ class ProductForm:
         return max(sizes, default=0.0)
 
 
+@dataclass(frozen=True)
+class ProductDerivative:
+    """y' of a product form: y times its logarithmic derivative, without what is tabulated, which is differentiated.
+
+    Where y is exactly 0, so are all terms of the product's derivative but that of the vanishing factor.
+
+    Attributes
+    ----------
+    form : ProductForm
+        y.
+    careful : bool
+        Double-doubles; else it is plain double arithmetic.
+    """
+
+    form: ProductForm
+    careful: bool = True
+
+    def __repr__(self) -> str:
+        return f"<ProductDerivative on {self.region}, {'real' if self.form.is_real else 'complex'}>"
+
+    @property
+    def region(self) -> Region:
+        """Where it is defined."""
+        return self.form.region
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The ends of the interval, doubles."""
+        return self.form.interval
+
+    def __call__(self, x: Any) -> Any:
+        """y'(x).
+
+        Parameters
+        ----------
+        x : number or array
+            Within the region.
+
+        Returns
+        -------
+        float, complex or array
+            Of the shape of x.
+
+        Raises
+        ------
+        InputError
+            For an argument outside of the region, or one that isn't numerical.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 2))      # x exp(x^2/2)
+        >>> print(f"{f.derivative(1.0) / f(1.0):.12f}")
+        2.000000000000
+        """
+        return in_blocks(self._values, self.region.points(x))
+
+    def _values(self, x: Any) -> Any:
+        form = replace(self.form, careful=self.careful)
+        t, dt, slope = self._slope(x)
+        total = form._values(x) * slope
+        if form.polynomial is not None:
+            total = total + replace(form, polynomial=form.polynomial.derivative)._values(x)
+        for factor in form.factors:
+            hit = factor.zeros(t)
+            if hit.any():
+                others = tuple(f for f in form.factors if f is not factor)
+                rest = replace(form, factors=others)._values(x[hit]) if factor.whole == 1 else 0.0
+                total[hit] = rest * (dt if np.ndim(dt) == 0 else dt[hit])
+        return total
+
+    def _slope(self, x: Any) -> tuple[Complex, Any, Any]:
+        """t, dt/dx and the logarithmic derivative of the product, arrays."""
+        form = self.form
+        point = form._as_complex(x, self.careful)
+        terms = [form.exponent.derivative(point)]
+        t = point
+        dt = Complex(Pair(1.0))
+        if form.conic is not None:
+            parameter, s = form.conic.coordinates(point.re)
+            first, second = form.conic.slopes(point.re, parameter, s)
+            place = Complex(point.re)
+            terms += [form.sheet.derivative(place, Complex(s)), form.sheet(place, Complex(second))]
+            t, dt = Complex(parameter), Complex(first)
+        terms += [factor.slope(t) * dt for factor in form.factors]
+        total = sum_of([term for term in terms if term is not None]) or Complex(0.0 * x.real)
+        slope = double(total.re)
+        if not form.is_real and total.im is not None:
+            slope = slope + 1j * double(total.im)
+        return t, double(dt.re), slope
+
+
 def _with_low_part(v: Any) -> Any:
     """The same numbers as double-doubles."""
     return v if isinstance(v, Pair) else Pair(v, 0.0 * v)
-
-
-def _sum_of(terms: list[Complex]) -> Complex | None:
-    """None for no terms."""
-    return sum(terms[1:], terms[0]) if terms else None
 
 
 class _Product:
