@@ -7,9 +7,11 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
+from build import parametrize
 from sympy import Rational, airyai, airybi, cos, erf, exp, log, sin
 
 import kovacic
+from kovacic.reading.symbolic import read_expression
 
 x, C1, a = sympy.symbols("x C1 a")
 w = sympy.Function("w")
@@ -92,3 +94,47 @@ def test_others_are_refused(equation: str) -> None:
 def test_one_value_is_expected(ics: str) -> None:
     with pytest.raises(kovacic.InputError, match="has one value"):
         kovacic.dsolve("w' = 1 + w^2", ics=ics)
+
+
+#: p, q, r whose r vanishes at 0, with p or without; and values there.
+VANISHING = [
+    ("1", "0", "x"),
+    ("1", "1", "x"),
+    ("2", "0", "-x^2"),
+    ("x", "0", "x"),
+    ("0", "1", "x"),
+    ("x", "x", "x"),
+    ("x^2", "0", "-x^2"),
+    ("x^3", "0", "-x"),
+    ("0", "2*x", "x"),
+    ("x + x^2", "0", "x + x^2"),
+    ("sin(x)", "0", "sin(x)"),
+]
+
+
+@parametrize("start", ["0", "1", "-2/3"], ordinary=1)
+@parametrize("coefficients_as_text", VANISHING, ordinary=4, ids=str)
+def test_a_value_where_the_square_has_no_coefficient(coefficients_as_text: tuple[str, str, str], start: str) -> None:
+    """The linear equation is singular there, Riccati's isn't: one solution, that of an integration."""
+    p, q, r = (read_expression(text) for text in coefficients_as_text)
+    found = kovacic.dsolve(f"w' = {p} + ({q})*w + ({r})*w^2".replace("**", "^"), ics=f"w(0) = {start}").rhs
+    assert found.free_symbols <= {x}
+    here = sympy.Symbol("w")
+    slope = sympy.lambdify((x, here), p + q * here + r * here**2, "mpmath")
+    with mpmath.workdps(20):
+        first = mpmath.mpf(Rational(start).p) / Rational(start).q
+        integrated = mpmath.odefun(slope, mpmath.mpf(0), first)(mpmath.mpf("0.375"))
+        assert abs(number(found, at=0.375) - integrated) < 1e-12
+
+
+def test_values_at_singular_points() -> None:
+    assert kovacic.dsolve("x*w' = w + w^2", ics="w(0)=0").rhs.has(C1)
+    assert kovacic.dsolve("x*w' = w + w^2", ics="w(0)=-1").rhs == -1
+    with pytest.raises(kovacic.InputError, match="no solution with this value at 0, a singular point"):
+        kovacic.dsolve("x*w' = w + w^2", ics="w(0)=1")
+
+
+def test_the_linear_equation_for_the_reciprocal_where_it_is_the_simpler_one() -> None:
+    assert kovacic.dsolve("w' = 1 - x*w^2").rhs.atoms(sympy.Function) == {
+        *(f(x) for f in (airyai, airybi, sympy.airyaiprime, sympy.airybiprime))
+    }

@@ -1,6 +1,12 @@
 """Riccati equations as a user writes them, w' = p + q w + r w^2, and their general solution with one constant.
 
-By w = -u'/(r u) they are linear, u'' - (q + r'/r) u' + p r u = 0, and w(a) = v says that u'(a) = -r(a) v u(a).
+By w = -u'/(r u) they are linear, u'' - (q + r'/r) u' + p r u = 0, and w(a) = v says that u'(a) = -r(a) v u(a).  Where r(a) = 0
+that equation is singular at a, though Riccati's isn't.  1/w satisfies z' = -r - q z - p z^2, which gives w = p u/u' with
+
+    u'' + (q - p'/p) u' + p r u = 0,        w(a) = v where u(a) : u'(a) = v : p(a),                                   (1)
+
+regular at a where p(a) isn't 0.  Where both vanish, u and -u'/r still have values at a for all solutions u, and
+C1 u1 + C2 u2 is meant for which the second is v times the first.
 """
 
 from __future__ import annotations
@@ -18,8 +24,10 @@ from sympy.core.function import AppliedUndef
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
 from kovacic.errors import InputError, VerificationFailed
+from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, exact
-from kovacic.general_solution.zero import ball, samples
+from kovacic.general_solution.values import value_at
+from kovacic.general_solution.zero import Zero, ball, is_zero, samples, when_zero
 from kovacic.limits import Limits
 from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
@@ -30,6 +38,7 @@ _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
 #: Points at which a solution is put into the equation, and how small a residual is, by the size of its terms.
 _POINTS = (acb(fmpq(23, 71), fmpq(41, 89)), acb(fmpq(-83, 97), fmpq(11, 59)))
 _SMALL = arb(10) ** (-DIGITS // 2)
+_NO_VALUE = "a part of it can't be evaluated"
 
 
 @dataclass(frozen=True)
@@ -51,6 +60,11 @@ class RiccatiEquation:
         u = sympy.Function(f"{self.function.func}_")(self.x)
         slope = sympy.cancel(self.q + self.r.diff(self.x) / self.r)
         return sympy.Eq(u.diff(self.x, 2) - slope * u.diff(self.x) + sympy.cancel(self.p * self.r) * u, 0), u
+
+    @property
+    def reciprocal(self) -> RiccatiEquation:
+        """That of 1/w, where p isn't zero."""
+        return RiccatiEquation(self.function, -self.r, -self.q, -self.p)
 
 
 # ------------------------------------------------------------------------------------------------------------ reading
@@ -92,22 +106,65 @@ def _in_powers(whole: Expr, function: Expr) -> RiccatiEquation | None:
 def solved(
     equation: RiccatiEquation, conditions: Sequence[Condition], linear_solution: Callable[..., tuple[Expr, list[str]]]
 ) -> tuple[Expr, list[str]]:
-    """w(x) = ..., checked, and what is to be said beside; `linear_solution` is `dsolve` for the linear equation."""
-    linear, u = equation.linear
+    """w(x) = ..., checked, and what is to be said beside; `linear_solution` is `dsolve` for the linear equation.
+
+    Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
+    """
     value = _value_of(conditions)
-    ics: dict[Expr, Expr] = {}
-    if value is not None:
-        point, v = value
-        ics = {
-            u.subs(equation.x, point): _ONE,
-            u.diff().subs(equation.x, point): -(equation.r * v).subs(equation.x, point),
-        }
+    is_inverted = _is_inverted(equation, value)
+    solved_for = equation.reciprocal if is_inverted else equation
+    linear, u = solved_for.linear
+    is_regular = value is not None and _is_unit(solved_for.r, equation.x, value[0])
+    ics = _start(equation, u, *value, is_inverted=is_inverted) if value is not None and is_regular else {}
     found, notices = linear_solution(linear, u, ics=ics)
-    rate = _rate_of(found.rhs, linear, equation.x)
-    w = sympy.Add(*(-term / equation.r for term in sympy.Add.make_args(rate)))
-    w = sympy.cancel(w) if w.is_rational_function(equation.x) else w
-    _check(equation, w, value)
-    return sympy.Eq(equation.function, w, evaluate=False), notices
+    solution = found.rhs
+    if value is not None and not is_regular:
+        solution = _through(solution, equation, linear, *value)
+    rate = _rate_of(solution, linear, equation.x)
+    z = sympy.Add(*(_with_sign_before(-term / solved_for.r) for term in sympy.Add.make_args(rate)))
+    w = 1 / z if is_inverted else z
+    if w.is_rational_function(equation.x):
+        w = sympy.cancel(w)
+    unchecked = _check(equation, w, conditions)
+    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
+
+
+def _is_inverted(equation: RiccatiEquation, value: tuple[Expr, Expr] | None) -> bool:
+    """Is it the linear equation for 1/w, (1), that is solved?  Where only that is regular, or has the simpler coefficients."""
+    if value is None:
+        return equation.p != 0 and not equation.p.has(equation.x) and equation.r.has(equation.x)
+    point, _ = value
+    return not _is_unit(equation.r, equation.x, point) and _is_unit(equation.p, equation.x, point)
+
+
+def _is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
+    """Has it a value at the point, and not zero?"""
+    found = coefficient.subs(x, point)
+    return is_finite(found) and when_zero(found) is not Zero.ALWAYS
+
+
+def _start(equation: RiccatiEquation, u: Expr, point: Expr, v: Expr, *, is_inverted: bool) -> dict[Expr, Expr]:
+    """The values of u and u' for w(a) = v."""
+    here = {equation.x: point}
+    start = (_ONE, -(equation.r * v).subs(here))
+    if is_inverted:
+        start = (v, equation.p.subs(here))
+    return {u.subs(here): start[0], u.diff().subs(here): start[1]}
+
+
+def _through(u: Expr, equation: RiccatiEquation, linear: Expr, point: Expr, v: Expr) -> Expr:
+    """The solutions among C1 u1 + C2 u2 for which -u'/(r u) is v at a: one, or all.
+
+    Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
+    """
+    constants = sorted(u.free_symbols - linear.free_symbols, key=str)
+    basis = [u.diff(constant) for constant in constants]
+    x = equation.x
+    misses = [value_at(-y.diff(x) / equation.r, x, point) - v * value_at(y, x, point) for y in basis]
+    if all(is_zero(miss) for miss in misses):
+        return u
+    first, second = misses
+    return second * basis[0] - first * basis[1]
 
 
 def _value_of(conditions: Sequence[Condition]) -> tuple[Expr, Expr] | None:
@@ -146,27 +203,66 @@ def _rate(factor: Expr, x: Expr) -> Expr:
     return sympy.cancel(rate) if rate.is_rational_function(x) else sympy.powsimp(sympy.factor_terms(rate))
 
 
-def _check(equation: RiccatiEquation, w: Expr, value: tuple[Expr, Expr] | None) -> None:
-    """Raises `VerificationFailed` where w is seen not to satisfy the equation or its value."""
-    at_point = [] if value is None else [w.subs(equation.x, value[0]), value[1]]
-    known = [w, equation.p, equation.q, equation.r]
-    symbols = {s for e in (*known, *at_point) for s in e.free_symbols} - {equation.x}
+def _with_sign_before(e: Expr) -> Expr:
+    """-(-a - b)/c as (a + b)/c: the sign of a sum with more negative terms than others stands before the product."""
+    factors = []
+    sign = 1
+    for factor in sympy.Mul.make_args(e):
+        terms = sympy.Add.make_args(factor)
+        negative = sum(term.could_extract_minus_sign() for term in terms)
+        if factor.is_Add and 2 * negative > len(terms):
+            factor = -factor
+            sign = -sign
+        factors.append(factor)
+    return sympy.Mul(sign, *factors)
+
+
+def _check(equation: RiccatiEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
+    """What couldn't be checked, in a sentence each.  Raises `VerificationFailed` where w is seen not to be a solution."""
+    value = _value_of(conditions)
+    known = [w, equation.p, equation.q, equation.r, *(value or ())]
+    symbols = {s for e in known for s in e.free_symbols} - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
-    w_there, p, q, r = (e.xreplace(sample) for e in known)
+    unchecked = []
     with ctx.workdps(2 * DIGITS):
-        is_wrong = any(_is_wrong(w_there, (p, q, r), equation.x, point) for point in _POINTS)
-        if at_point:
-            left, right = (ball(e.xreplace(sample)) for e in at_point)
-            is_wrong = is_wrong or (left is not None and right is not None and bool(abs(left - right) > _SMALL))
-    if is_wrong:
+        found = [_is_wrong(equation, w, sample, point) for point in _POINTS]
+        if all(one is None for one in found):
+            unchecked.append(f"the answer wasn't put into the equation, numerically: {_NO_VALUE}")
+        if value is not None:
+            is_missed = _is_missed(equation, w, sample, *value)
+            found.append(is_missed)
+            if is_missed is None:
+                unchecked.append(f"the answer wasn't put into {conditions[0].text}, numerically: {_NO_VALUE}")
+    if True in found:
         raise VerificationFailed(f"{w} isn't a solution of a Riccati equation; please report {equation}")
+    return unchecked
 
 
-def _is_wrong(w: Expr, coefficients: tuple[Expr, Expr, Expr], x: Expr, point: Any) -> bool:
-    """Is the residual seen not to be zero?  False where the functions can't be evaluated."""
+def _is_missed(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], point: Expr, wanted: Expr) -> bool | None:
+    """Is w(a) seen not to be the wanted value?  None where it can't be evaluated.
+
+    Raises `InputError` where a is a singular point of the equation, so that no solution needs to have the value.
+    """
+    try:
+        reached = value_at(w, equation.x, point)
+    except NotImplementedError:
+        return None
+    left = ball(reached.xreplace(sample))
+    right = ball(wanted.xreplace(sample))
+    if left is None or right is None or not left.is_finite():
+        return None
+    is_missed = bool(abs(left - right) > _SMALL)
+    coefficients = (equation.p, equation.q, equation.r)
+    if is_missed and not all(is_finite(e.subs(equation.x, point)) for e in coefficients):
+        raise InputError(f"there is no solution with this value at {point}, a singular point of the equation")
+    return is_missed
+
+
+def _is_wrong(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
+    """Is the residual seen not to be zero?  None where the functions can't be evaluated."""
     with suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
-        value, slope, _ = jet(w, x, point)
-        p, q, r = (jet(e, x, point)[0] for e in coefficients)
+        value, slope, _ = jet(w.xreplace(sample), equation.x, point)
+        p, q, r = (jet(e.xreplace(sample), equation.x, point)[0] for e in (equation.p, equation.q, equation.r))
         terms = [slope, -p, -q * value, -r * value**2]
         return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
-    return False
+    return None

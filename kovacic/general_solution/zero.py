@@ -34,6 +34,8 @@ _MOST_BITS = 100_000
 _PRECISE = 400
 #: How many values of the parameters are tried.
 _SAMPLES = 6
+#: By how many steps of its recurrence a gamma function is rewritten.
+_FAR = 100
 
 
 class Zero(Enum):
@@ -163,6 +165,7 @@ def is_identically_zero(value: Expr) -> bool:
     """Is it seen to be zero: as a sum of monomials in exponentials, waves and logarithms, or as a number made of roots?"""
     if sum(1 for _ in sympy.preorder_traversal(value)) > _LARGEST:
         return False
+    value = _with_gammas_in_a_strip(value)
     numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
     if sympy.expand(numerator) == 0 or sympy.expand(TR8(sympy.expand(numerator))) == 0:
         return True
@@ -173,6 +176,29 @@ def is_identically_zero(value: Expr) -> bool:
         exponentials = sympy.expand(numerator.rewrite(sympy.exp))
         return bool(sympy.expand(sympy.powsimp(exponentials)) == 0)
     return is_zero_by_size(value)
+
+
+def _with_gammas_in_a_strip(value: Expr) -> Expr:
+    """Gamma functions of rational numbers by those of numbers in (0, 1/2], by the recurrence and by reflection.
+
+    Gamma(q) = (q - 1) Gamma(q - 1), Gamma(q) Gamma(1 - q) = pi/sin(pi q) (DLMF 5.5.1, 5.5.3).
+
+    >>> _with_gammas_in_a_strip(sympy.gamma(sympy.Rational(-2, 3)) + sympy.gamma(sympy.Rational(1, 3)) * 3 / 2)
+    0
+    """
+    known = {f: _in_a_strip(f.args[0]) for f in value.atoms(sympy.gamma) if f.args[0].is_Rational}
+    return value.xreplace({f: found for f, found in known.items() if found is not None})
+
+
+def _in_a_strip(q: Expr) -> Expr | None:
+    """Gamma(q); None for a pole and far away."""
+    steps = int(sympy.floor(q))
+    if q.is_integer or abs(steps) > _FAR:
+        return None
+    inner = q - steps
+    half = sympy.Rational(1, 2)
+    strip = sympy.gamma(inner) if inner <= half else sympy.pi / (sympy.sin(sympy.pi * inner) * sympy.gamma(1 - inner))
+    return strip * sympy.rf(inner, steps)
 
 
 @dataclass(frozen=True)
