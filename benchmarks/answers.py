@@ -156,11 +156,11 @@ def main() -> int:
     parser.add_argument("file", type=Path)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--kind", choices=sorted(KINDS), help="compare these only")
-    parser.add_argument("--every", type=int, default=1, help="compare every n-th")
+    parser.add_argument("--every", type=int, default=1, help="record or compare every n-th")
     options = parser.parse_args()
     if options.mode == "record":
         with options.file.open("w", encoding="utf-8") as file:
-            for record in recorded(list(questions()), options.jobs):
+            for record in recorded(list(questions())[:: options.every], options.jobs):
                 file.write(json.dumps(record) + "\n")
         return 0
     text = options.file.read_text(encoding="utf-8")

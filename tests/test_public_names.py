@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +45,20 @@ def test_former_names_are_there_with_a_warning(module: Any, former: str, now: st
         assert getattr(module, former) is getattr(module, now)
     with pytest.raises(AttributeError):
         module.SomethingElse  # noqa: B018
+
+
+def test_a_class_is_known_by_its_name_alone() -> None:
+    """No two classes of one name.  The kernel and the checker say again what they check, in words of their own."""
+    package = Path(kovacic.__file__).parent
+    homes = defaultdict(list)
+    for path in package.rglob("*.py"):
+        home = path.relative_to(package).parts[0]
+        if home in ("verify", "checker.py"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                homes[node.name].append(path.name)
+    assert not {name: found for name, found in homes.items() if len(found) > 1}
 
 
 if __name__ == "__main__":

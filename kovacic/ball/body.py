@@ -25,7 +25,7 @@ from kovacic.limits import Limits
 from kovacic.reading import symbolic
 from kovacic.reading.read import read_input
 
-Scalar: TypeAlias = "int | Fraction | str | sp.Expr"
+Quantity: TypeAlias = "int | Fraction | str | sp.Expr"
 U, X = sp.symbols("u x")
 x1, x2, A1, A3 = sp.symbols("x1 x2 A1 A3")
 #: Of numbers and potentials as text: SymPy's functions are recursive, and its integers aren't bounded.
@@ -33,7 +33,7 @@ LIMITS = Limits(text_length=500, digits=100, exponent=100, bits=500)
 read_expression = partial(symbolic.read_expression, limits=LIMITS)
 
 
-def exact(value: Scalar, name: str) -> sp.Expr:
+def exact(value: Quantity, name: str) -> sp.Expr:
     """An exact real number, or an expression in symbols, without their assumptions; text is a number ("0.25", "sqrt(2)").
 
     Raises `InputError` for anything else, and `LimitExceeded` for numbers of more than 500 bits.
@@ -125,11 +125,11 @@ class RollingBall:
     kovacic.errors.InputError: there is no such body: A3 <= 2 A1 fails, as 1/2 > 2/5
     """
 
-    m: Scalar
-    R: Scalar
-    a: Scalar
-    A1: Scalar
-    A3: Scalar
+    m: Quantity
+    R: Quantity
+    a: Quantity
+    A1: Quantity
+    A3: Quantity
 
     def __post_init__(self) -> None:
         for name, given in zip(self.__slots__, self.parameters, strict=True):
@@ -153,7 +153,7 @@ class RollingBall:
         """(m, R, a, A1, A3) as SymPy expressions."""
         return self.m, self.R, self.a, self.A1, self.A3
 
-    def on_sphere(self, R1: Scalar) -> BallOnSphere:
+    def on_sphere(self, R1: Quantity) -> BallOnSphere:
         """The ball on a sphere, or inside one.
 
         Parameters

@@ -20,7 +20,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from kovacic.ball.body import BallOnSphere, Scalar, U, exact, read_expression
+from kovacic.ball.body import BallOnSphere, Quantity, U, exact, read_expression
 from kovacic.errors import InputError
 
 Array = NDArray[np.float64]
@@ -59,7 +59,7 @@ class Force:
         return cls(V, value, slope, g)
 
     @classmethod
-    def gravity(cls, sphere: BallOnSphere, g: Scalar) -> Force:
+    def gravity(cls, sphere: BallOnSphere, g: Quantity) -> Force:
         """A force m g at the centre of mass that presses the ball to the fixed surface; a negative g pulls it off.
 
         It points to the centre of the sphere, away from it inside, and downwards on a plane.  The centre of mass is at the

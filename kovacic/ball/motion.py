@@ -20,7 +20,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from kovacic.ball.body import BallOnSphere, Scalar
+from kovacic.ball.body import BallOnSphere, Quantity
 from kovacic.ball.dynamics import (
     Array,
     Dynamics,
@@ -201,7 +201,7 @@ class _Course:
 
 
 def solve_motion(
-    sphere: BallOnSphere, start: State, *, gravity: Scalar | None = None, potential: Potential | None = None
+    sphere: BallOnSphere, start: State, *, gravity: Quantity | None = None, potential: Potential | None = None
 ) -> Motion:
     """The motion from `start` at t = 0 under a force of strength m g (default: g = 1), or with a potential energy V(u).
 
@@ -255,7 +255,7 @@ def _read_state(start: State) -> State:
     return state
 
 
-def _read_force(sphere: BallOnSphere, gravity: Scalar | None, potential: Potential | None) -> Force:
+def _read_force(sphere: BallOnSphere, gravity: Quantity | None, potential: Potential | None) -> Force:
     if gravity is not None and potential is not None:
         raise InputError("either gravity or a potential")
     if potential is not None:

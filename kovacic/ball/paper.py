@@ -155,7 +155,7 @@ def equations_of(place: Rolling) -> dict[str, Math]:
 
 
 @dataclass(frozen=True)
-class Step:
+class DerivationStep:
     """One step of the derivation: its title, the paper's general relations, and the key of the ball's formulas in `PRINTED`."""
 
     title: str
@@ -168,11 +168,11 @@ class Step:
         return [*self.relations, *(named(name, value) for name, value in printed.items())]
 
 
-def _steps() -> tuple[Step, ...]:
+def _steps() -> tuple[DerivationStep, ...]:
     """The paper's steps in the order in which one needs the next; (8) is its surface, so it comes first."""
     in_roots = equations_of(InRoots(R / R1))
     return (
-        Step(
+        DerivationStep(
             "(8) The surface of the ball, r = (x, y, z) from its centre of mass; its fundamental forms, F = M = 0",
             (
                 Math(
@@ -182,7 +182,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "8",
         ),
-        Step(
+        DerivationStep(
             "(1) The frames at the contact point, on the ball and on the sphere; c_ij are the direction cosines of the first",
             (
                 Math(
@@ -209,7 +209,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "1",
         ),
-        Step(
+        DerivationStep(
             "(2) Rolling without slipping",
             (
                 Math(
@@ -223,7 +223,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "2",
         ),
-        Step(
+        DerivationStep(
             "(3) The contact point is at rest, w being the velocity of the centre of mass",
             (
                 Math(
@@ -233,7 +233,7 @@ def _steps() -> tuple[Step, ...]:
                 ),
             ),
         ),
-        Step(
+        DerivationStep(
             "(4) The angular velocity in the axes of the ball",
             (
                 Math(
@@ -243,7 +243,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "4",
         ),
-        Step(
+        DerivationStep(
             "(5) tau, sigma and n",
             (
                 Math(
@@ -259,7 +259,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "5",
         ),
-        Step(
+        DerivationStep(
             "(6) The kinetic energy, K12 = K13 = 0",
             (
                 Math(
@@ -269,12 +269,12 @@ def _steps() -> tuple[Step, ...]:
             ),
             "6",
         ),
-        Step(
+        DerivationStep(
             "(7) The equations of motion",
             (Math("Theta + V(u) = const; Theta_z is dTheta/dz, V_u is dV/du", r"\Theta + V(u) = \mathrm{const}"),),
             "7",
         ),
-        Step(
+        DerivationStep(
             "(9) The last two, linear in n and v'",
             (
                 Math(
@@ -285,7 +285,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "9",
         ),
-        Step(
+        DerivationStep(
             "(10) The same with u in place of t",
             (
                 Math(
@@ -296,7 +296,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "10",
         ),
-        Step(
+        DerivationStep(
             "The same in n and omega_3, with other a1, ..., b2 than in (9)",
             (
                 Math(
@@ -307,7 +307,7 @@ def _steps() -> tuple[Step, ...]:
             ),
             "system",
         ),
-        Step(
+        DerivationStep(
             "(11) Without n",
             (
                 Math(
@@ -317,8 +317,8 @@ def _steps() -> tuple[Step, ...]:
             ),
             "11",
         ),
-        Step("(12) In the roots x1, x2 of D(x), with x = cos u", (in_roots["12"],)),
-        Step(
+        DerivationStep("(12) In the roots x1, x2 of D(x), with x = cos u", (in_roots["12"],)),
+        DerivationStep(
             "(13) The normal form",
             (Math("y = D(x)^(3/4) omega_3", r"y = D(x)^{3/4}\omega_{3}"), in_roots["13"]),
         ),

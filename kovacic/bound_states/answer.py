@@ -19,7 +19,7 @@ from kovacic.writing.formula import caret
 
 
 @dataclass(frozen=True)
-class State:
+class BoundState:
     """One level at given values of the parameters: its energy and its wave function, not normalised, with `zeros` inside."""
 
     number: int
@@ -72,7 +72,7 @@ class Algebraic:
     polynomial: Any
     wave: Any
     conditions: tuple[Any, ...] = ()
-    states: tuple[State, ...] = ()
+    states: tuple[BoundState, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class Spectrum:
         is_proven = self.complete or self.closed_forms_complete
         return is_proven or bool(self.levels or self.algebraic) or self.needs_boundary_condition
 
-    def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[State, ...]:
+    def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[BoundState, ...]:
         """The lowest levels at exact values of the parameters, at most `count` of each formula, by their energies.
 
         Raises `InputError` where a parameter has no value, and for values that the spectrum excludes.
@@ -165,7 +165,7 @@ class Spectrum:
         for relation in self.excluded:
             if _is_true(relation, at):
                 raise InputError("both solutions are square integrable at an end", hint='boundary="friedrichs"')
-        found: dict[Any, State] = {}
+        found: dict[Any, BoundState] = {}
         for levels in self.levels:
             for state in _states_of(levels, at, count):
                 found.setdefault(state.energy, state)
@@ -368,14 +368,14 @@ def _is_admitted(known: Known, value: Any) -> bool:
     return not (known.nonzero and value.is_zero)
 
 
-def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[State]:
+def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[BoundState]:
     """Those of the numbers 0, ..., count - 1 that exist where the parameters have these values."""
     for n in range(count):
         here = {**at, levels.number: sympy.Integer(n)}
         if all(_is_true(condition, here) for condition in levels.conditions):
             energy = sympy.simplify(levels.energy.subs(here))
             zeros = int(levels.zeros.subs(here))
-            yield State(zeros, energy, levels.wave.subs(here).doit(), zeros)
+            yield BoundState(zeros, energy, levels.wave.subs(here).doit(), zeros)
         elif levels.above:
             return
 

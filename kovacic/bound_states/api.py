@@ -8,23 +8,23 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.answer import Algebraic, Levels, Spectrum, State
-from kovacic.bound_states.darboux import Step, steps
+from kovacic.bound_states.answer import Algebraic, BoundState, Levels, Spectrum
+from kovacic.bound_states.darboux import DarbouxStep, steps
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
     Ends,
-    Family,
+    LevelFamily,
     constant_families,
     hermite_families,
     jacobi_families,
     laguerre_families,
     no_families,
 )
-from kovacic.bound_states.frame import Frame, Original, Uncovered, frames, range_of
+from kovacic.bound_states.frame import Original, SingularFrame, Uncovered, frames, range_of
 from kovacic.bound_states.letters import assumed_of_letters, between, in_their_meanings, with_named_roots
 from kovacic.bound_states.liouvillian import with_closed_forms
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
-from kovacic.bound_states.quasi import Found, degree_beyond, found_of_degree, levels_of, zeros_inside
+from kovacic.bound_states.quasi import QuasiSolution, degree_beyond, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, PI, Parsed, parameters_of
@@ -42,7 +42,7 @@ from kovacic.reading.symbolic import names_of, read_expression
 from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
-_CLASSES: tuple[tuple[Callable[[Frame, Ends, Any], Iterator[Family]], str], ...] = (
+_CLASSES: tuple[tuple[Callable[[SingularFrame, Ends, Any], Iterator[LevelFamily]], str], ...] = (
     (constant_families, "a constant potential"),
     (hermite_families, "Hermite's polynomials"),
     (laguerre_families, "Whittaker's equation"),
@@ -56,7 +56,7 @@ _END_SECONDS = 4e-4
 
 
 @dataclass(frozen=True)
-class Question:
+class SpectralProblem:
     """The problem: V - E as it was read, and the domain, in real symbols."""
 
     V: Any
@@ -85,7 +85,7 @@ class Question:
     def constants(self) -> dict[str, Any]:
         return _constants(self.V, self.signs.symbols)
 
-    def with_potential(self, V: Any) -> Question:
+    def with_potential(self, V: Any) -> SpectralProblem:
         """The same for another potential, in real symbols."""
         plain = self.plain(V)
         text = f"({as_text(plain)}) - {self.energy}"
@@ -184,7 +184,7 @@ def spectrum(
 
 def _question(
     V: Any, domain: Sequence[Any], energy: str, var: Any, assume: Any, boundary: str | None, limits: Limits
-) -> Question:
+) -> SpectralProblem:
     if boundary not in (None, FRIEDRICHS):
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=f'boundary="{FRIEDRICHS}", or none')
     if not isinstance(energy, str) or not energy.isidentifier():
@@ -211,7 +211,9 @@ def _question(
     first, last = map(signs.real, ends)
     if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
         raise InputError(f"the domain is empty: {first} isn't below {last}")
-    return Question(expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS, notices)
+    return SpectralProblem(
+        expression, parsed, (first, last), name, energy, known, signs, boundary == FRIEDRICHS, notices
+    )
 
 
 def _variable(expression: Any) -> tuple[str, tuple[str, ...]]:
@@ -259,7 +261,7 @@ def _end(value: Any) -> Any:
     return infinite[text] if text in infinite else read_expression(text, what="an end of the domain")
 
 
-def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
+def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spectrum:
     V, original, t = _in_real_variable(question)
     is_endless = any(end.is_infinite for end in question.domain)
     if original.is_periodic and is_endless:
@@ -294,7 +296,7 @@ def _answered(question: Question, max_degree: int, budget: Budget) -> Spectrum:
     return _spectrum(question, ends, excluded=tuple(excluded), levels=tuple(levels), complete=True, reason=reason)
 
 
-def _without_condition(question: Question, ends: Sequence[End]) -> Spectrum:
+def _without_condition(question: SpectralProblem, ends: Sequence[End]) -> Spectrum:
     """Where a boundary condition is needed, and none was given."""
     if any(end.oscillates for end in ends):
         return _spectrum(question, ends, excluded=(sympy.true,), reason="none is distinguished")
@@ -308,7 +310,7 @@ def _without_condition(question: Question, ends: Sequence[End]) -> Spectrum:
     )
 
 
-def _excluded(question: Question, ends: list[End]) -> list[Any]:
+def _excluded(question: SpectralProblem, ends: list[End]) -> list[Any]:
     """Where both solutions are square integrable at an end and none of them is chosen; true where that is always so."""
     signs = question.signs
     found: dict[Any, None] = {}
@@ -324,7 +326,7 @@ def _excluded(question: Question, ends: list[End]) -> list[Any]:
     return [*found]
 
 
-def _at_a_wall(question: Question, at: Any) -> str:
+def _at_a_wall(question: SpectralProblem, at: Any) -> str:
     where = f"{question.variable} = {caret(str(question.plain(at)))}"
     return (
         f"the levels are the energies for which a solution vanishes at {where}, an ordinary point; a formula is known "
@@ -333,7 +335,7 @@ def _at_a_wall(question: Question, at: Any) -> str:
 
 
 def _transformed(
-    question: Question, ends: list[End], excluded: list[Any], max_degree: int, budget: Budget
+    question: SpectralProblem, ends: list[End], excluded: list[Any], max_degree: int, budget: Budget
 ) -> Spectrum | None:
     """By Darboux' transformation from a potential without apparent singularities; None where there is none."""
     if question.parsed.equation is not None or excluded:
@@ -363,7 +365,7 @@ def _transformed(
         algebraic: list[Algebraic] = []
         if step.is_level:
             wave = plain(step.wave)
-            states = () if question.parameters else (State(0, energy, wave, 0),)
+            states = () if question.parameters else (BoundState(0, energy, wave, 0),)
             E = sympy.Symbol(question.energy)
             algebraic = [Algebraic(0, sympy.Integer(0), E - energy, wave, (), states)]
         shown = caret(as_text(plain(sympy.factor(V))))
@@ -372,7 +374,7 @@ def _transformed(
     return None
 
 
-def _is_removed(step: Step, simpler: Spectrum, question: Question) -> bool:
+def _is_removed(step: DarbouxStep, simpler: Spectrum, question: SpectralProblem) -> bool:
     """May E0 be a level of the simpler potential, which then is none of the other one?"""
     energy = question.plain(step.energy)
     for levels in simpler.levels:
@@ -383,7 +385,7 @@ def _is_removed(step: Step, simpler: Spectrum, question: Question) -> bool:
 
 
 def _one_by_one(
-    question: Question, ends: list[End], excluded: list[Any], max_degree: int, why: str, budget: Budget
+    question: SpectralProblem, ends: list[End], excluded: list[Any], max_degree: int, why: str, budget: Budget
 ) -> Spectrum:
     """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
     parsed, found = question.parsed, list[Algebraic]()
@@ -414,22 +416,22 @@ def _one_by_one(
     return _spectrum(question, ends, excluded=tuple(excluded), algebraic=tuple(found), reason=reason, **hints)
 
 
-def _algebraic(question: Question, found: Found) -> Algebraic:
+def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:
     """With the energies, and which levels they are, where there are no parameters."""
     E, t = sympy.Symbol(question.energy), sympy.Symbol(question.parsed.variable)
-    states: list[State] = []
+    states: list[BoundState] = []
     original = Original.of(question.parsed.equation, question.x, question.signs)
     if not question.parameters and not original.turning_points(question.domain, question.signs):
         low, high = range_of(original, question.domain, question.signs)
         for energy, ball in levels_of(found.polynomial, E):
             number = zeros_inside(found.P, t, E, ball, low, high)
             if number is not None:
-                states.append(State(number, energy, found.wave.subs(E, energy), number))
+                states.append(BoundState(number, energy, found.wave.subs(E, energy), number))
     conditions = tuple(map(question.plain, tidied(found.conditions, question.signs)))
     return Algebraic(found.degree, found.constraint, found.polynomial, found.wave, conditions, tuple(states))
 
 
-def _in_real_variable(question: Question) -> tuple[Any, Original, Any]:
+def _in_real_variable(question: SpectralProblem) -> tuple[Any, Original, Any]:
     """V as a function of a real t, what t is, and t."""
     parsed, signs = question.parsed, question.signs
     original = Original.of(parsed.equation, question.x, signs)
@@ -442,7 +444,7 @@ def _in_real_variable(question: Question) -> tuple[Any, Original, Any]:
     return V, original, t
 
 
-def _on_periodic_line(question: Question, V: Any, original: Original, t: Any) -> Spectrum:
+def _on_periodic_line(question: SpectralProblem, V: Any, original: Original, t: Any) -> Spectrum:
     """The spectrum of a periodic potential without poles on the whole line, or on half of it."""
     ends: list[End] = []
     for at in question.domain:
@@ -461,11 +463,11 @@ def _on_periodic_line(question: Question, V: Any, original: Original, t: Any) ->
     return _spectrum(question, ends, excluded=tuple(excluded), reason=reason)
 
 
-def _is_circular(question: Question) -> bool:
+def _is_circular(question: SpectralProblem) -> bool:
     return Original.of(question.parsed.equation, question.x, question.signs).is_circular
 
 
-def _families(question: Question, budget: Budget) -> tuple[list[Family], str]:
+def _families(question: SpectralProblem, budget: Budget) -> tuple[list[LevelFamily], str]:
     """Those of the first coordinate and standard equation that fit."""
     parsed, reasons = question.parsed, []
     if _is_circular(question):
@@ -484,7 +486,7 @@ def _families(question: Question, budget: Budget) -> tuple[list[Family], str]:
     raise Uncovered("; ".join(dict.fromkeys(reasons)))
 
 
-def _levels(question: Question, family: Family) -> Levels:
+def _levels(question: SpectralProblem, family: LevelFamily) -> Levels:
     radicals = dict(family.radicals)
 
     def written(expression: Any) -> Any:
@@ -541,7 +543,7 @@ def _doubled(condition: Any) -> Any:
     return sympy.StrictLessThan(n, bound) if strict else sympy.LessThan(n, bound)
 
 
-def _spectrum(question: Question, ends: Sequence[End], **found: Any) -> Spectrum:
+def _spectrum(question: SpectralProblem, ends: Sequence[End], **found: Any) -> Spectrum:
     plain = question.plain
     excluded = tuple(map(plain, found.pop("excluded", ())))
     return Spectrum(

@@ -29,7 +29,7 @@ from kovacic.bound_states.signs import Signs
 
 
 @dataclass(frozen=True)
-class Step:
+class DarbouxStep:
     """W, E0, y0, and is y0 square integrable?"""
 
     W: Any
@@ -38,7 +38,7 @@ class Step:
     is_level: bool
 
 
-def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[Step]:
+def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[DarbouxStep]:
     """The transformations that remove all of the apparent poles, for V = alpha x^2 + ... in real symbols."""
     V = sympy.cancel(sympy.together(V))
     parts = _poles(V, x)
@@ -63,7 +63,7 @@ def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[Ste
             wave = sympy.Mul(*powers) * sympy.exp(sympy.integrate(sign * line, x)) / q
             known = _is_level(sign, exponents, regular, domain, signs)
             if known is not None:
-                yield Step(W, energy, wave, known)
+                yield DarbouxStep(W, energy, wave, known)
 
 
 def _poles(V: Any, x: Any) -> tuple[list[Any], list[tuple[Any, Any]]] | None:

@@ -35,12 +35,12 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.energies import Root, Solved, conjugate, solved
-from kovacic.bound_states.frame import Frame, Spot, Uncovered
+from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered
 from kovacic.bound_states.signs import Signs
 
 
 @dataclass(frozen=True)
-class Family:
+class LevelFamily:
     """Levels E_n with solutions y_n, square integrable where the `conditions` hold; up to a factor.
 
     `zeros` is the number of zeros of y_n inside the domain: n, 2 n or 2 n + 1.  `radicals` are symbols for square roots.
@@ -98,7 +98,7 @@ def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
     return [sympy.Gt(square, 0) if positive else sympy.Ge(square, 0) for square in squares]
 
 
-def jacobi_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """Equation (1)."""
     if len(frame.spots) != 3 or any(spot.square is None for spot in frame.spots):
         raise Uncovered("the equation hasn't three singular points, all of them regular")
@@ -156,7 +156,7 @@ def possible(conditions: list[Any], signs: Signs) -> bool:
     return all(signs.is_nonnegative(sympy.expand(a + b)) is not False for a, b in combinations(gaps, 2))
 
 
-def _check_ends(frame: Frame) -> None:
+def _check_ends(frame: SingularFrame) -> None:
     """Both ends are singular points in z, or one and the middle of the domain, where V is regular: even and odd solutions."""
     roles = {role for spot in frame.spots for role in spot.roles}
     needed = {"left", "right"} if frame.fold is None else {"fold", "right"}
@@ -168,15 +168,15 @@ def _check_ends(frame: Frame) -> None:
 
 
 def _jacobi(
-    frame: Frame, roots: list[Root], deltas: list[Any], found: Solved, conditions: list[Any], signs: Signs
-) -> Family:
+    frame: SingularFrame, roots: list[Root], deltas: list[Any], found: Solved, conditions: list[Any], signs: Signs
+) -> LevelFamily:
     from kovacic.bound_states.waves import jacobi_wave
 
     wave, norm = jacobi_wave(frame, roots, deltas, signs)
-    return Family(found.energy, wave, tuple(conditions), _zeros(frame, deltas, signs), norm, _radicals(roots))
+    return LevelFamily(found.energy, wave, tuple(conditions), _zeros(frame, deltas, signs), norm, _radicals(roots))
 
 
-def _zeros(frame: Frame, deltas: list[Any], signs: Signs) -> Any:
+def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs) -> Any:
     """n, or for a half of the domain twice as many and maybe one in the middle."""
     for spot, delta in zip(frame.spots, deltas, strict=True):
         if "fold" in spot.roles:
@@ -184,7 +184,7 @@ def _zeros(frame: Frame, deltas: list[Any], signs: Signs) -> Any:
     return signs.n
 
 
-def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """Equation (2)."""
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
@@ -214,10 +214,10 @@ def laguerre_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
                 zeros = ends.signs.n
                 if "fold" in origin.roles:
                     zeros = 2 * zeros + int(bool(difference.is_positive))
-                yield Family(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
+                yield LevelFamily(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
 
 
-def _decay(frame: Frame, kappa: Any) -> list[Any]:
+def _decay(frame: SingularFrame, kappa: Any) -> list[Any]:
     """When exp(-kappa z) decays at the end where z is infinite."""
     conditions = []
     for spot in frame.spots:
@@ -228,7 +228,7 @@ def _decay(frame: Frame, kappa: Any) -> list[Any]:
     return conditions
 
 
-def _direction(frame: Frame, role: str) -> int:
+def _direction(frame: SingularFrame, role: str) -> int:
     """The sign of z near an end at which it is infinite."""
     if frame.m % 2 == 0 or frame.original.kind in ("exp", "cosh"):
         return 1
@@ -240,7 +240,7 @@ def _direction(frame: Frame, role: str) -> int:
     return 1 if role == "left" else -1  # z = 1/(x - end)
 
 
-def no_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
@@ -255,7 +255,7 @@ def no_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
     yield from ()
 
 
-def constant_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """A constant V: waves between two walls, where y = 0; none where an end is infinite.
 
     Beside an infinite end one solution decays for E < V, which has no zero, and none for E >= V.
@@ -269,10 +269,10 @@ def constant_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
     n, width = ends.signs.n, last - first
     number = sympy.pi * (n + 1) / width
     wave = sympy.sin(number * (frame.x - first))
-    yield Family(sympy.expand(frame.S + E) + number**2, wave, (sympy.Gt(width, 0),), n, width / 2)
+    yield LevelFamily(sympy.expand(frame.S + E) + number**2, wave, (sympy.Gt(width, 0),), n, width / 2)
 
 
-def hermite_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
+def hermite_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """The oscillator on the whole line."""
     z = frame.z
     is_oscillator = frame.S.is_polynomial(z) and sympy.degree(frame.S, z) == 2
@@ -294,4 +294,4 @@ def hermite_families(frame: Frame, ends: Ends, E: Any) -> Iterator[Family]:
             shifted = x + sympy.factor(beta / (2 * alpha))
             wave = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
             norm = 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
-            yield Family(found.energy, wave, tuple(conditions), n, norm, root.radicals)
+            yield LevelFamily(found.energy, wave, tuple(conditions), n, norm, root.radicals)

@@ -142,7 +142,7 @@ class Spot:
 
 
 @dataclass(frozen=True)
-class Frame:
+class SingularFrame:
     """A coordinate z = s^m with the singular points, and the ends of the domain among them.
 
     `fold` is the x about which the domain and the equation are symmetric, where z doesn't tell x from its mirror image, and the
@@ -196,7 +196,7 @@ def frames(
     E: Any,
     signs: Signs,
     budget: Budget,
-) -> Iterator[Frame]:
+) -> Iterator[SingularFrame]:
     """The equation as it was read, and in each coordinate that its symmetries give."""
     original = Original.of(equation, x, signs)
     problem = analyse(S, budget)
@@ -217,7 +217,7 @@ def frames(
 
 def _frame(
     original: Original, base: Any, m: int, problem: Problem, variable: str, domain: tuple[Any, Any], signs: Signs
-) -> Frame:
+) -> SingularFrame:
     t = sympy.Symbol(variable)
     s = sympy.Dummy("s")
     Z = sympy.Dummy("Z")
@@ -229,7 +229,7 @@ def _frame(
     first, last = (_value(base, t, original.at(end, signs)) ** m for end in half)
     at = {"left": first, "right": last} if fold is None else {"right": last, "fold": first}
     S = signs.real(sympy.sympify(problem.S.num.to_sympy(Z) / problem.S.den.to_sympy(Z)))
-    return Frame(
+    return SingularFrame(
         original,
         base,
         m,

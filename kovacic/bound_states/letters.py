@@ -80,7 +80,7 @@ def between(value: Any, name: str) -> str:
 
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
     """The answer with the meanings in the place of the letters."""
-    letters = _Letters(meanings)
+    letters = _LetterMeanings(meanings)
     levels = [letters.in_levels(one) for one in found.levels]
     algebraic = [letters.in_algebraic(one) for one in found.algebraic]
     excluded = [letters.put_in(relation) for relation in found.excluded]
@@ -104,7 +104,7 @@ def _replaced(name: str, meaning: str, text: str) -> str:
 
 
 @dataclass(frozen=True)
-class _Letters:
+class _LetterMeanings:
     """What letters mean, and how it is put in."""
 
     meanings: Mapping[str, Any]

@@ -41,7 +41,7 @@ _HIGHEST = 50
 
 
 @dataclass(frozen=True)
-class Found:
+class QuasiSolution:
     """A solution with a P of degree d: a function of the parameters that vanishes, one of E, the wave function, and P.
 
     It is square integrable where the `conditions` hold.
@@ -57,7 +57,7 @@ class Found:
 
 def found_of_degree(
     S: RatFunc, equation: Equation | None, variable: str, d: int, ends: list[End], demands: Ends, E: str, budget: Budget
-) -> Iterator[Found]:
+) -> Iterator[QuasiSolution]:
     """All of them; raises `Uncovered` where the exponents need too large an extension of the field."""
     problem = analyse(S, budget)
     if any(place.kind is Kind.RAMIFIED for place in problem.places):
@@ -152,7 +152,7 @@ def _found(
     equation: Equation | None,
     E: str,
     demands: tuple[Any, ...],
-) -> Found | None:
+) -> QuasiSolution | None:
     solution = solution_of_degree(choice, d, variable, given)
     system = choice.polynomial(d)
     if system is None or not has_radicals(choice.field):
@@ -181,7 +181,7 @@ def _found(
     t = sympy.Symbol(variable)
     wave = y if equation is None else Given(lambda _: (), equation).translated(y)
     P = system[0].to_sympy(t)
-    return Found(d, constraint, sympy.factor(polynomial), wave, P, demands)
+    return QuasiSolution(d, constraint, sympy.factor(polynomial), wave, P, demands)
 
 
 def _joined(y: Any, field: Field) -> Any:

@@ -12,25 +12,25 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.energies import Root, conjugate, shortest
-from kovacic.bound_states.frame import Frame, Spot
+from kovacic.bound_states.frame import SingularFrame, Spot
 from kovacic.bound_states.signs import Signs
 from kovacic.parametric.solutions import jacobi
 
 
 @dataclass
-class Product:
+class WaveProduct:
     """constant * exp(exponent) * prod base^power."""
 
     constant: Any = sympy.S.One
     exponent: Any = sympy.S.Zero
     powers: dict[Any, Any] = field(default_factory=dict)
 
-    def times(self, other: Product, power: Any) -> Product:
+    def times(self, other: WaveProduct, power: Any) -> WaveProduct:
         """The product with a power of another one."""
         powers = dict(self.powers)
         for base, k in other.powers.items():
             powers[base] = powers.get(base, 0) + k * power
-        return Product(self.constant * other.constant**power, self.exponent + other.exponent * power, powers)
+        return WaveProduct(self.constant * other.constant**power, self.exponent + other.exponent * power, powers)
 
     def shown(self) -> Any:
         """Without the constant."""
@@ -38,24 +38,24 @@ class Product:
         return sympy.Mul(*parts) * sympy.exp(shortest(self.exponent))
 
 
-def factor_at(frame: Frame, c: Any, t: Any) -> Product:
+def factor_at(frame: SingularFrame, c: Any, t: Any) -> WaveProduct:
     """|t - c| on the domain."""
     original, half = frame.original, frame.original.theta / 2
     is_above = _is_above(frame, c)
     kind = original.kind
     if kind == "exp" and c == 0:
-        return Product(exponent=original.theta)
+        return WaveProduct(exponent=original.theta)
     if kind == "exp" and c == -1:
-        return Product(sympy.Integer(2), half, {sympy.cosh(half): 1})
+        return WaveProduct(sympy.Integer(2), half, {sympy.cosh(half): 1})
     if kind == "exp" and c == 1:
-        return Product(sympy.Integer(2), half, {sympy.sinh(half if is_above else -half): 1})
+        return WaveProduct(sympy.Integer(2), half, {sympy.sinh(half if is_above else -half): 1})
     if kind in ("cosh", "cos") and c in (1, -1):
         small, large = (sympy.sinh, sympy.cosh) if kind == "cosh" else (sympy.sin, sympy.cos)
-        return Product(sympy.Integer(2), powers={(small if c == 1 else large)(half): 2})
-    return Product(powers={original.t - c if is_above else c - original.t: 1})
+        return WaveProduct(sympy.Integer(2), powers={(small if c == 1 else large)(half): 2})
+    return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
 
 
-def _is_above(frame: Frame, c: Any) -> bool:
+def _is_above(frame: SingularFrame, c: Any) -> bool:
     """Is t larger than c on the domain?  c isn't inside."""
     low, high = frame.limits_of_t
     if low is not None and sympy.simplify(low - c).is_nonnegative:
@@ -64,9 +64,9 @@ def _is_above(frame: Frame, c: Any) -> bool:
     return not is_below
 
 
-def as_product(frame: Frame, expression: Any, t: Any) -> Product:
+def as_product(frame: SingularFrame, expression: Any, t: Any) -> WaveProduct:
     """|expression|, a rational function of t, up to its sign."""
-    found = Product()
+    found = WaveProduct()
     for factor in sympy.Mul.make_args(sympy.factor(expression)):
         base, k = factor.as_base_exp()
         if not base.has(t):
@@ -90,7 +90,7 @@ def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
     return 1 - 2 * (z - first) * (second - third) / ((z - third) * (second - first))
 
 
-def _ordered(frame: Frame, roots: list[Root]) -> list[int]:
+def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     """Which points are 1, -1 and oo: the last one is that which doesn't depend on E as the two others do."""
     depend = [root.unknown for root in roots]
     if sum(depend) in (1, 2):
@@ -102,7 +102,7 @@ def _ordered(frame: Frame, roots: list[Root]) -> list[int]:
     return [*others, last]
 
 
-def jacobi_wave(frame: Frame, roots: list[Root], deltas: list[Any], signs: Signs) -> tuple[Any, Any]:
+def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> tuple[Any, Any]:
     """The solution, and the integral of its square where it is known."""
     order = _ordered(frame, roots)
     t, z, n = sympy.Symbol(frame.problem_variable), frame.z, signs.n
@@ -120,7 +120,7 @@ def jacobi_wave(frame: Frame, roots: list[Root], deltas: list[Any], signs: Signs
     if w.has(sympy.I):
         return _complex_pair(frame, w, t, (a, b), e1, (first, second), scale, n)
     minus, plus = as_product(frame, 1 - w, t), as_product(frame, 1 + w, t)
-    whole = Product().times(minus, e1).times(plus, e2)
+    whole = WaveProduct().times(minus, e1).times(plus, e2)
     argument = _argument(frame, w, t)
     wave = whole.shown() * jacobi(n, shortest(a), shortest(b), argument)
     if scale.has(z):
@@ -136,7 +136,7 @@ def _is_negative_line(w: Any, z: Any) -> bool:
     return any(sympy.cancel(w + sympy.I * form) == 0 for form in (z, 1 / z))
 
 
-def _argument(frame: Frame, w: Any, t: Any) -> Any:
+def _argument(frame: SingularFrame, w: Any, t: Any) -> Any:
     """w in the user's variable."""
     original, half = frame.original, frame.original.theta / 2
     if original.kind == "exp":
@@ -154,7 +154,7 @@ def _argument(frame: Frame, w: Any, t: Any) -> Any:
 
 
 def _complex_pair(
-    frame: Frame, w: Any, t: Any, deltas: tuple[Any, Any], e1: Any, spots: tuple[Spot, Spot], scale: Any, n: Any
+    frame: SingularFrame, w: Any, t: Any, deltas: tuple[Any, Any], e1: Any, spots: tuple[Spot, Spot], scale: Any, n: Any
 ) -> tuple[Any, Any]:
     """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
     r = sympy.factor(w / sympy.I)
@@ -233,11 +233,11 @@ def _norm(
     return 2 ** (2 * e1 + 4 * e2 + 2 * n) * integral / sympy.sqrt(scale)
 
 
-def laguerre_wave(frame: Frame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> tuple[Any, Any]:
+def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> tuple[Any, Any]:
     """The solution, and the integral of its square where it is known."""
     t, n, z = sympy.Symbol(frame.problem_variable), signs.n, frame.z
     power = (1 + delta) / 2 - origin.mu / 4
-    whole = Product().times(as_product(frame, frame.base, t), frame.m * power)
+    whole = WaveProduct().times(as_product(frame, frame.base, t), frame.m * power)
     in_x = _argument(frame, frame.base, t) ** frame.m
     rate = shortest(2 * kappa)
     wave = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)

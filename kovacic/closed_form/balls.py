@@ -18,7 +18,7 @@ from kovacic.algebra.embedding import root_near
 from kovacic.errors import InputError
 from kovacic.limits import check_time
 
-Value = Any  # an acb or an acb_series
+BallValue = Any  # an acb or an acb_series
 
 _CONSTANTS = {sympy.pi: arb.pi, sympy.E: arb.const_e, sympy.EulerGamma: arb.const_euler}
 #: Flint's methods of the same names; none of these has a branch cut.
@@ -57,12 +57,12 @@ class BallEvaluator:
     With `analytic` a value isn't finite where the expression isn't analytic on the balls, for quadratures.
     """
 
-    def __init__(self, values: Mapping[Any, Value], *, analytic: bool = False) -> None:
+    def __init__(self, values: Mapping[Any, BallValue], *, analytic: bool = False) -> None:
         self.values = values
         self.analytic = analytic
-        self._known: dict[Any, Value] = dict(values)
+        self._known: dict[Any, BallValue] = dict(values)
 
-    def __call__(self, e: Any) -> Value:
+    def __call__(self, e: Any) -> BallValue:
         """Raises `InputError` for functions that aren't known here."""
         found = self._known.get(e)
         if found is None:
@@ -70,7 +70,7 @@ class BallEvaluator:
             found = self._known[e] = self._evaluated(e)
         return found
 
-    def _evaluated(self, e: Any) -> Value:
+    def _evaluated(self, e: Any) -> BallValue:
         if e.is_Rational:
             return acb(arb(fmpq(int(e.p), int(e.q))))
         if e.is_Float:
@@ -96,7 +96,7 @@ class BallEvaluator:
             return self(sympy.atan(1 / e.args[0]))
         return self.other(e)
 
-    def _power(self, base: Any, exponent: Any) -> Value:
+    def _power(self, base: Any, exponent: Any) -> BallValue:
         if exponent.is_Integer:
             return self(base) ** int(exponent)
         if base is sympy.E:
@@ -106,12 +106,12 @@ class BallEvaluator:
             return root if exponent == sympy.S.Half else 1 / root
         return (self(exponent) * self._cut(base, "log")).exp()
 
-    def _cut(self, argument: Any, name: str) -> Value:
+    def _cut(self, argument: Any, name: str) -> BallValue:
         """A root or a logarithm."""
         value = self(argument)
         return getattr(value, name)(analytic=self.analytic) if isinstance(value, acb) else getattr(value, name)()
 
-    def _applied(self, e: Any) -> Value:
+    def _applied(self, e: Any) -> BallValue:
         if self.analytic and e.func in _CUT:
             return self(e.rewrite(sympy.log))
         value, name = self(e.args[0]), _NAMES[e.func]
@@ -123,7 +123,7 @@ class BallEvaluator:
             return (_SLOPES[name](value) * value.derivative()).integral() + getattr(value[0], name)()
         return self.other(e)
 
-    def other(self, e: Any) -> Value:
+    def other(self, e: Any) -> BallValue:
         """What isn't arithmetic and an elementary function."""
         known = ", ".join((_MEROMORPHIC + _INVERSE).split())
         raise InputError(f"{e} isn't known in balls", hint=f"the functions are log, sqrt, {known}")

@@ -24,9 +24,9 @@ from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.isolation import complex_zeros
-from kovacic.closed_form.balls import BallEvaluator, Value
+from kovacic.closed_form.balls import BallEvaluator, BallValue
 
-Number = Any  # flint's acb
+Acb = Any  # flint's acb
 
 #: Functions with the names that flint's series have for them.
 _UNARY = {
@@ -47,7 +47,7 @@ MATHIEU = (sympy.mathieuc, sympy.mathieucprime, sympy.mathieus, sympy.mathieuspr
 ARBITRARY = (*ANTIDERIVATIVES, *MATHIEU)
 
 
-def jet(expression: Any, variable: Any, point: Number) -> tuple[Number, Number, Number]:
+def jet(expression: Any, variable: Any, point: Acb) -> tuple[Acb, Acb, Acb]:
     """(f, f', f'') at the point, in the current precision of flint.
 
     Raises `NotImplementedError` for a function that no closed form of this package contains.
@@ -56,7 +56,7 @@ def jet(expression: Any, variable: Any, point: Number) -> tuple[Number, Number, 
     return series[0], series[1], 2 * series[2]
 
 
-def parameter_value(name: str) -> Number:
+def parameter_value(name: str) -> Acb:
     """The value that a parameter takes in the check: a number that isn't special."""
     return acb(1 + arb(fmpq(sum(ord(c) * 31**k for k, c in enumerate(name)) % 9973, 9967)))
 
@@ -64,7 +64,7 @@ def parameter_value(name: str) -> Number:
 class _Evaluator(BallEvaluator):
     """The values of all that a closed form of this package contains, with the conventions above."""
 
-    def other(self, e: Any) -> Value:
+    def other(self, e: Any) -> BallValue:
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.values, a: root})(e.fun.expr) for root in self._roots(e.poly)))
@@ -78,7 +78,7 @@ class _Evaluator(BallEvaluator):
             return parameter_value(str(e))
         return self._special(e)
 
-    def _special(self, e: Any) -> Value:
+    def _special(self, e: Any) -> BallValue:
         """A special function; a constant that is none of these by SymPy's numbers."""
         if e.func in _UNARY:
             return getattr(_lifted(self(e.args[0])), _UNARY[e.func])()
@@ -100,7 +100,7 @@ class _Evaluator(BallEvaluator):
             return _number(e)
         raise NotImplementedError(f"the function {e.func} can't be evaluated")
 
-    def _of_mathieu(self, e: Any) -> Value:
+    def _of_mathieu(self, e: Any) -> BallValue:
         """c, c', s or s' for an even and an odd solution of w'' = f w, f = 2 q cos(2 z) - a; c s' - c' s is constant."""
         a, q, last = map(self, e.args)
         z = _lifted(last)
@@ -117,7 +117,7 @@ class _Evaluator(BallEvaluator):
         is_slope = isinstance(e, sympy.mathieucprime | sympy.mathieusprime)
         return _taylor(z, values[1:] if is_slope else values[:3])
 
-    def _of_sign(self, e: Any) -> Value:
+    def _of_sign(self, e: Any) -> BallValue:
         """|f| or the sign of f: for a function of the variable, near a point where it isn't zero, and real."""
         value = self(e.args[0])
         middle = value if isinstance(value, acb) else value[0]
@@ -128,7 +128,7 @@ class _Evaluator(BallEvaluator):
         sign = 1 if middle.real > 0 else -1
         return value * sign if isinstance(e, sympy.Abs) else acb(sign)
 
-    def _roots(self, polynomial: Any) -> list[Number]:
+    def _roots(self, polynomial: Any) -> list[Acb]:
         """The complex roots, which are simple."""
         coefficients = polynomial.all_coeffs()[::-1]
         if not all(c.is_Rational for c in coefficients):
@@ -140,18 +140,18 @@ class _Evaluator(BallEvaluator):
         return [root for root, _ in complex_zeros(fmpz_poly([int(c) for c in integers]))]
 
 
-def _lifted(value: Value) -> Value:
+def _lifted(value: BallValue) -> BallValue:
     """As a series."""
     return acb_series([value], prec=3) if isinstance(value, acb) else value
 
 
-def _taylor(z: Value, values: list[Number]) -> Value:
+def _taylor(z: BallValue, values: list[Acb]) -> BallValue:
     """g(z) for a series z, from g and its derivatives at the constant term."""
     step = z - z[0]
     return values[0] + step * (values[1] + step * (values[2] / 2))
 
 
-def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:
+def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Acb]:
     """The roots, those of a real polynomial that are certainly real as real balls."""
     roots = polynomial.roots(tol=tolerance)
     if not all(c.imag == 0 for c in polynomial.coeffs()):
@@ -164,7 +164,7 @@ def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:
     ]
 
 
-def _number(e: Any) -> Number:
+def _number(e: Any) -> Acb:
     """A constant that isn't made of the functions above."""
     try:
         number = e._to_mpmath(ctx.prec)
@@ -177,7 +177,7 @@ def _number(e: Any) -> Number:
 # ------------------------------------------------------------------------------------------ special functions
 
 
-def _bessel(name: str, parameters: Sequence[Number], z: Number) -> list[Number]:
+def _bessel(name: str, parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     """C, C' = +-C_(nu-1) - (nu/z) C, with - for K, and C'' by Bessel's equation, modified for I and K."""
     (nu,) = parameters
     function = getattr(acb, name)
@@ -187,20 +187,20 @@ def _bessel(name: str, parameters: Sequence[Number], z: Number) -> list[Number]:
     return [C, slope, (sign + (nu / z) ** 2) * C - slope / z]
 
 
-def _polylog(parameters: Sequence[Number], z: Number) -> list[Number]:
+def _polylog(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     """Li_s' = Li_(s-1)/z [DLMF 25.12.10]."""
     (s,) = parameters
     value, first, second = (z.polylog(s - k) for k in range(3))
     return [value, first / z, (second - first) / z**2]
 
 
-def _hermite(parameters: Sequence[Number], z: Number) -> list[Number]:
+def _hermite(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     (n,) = parameters
     return [2**k * prod((n - i for i in range(k)), start=acb(1)) * z.hermite_h(n - k) for k in range(3)]
 
 
 #: (parameters, z) -> the function and its first two derivatives.
-_DERIVATIVES: dict[Any, Callable[[Sequence[Number], Number], list[Number]]] = {
+_DERIVATIVES: dict[Any, Callable[[Sequence[Acb], Acb], list[Acb]]] = {
     sympy.besselj: partial(_bessel, "bessel_j"),
     sympy.bessely: partial(_bessel, "bessel_y"),
     sympy.besseli: partial(_bessel, "bessel_i"),
@@ -248,7 +248,7 @@ def rewritten(e: Any) -> Any:
     return None
 
 
-def _hypergeometric(e: Any, value: Callable[[Any], Number], z: Number) -> list[Number]:
+def _hypergeometric(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
     """The values of SymPy's `hyper` and its first two derivatives; 2F0(a, b; z) = (-1/z)^a U(a, a - b + 1, -1/z).
 
     Differences of parameters that are integers are taken from the expression, for balls don't show that they are.

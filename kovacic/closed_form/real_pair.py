@@ -33,7 +33,7 @@ from kovacic.exact import radical as sqrt
 
 
 @dataclass(frozen=True)
-class _Pair:
+class _SurdPair:
     """(A + sqrt(delta) B) * common, times exp(i phi/2) for the quadratic factors in `halves` (sign +1 or -1)."""
 
     A: Poly
@@ -41,7 +41,7 @@ class _Pair:
     powers: tuple[Power, ...]
     halves: tuple[tuple[Poly, int], ...] = ()
 
-    def rotated(self, delta: Poly, re: Poly, im: Poly) -> _Pair:
+    def rotated(self, delta: Poly, re: Poly, im: Poly) -> _SurdPair:
         """Multiplied by re + sqrt(delta) im."""
         return replace(self, A=self.A * re + self.B * im * delta, B=self.A * im + self.B * re)
 
@@ -57,7 +57,7 @@ def is_real_pair(form: Conjugate, atoms: Atoms) -> bool:
 def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     """The real and the imaginary part of y+, each a solution."""
     s = atoms.sqrt(-form.delta)
-    pair = _Pair(form.A, form.B, form.common.powers)
+    pair = _SurdPair(form.A, form.B, form.common.powers)
     phase: list[Expr] = []
     if form.phase.exact:
         phase.append(s * atoms.sum(form.phase.exact))
@@ -96,7 +96,9 @@ def _without_content(expression: Expr) -> Expr:
     return expression.as_independent(*symbols, as_Add=False)[1] if symbols else expression
 
 
-def _half_turns(pair: _Pair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr) -> _Pair | None:
+def _half_turns(
+    pair: _SurdPair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr
+) -> _SurdPair | None:
     """The pair turned by exp(i q phi) of equation (1) if 2q is an integer; the logarithm, if any, joins the phase."""
     p, value = residue.factor, residue.value
     if p.degree != 2 or residue.is_constant or p.field != QQ:

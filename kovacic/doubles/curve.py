@@ -79,7 +79,7 @@ class Envelope:
 
 
 @dataclass(frozen=True)
-class Coefficients:
+class CurveCoefficients:
     """beta = b/(2a) and S at points x."""
 
     x: Floats
@@ -91,7 +91,7 @@ class Coefficients:
         return np.sqrt(np.maximum(-self.S, 0.0))
 
 
-def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> Coefficients:
+def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> CurveCoefficients:
     """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
     rows = []
     for k, point in enumerate(points):
@@ -99,7 +99,7 @@ def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> Coefficient
             check_time()
         rows.append(_at(chart, point))
     beta, S = np.array(rows).T
-    return Coefficients(np.array([float(point.re) for point in points]), beta, S)
+    return CurveCoefficients(np.array([float(point.re) for point in points]), beta, S)
 
 
 def _at(chart: PieceChart, point: ExactPoint) -> tuple[float, float]:
@@ -132,7 +132,7 @@ def arcs(
             too_fine[first : last + 1] = False
     found: list[Arc | Envelope] = []
     for first, last in _stretches(too_fine):
-        part = Coefficients(here.x[first : last + 1], here.beta[first : last + 1], here.S[first : last + 1])
+        part = CurveCoefficients(here.x[first : last + 1], here.beta[first : last + 1], here.S[first : last + 1])
         if too_fine[first]:
             found.append(_envelope(chart, part, width, states))
         else:
@@ -163,7 +163,7 @@ def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def _arc(
-    part: Coefficients, width: Fraction, points: int, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
+    part: CurveCoefficients, width: Fraction, points: int, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
 ) -> Arc:
     """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
     density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
@@ -211,7 +211,7 @@ def _halved(
 
 
 def _envelope(
-    chart: PieceChart, part: Coefficients, width: Fraction, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
+    chart: PieceChart, part: CurveCoefficients, width: Fraction, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
 ) -> Envelope:
     low, high = part.x[0], part.x[-1]
     count = max(8, int(_ENVELOPE * (high - low) / float(width)))

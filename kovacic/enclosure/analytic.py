@@ -19,7 +19,7 @@ from flint import acb, arb, fmpq
 
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.functions import coefficients_of_any
-from kovacic.enclosure.jets import Basis, CoefficientField
+from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision
@@ -44,7 +44,7 @@ _START = 512
 class AnalyticStep:
     """One disc of a way, entered and left at these points."""
 
-    basis: Basis
+    basis: JetBasis
     enter: ExactPoint
     leave: ExactPoint
 
@@ -93,7 +93,7 @@ def walk(functions: CoefficientField, a: ExactPoint, b: ExactPoint, prec: int) -
         enter = a + length.scaled(t)
         t += 2 * half
         leave = b if t == 1 else a + length.scaled(t)
-        yield AnalyticStep(Basis(jets), enter, leave)
+        yield AnalyticStep(JetBasis(jets), enter, leave)
         if t == 1:
             return
     raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")

@@ -26,7 +26,7 @@ from kovacic.errors import InputError
 from kovacic.limits import check_duration
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
-Parts = tuple[list[int], list[int] | None]
+GaussianParts = tuple[list[int], list[int] | None]
 _BITS = 64
 _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
@@ -38,7 +38,7 @@ _PIECE_SECONDS = (
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
-def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Parts, Parts]:
+def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[GaussianParts, GaussianParts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
     q, p = system.along("den", centre, scale), system.along("num", centre, scale)
     re, im = q[0][0], q[1][0]
@@ -60,12 +60,12 @@ def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 
-def _paired(re: list[int], im: list[int], real: bool) -> Parts:
+def _paired(re: list[int], im: list[int], real: bool) -> GaussianParts:
     size = max(len(re), len(im))
     return re + [0] * (size - len(re)), None if real and not im else im + [0] * (size - len(im))
 
 
-def norm(parts: Parts) -> int:
+def norm(parts: GaussianParts) -> int:
     """The sum of the absolute values of the coefficients (of both parts), a bound of the polynomial for |u| <= 1."""
     return sum(abs(v) for part in parts if part is not None for v in part)
 
@@ -93,8 +93,8 @@ class Frame:
 
     centre: ExactPoint
     e: int
-    p: Parts
-    q: Parts
+    p: GaussianParts
+    q: GaussianParts
     bound: DefectBound
     blur: arb | None = None
 
@@ -124,7 +124,7 @@ def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
         return None if bound is None else Frame(centre, e, p, q, bound, blur)
 
 
-def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -> DefectBound | None:
+def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -> DefectBound | None:
     """The bounds, for the sizes of the poles; None where they would be too large."""
     sizes = [arb(a * a + b * b).sqrt().upper() for a, b in zip(p[0], p[1] or [0] * len(p[0]), strict=True)]
     majorant = arb_poly(sizes) * (1 / arb(q_0))

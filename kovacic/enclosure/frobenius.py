@@ -58,7 +58,7 @@ _STRIDE = 16  # terms between two looks at the tail
 _GROWTH = 0.2  # growth of the majorant in bits as a share of the working precision, at most
 # The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers
 _SOUGHT = 400
-Pair = tuple[Any, Any]  # u + v log t
+LogPair = tuple[Any, Any]  # u + v log t
 
 
 @dataclass(frozen=True)
@@ -195,14 +195,14 @@ def limit(point: Singular, start: State) -> State:
     return total
 
 
-def _apply(op: Operator, j: int, nu: Any, a: Pair) -> Pair:
+def _apply(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
     """P_j(nu + eps) a."""
     A, B, C, (u, v) = op.A[j], op.B[j], op.C[j], a
     value = (A * nu + B) * nu + C
     return value * u + (2 * A * nu + B) * v, value * v
 
 
-def _next(op: Operator, nu: Any, terms: list[Pair], resonance: int | None) -> Pair:
+def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: int | None) -> LogPair:
     """a_n by equation (1), n the number of `terms`; at n = |resonance| with v = 0 if that is negative."""
     n = len(terms)
     f0 = f1 = op.A[0] * 0
@@ -219,7 +219,7 @@ def _next(op: Operator, nu: Any, terms: list[Pair], resonance: int | None) -> Pa
 
 def _has_logarithm(op: Operator, lower: Any, N: int) -> bool:
     """Does the solution of the smaller exponent have a logarithm?  In exact numbers."""
-    terms: list[Pair] = [(fmpq(1), fmpq(0))]
+    terms: list[LogPair] = [(fmpq(1), fmpq(0))]
     while len(terms) <= N:
         terms.append(_next(op, lower + len(terms), terms, N))
     return bool(terms[N][1] != 0)
@@ -274,7 +274,7 @@ def _expand(
     rational = isinstance(exponent, fmpq)
     kind = type(op.A[0]) if rational or exponent.imag.is_zero() else acb
     lam = kind(exponent if rational or kind is acb else exponent.real)
-    terms: list[Pair] = [(kind(start[0]), kind(start[1]))]
+    terms: list[LogPair] = [(kind(start[0]), kind(start[1]))]
     cap = 40 * prec + 4000 + 4 * first
     while True:
         for _ in range(_STRIDE if len(terms) > 1 else first):

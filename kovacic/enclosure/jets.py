@@ -184,7 +184,7 @@ def _terms(radius: int, sizes: Sequence[arb], h: arb, bits: int) -> tuple[int, t
     return terms, (b, c, f)
 
 
-class Basis:
+class JetBasis:
     """The solutions with the states (1, 0), (0, 1) in u at the centre, and one of the equation with its right-hand side."""
 
     def __init__(self, jets: Jets) -> None:

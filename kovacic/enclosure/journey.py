@@ -43,7 +43,7 @@ _KEPT = 4  # precisions at which the beginning of a journey is kept for the next
 
 
 @dataclass
-class Choice:
+class ChosenForm:
     """A closed form that was chosen for a journey, and for how many targets at `most` it is known to be the cheaper way.
 
     It has `served` so many, the last ones with so many `bits`.
@@ -109,7 +109,7 @@ class Journey:
         return None if self.problem.S is None else classical_of(self.problem.S, work)
 
     @cached_property
-    def choices(self) -> dict[tuple[Method | None, int], Choice]:
+    def choices(self) -> dict[tuple[Method | None, int], ChosenForm]:
         """What was chosen, by the method that was asked for and the digits."""
         return {}
 

@@ -16,7 +16,7 @@ from flint import acb, acb_poly, arb
 from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.journey import Choice, Journey
+from kovacic.enclosure.journey import ChosenForm, Journey
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.precision import Method, start_bits
 from kovacic.enclosure.problem import NumericProblem
@@ -42,7 +42,7 @@ _SEARCH = 0.6  # what it may take of them: before it the equation was decided
 _BITS = 64
 
 
-def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> Choice | None:
+def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ChosenForm | None:
     """The closed form, where it is asked for or the cheaper way; None for Taylor's method.
 
     What was chosen for the journey before is taken again, as long as it pays for all targets together.
@@ -63,10 +63,10 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     return known
 
 
-def _chosen(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> Choice | None:
+def _chosen(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ChosenForm | None:
     """The choice for the first targets of a journey."""
     if method is not None:
-        return Choice(_asked_for(journey))
+        return ChosenForm(_asked_for(journey))
     problem = journey.problem
     if problem.right is not None or problem.S is None:
         return None
@@ -109,7 +109,7 @@ def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
     return None if known is None else closed_form_of(known)
 
 
-def _functions(journey: Journey, foreseen: Foreseen) -> Choice | None:
+def _functions(journey: Journey, foreseen: Foreseen) -> ChosenForm | None:
     """FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on they always pay."""
     from_zero = isinstance(journey.start.place, Singular)
     if not (from_zero or foreseen.reaches(_WORTH)):
@@ -117,7 +117,7 @@ def _functions(journey: Journey, foreseen: Foreseen) -> Choice | None:
     classical = journey.classical(int(_SEARCH * foreseen.price(_MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
-    return Choice(classical) if from_zero else foreseen.choice(classical)
+    return ChosenForm(classical) if from_zero else foreseen.choice(classical)
 
 
 class Foreseen:
@@ -146,11 +146,11 @@ class Foreseen:
             self._price += each
         return True
 
-    def choice(self, closed: Closed) -> Choice:
+    def choice(self, closed: Closed) -> ChosenForm:
         """A closed form; for how many targets it pays is known as far as it is asked."""
         price = closed.price(self.digits)
         self.reaches(prices.FIRST + self._count * price)
-        return Choice(closed, self._limit(price))
+        return ChosenForm(closed, self._limit(price))
 
     def most(self, price: float) -> float:
         """For how many targets it pays, known for twice as many as there are: so that this is seldom asked."""

@@ -21,7 +21,7 @@ from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError
 from kovacic.limits import check_time
 
-Coefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]  # a, b, c of a y'' + b y' + c y = 0
+OperatorCoefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]  # a, b, c of a y'' + b y' + c y = 0
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Singular:
     irreducible over Q, of which the point is a zero; `near` tells it from the others, and is it where `exact`.
     """
 
-    equation: Coefficients
+    equation: OperatorCoefficients
     minimal: fmpq_poly
     near: ExactPoint
     exact: bool = True
@@ -184,7 +184,7 @@ class Singular:
             prec *= 2
 
 
-def _inverted(a: fmpq_poly, b: fmpq_poly, c: fmpq_poly) -> Coefficients:
+def _inverted(a: fmpq_poly, b: fmpq_poly, c: fmpq_poly) -> OperatorCoefficients:
     """The equation in t = 1/x: t^4 a y.. + (2 t^3 a - t^2 b) y. + c y = 0, cleared of denominators."""
     size = max(a.degree(), b.degree(), c.degree())
 

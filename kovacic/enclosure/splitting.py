@@ -44,7 +44,7 @@ from typing import Any
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 
-from kovacic.enclosure.frame import Frame, Parts, log2, make_frame, norm, shift
+from kovacic.enclosure.frame import Frame, GaussianParts, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.system import System
@@ -127,8 +127,8 @@ class PolynomialMatrix:
 class Recurrence:
     """Q y_vv = P y over Z[i], with Q_0 > 0."""
 
-    P: Parts
-    Q: Parts
+    P: GaussianParts
+    Q: GaussianParts
 
     @property
     def order(self) -> int:

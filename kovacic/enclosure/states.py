@@ -12,7 +12,7 @@ from flint import arb
 
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
-from kovacic.enclosure.journey import Choice, Journey
+from kovacic.enclosure.journey import ChosenForm, Journey
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
 from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -29,7 +29,7 @@ _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from
 
 
 @dataclass(frozen=True)
-class Question:
+class AskedSolution:
     """One solution, of which values are asked for: the journey keeps what was computed for them."""
 
     journey: Journey
@@ -57,7 +57,7 @@ class Question:
                     _LOG.info("it doesn't prove its values on this path: Taylor's method")
             return raise_precision(self.journey, targets, None, self.digits, self.limits)
 
-    def _by_closed_form(self, choice: Choice, targets: Sequence[Number]) -> tuple[PointValue, ...]:
+    def _by_closed_form(self, choice: ChosenForm, targets: Sequence[Number]) -> tuple[PointValue, ...]:
         """The precision that was enough for the last targets is tried first: polynomials cancel again as much as they did."""
         found = raise_precision(self.journey, targets, choice.closed, self.digits, self.limits, begin=choice.bits)
         if found and all(value.reached for value in found):
@@ -78,7 +78,7 @@ def question_of(
     method: Method | None = None,
     path: Path = None,
     limits: Limits | None = None,
-) -> Question:
+) -> AskedSolution:
     """The solution that the keywords of `evaluate` describe."""
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
@@ -86,7 +86,7 @@ def question_of(
     problem = as_problem(equation, params, forced=True, constants=True)
     start = [comparable(value) for value in (x0, y0, dy0)]
     given = problem, *start, comparables(frobenius, "frobenius"), which, comparables(path, "path")
-    return Question(looked_up(journey_of, *given), digits, method, limits)
+    return AskedSolution(looked_up(journey_of, *given), digits, method, limits)
 
 
 def check_method(method: object) -> None:

@@ -34,7 +34,7 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
-from kovacic.enclosure.frame import REACH, Frame, Parts, log2, norm
+from kovacic.enclosure.frame import REACH, Frame, GaussianParts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State, fundamental
 from kovacic.enclosure.points import ExactPoint, floor, working_precision
 from kovacic.enclosure.way import Local
@@ -80,7 +80,7 @@ def expand(frame: Frame, prec: int) -> TaylorSeries:
     return TaylorSeries(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
 
 
-def _cut(parts: Parts, excess: int) -> Parts:
+def _cut(parts: GaussianParts, excess: int) -> GaussianParts:
     """The coefficients without their lowest `excess` bits, which are beyond the fixed point anyway."""
     if excess == 0:
         return parts
@@ -94,7 +94,9 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     return [fmpz(v) for v in values]
 
 
-def _recurrence(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], list[Any] | None]:
+def _recurrence(
+    p: GaussianParts, q: GaussianParts, w: int, start: int, small: int
+) -> tuple[list[Any], list[Any] | None]:
     """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`."""
     real, dp, dq = p[1] is None and q[1] is None, len(p[0]), len(q[0]) - 1
     pr, pi = (_numbers((part or [0] * dp)[::-1], w) for part in p)
@@ -131,7 +133,9 @@ def _recurrence(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[lis
     return ar[pad:], None if real else ai[pad:]
 
 
-def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any] | None, small: int) -> int:
+def _proven_defect(
+    p: GaussianParts, q: GaussianParts, excess: int, re: list[Any], im: list[Any] | None, small: int
+) -> int:
     """A bound of sum |r_n| 2^w for the column, r = q Y'' - p Y with the untrimmed coefficients.
 
     With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2) D_n, and

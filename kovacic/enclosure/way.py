@@ -66,7 +66,7 @@ def _square(radius: arb) -> acb:
     return acb(arb(0, radius), arb(0, radius))
 
 
-class Step(Protocol):
+class WayStep(Protocol):
     """A disc of a way."""
 
     @property
@@ -112,7 +112,7 @@ class Way:
     """
 
     here: ExactPoint
-    walk: Callable[[ExactPoint, ExactPoint], Iterator[Step]]
+    walk: Callable[[ExactPoint, ExactPoint], Iterator[WayStep]]
     start: State
     product: MatrixProduct
     particular: State = (acb(0), acb(0))

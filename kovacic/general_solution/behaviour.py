@@ -17,7 +17,7 @@ import sympy
 from sympy import Rational, exp, factorial, gamma, log, pi, polygamma, rf, sqrt
 
 from kovacic.closed_form.jets import rewritten
-from kovacic.general_solution.expansion import CONSTANT, Expansion, Monomial, UnknownBehaviour
+from kovacic.general_solution.expansion import CONSTANT, Expansion, ExpansionTerm, UnknownBehaviour
 
 Expr = Any  # SymPy publishes no types
 _ONE, _ZERO = sympy.Integer(1), sympy.Integer(0)
@@ -82,7 +82,7 @@ class _Expander:
 
     def __init__(self, t: Expr, depth: int) -> None:
         self.depth = depth
-        self.known: dict[Expr, Expansion] = {t: Expansion({Monomial(e=_ONE): _ONE})}
+        self.known: dict[Expr, Expansion] = {t: Expansion({ExpansionTerm(e=_ONE): _ONE})}
         self.variables = {t}  # t, and what stands for functions of t
 
     def __call__(self, e: Expr) -> Expansion:
@@ -161,7 +161,7 @@ class _Expander:
         self.known[z] = inner
         self.variables.add(z)
         total = self(main)
-        rest: list[Monomial] = []
+        rest: list[ExpansionTerm] = []
         for error in errors:
             beside = self(error)
             rest += [*beside.terms, *beside.errors]

@@ -50,7 +50,7 @@ class Outcome(Enum):
 
 
 @dataclass(frozen=True)
-class Case:
+class ParameterCase:
     """What the conditions determine where all of `zeros` are zero; without any, for generic values of the parameters.
 
     `values` are those of C1 and C2, in terms of the ones that stay free, where there are solutions; and there are only if
@@ -63,7 +63,9 @@ class Case:
     needed: tuple[Expr, ...] = ()
 
 
-def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None) -> tuple[Case, list[Case]]:
+def determine(
+    rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None
+) -> tuple[ParameterCase, list[ParameterCase]]:
     """The generic case and the particular ones.  `wronskian`: that at the point where both y and y' are given, in this order.
 
     Raises `NotImplementedError` where it can't be told whether a constant is zero.
@@ -84,7 +86,7 @@ def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | N
 
 Values = tuple[Expr, Expr]
 #: Values of the constants, what must be zero for them to be a solution, and what must not be.
-Found = tuple[Values, list[Expr], Expr]
+DeterminedConstants = tuple[Values, list[Expr], Expr]
 
 
 def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> tuple[Expr, tuple[Row, Row], Zero]:
@@ -110,7 +112,7 @@ def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> tuple[Expr, tupl
     return best
 
 
-def _of_rank_two(rows: Sequence[Row], pair: tuple[Row, Row], minor: Expr) -> Found:
+def _of_rank_two(rows: Sequence[Row], pair: tuple[Row, Row], minor: Expr) -> DeterminedConstants:
     """Cramer's rule for two of the rows; the others must be satisfied."""
     first, second = pair
     c1 = tidy((first.r * second.v - first.v * second.r) / minor)
@@ -119,7 +121,7 @@ def _of_rank_two(rows: Sequence[Row], pair: tuple[Row, Row], minor: Expr) -> Fou
     return (c1, c2), [row.rest(c1, c2) for row in others], _ONE
 
 
-def _of_rank_one(rows: Sequence[Row], names: Values) -> Found:
+def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
     """One equation for both constants; all rows must be multiples of it."""
     pivot = _pivot(rows)
     if pivot is None:
@@ -157,27 +159,27 @@ def _pivot(rows: Sequence[Row]) -> tuple[Row, bool] | None:
     return None if best is None else (best[3], best[4])
 
 
-def _split(values: Values, needed: list[Expr], pivot: Expr) -> tuple[Case, list[Case]]:
+def _split(values: Values, needed: list[Expr], pivot: Expr) -> tuple[ParameterCase, list[ParameterCase]]:
     """The generic case, and those of the parameters for which more is possible or less."""
-    open_cases = [Case((pivot,), Outcome.OPEN)] if when_zero(pivot) is Zero.SOMETIMES else []
+    open_cases = [ParameterCase((pivot,), Outcome.OPEN)] if when_zero(pivot) is Zero.SOMETIMES else []
     whens = [(value, when_zero(value)) for value in needed]
     if any(when is Zero.NEVER for _, when in whens):
-        return Case((), Outcome.NONE), open_cases
+        return ParameterCase((), Outcome.NONE), open_cases
     sometimes = tuple(value for value, when in whens if when is Zero.SOMETIMES)
     if sometimes:  # generic parameters don't meet what only particular ones do
-        return Case((), Outcome.NONE), [Case(sometimes, Outcome.SOLUTIONS, values), *open_cases]
-    return Case((), Outcome.SOLUTIONS, values), open_cases
+        return ParameterCase((), Outcome.NONE), [ParameterCase(sometimes, Outcome.SOLUTIONS, values), *open_cases]
+    return ParameterCase((), Outcome.SOLUTIONS, values), open_cases
 
 
-def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Case:
+def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> ParameterCase:
     """The case of rank one, as far as it follows from the minor's being zero."""
     values, needed, pivot = _of_rank_one(rows, names)
     if len(rows) > 2 or when_zero(pivot) is Zero.SOMETIMES:
-        return Case((minor,), Outcome.OPEN)
+        return ParameterCase((minor,), Outcome.OPEN)
     generic, particular = _split(values, needed, pivot)
     if particular:
-        return Case((minor,), Outcome.SOLUTIONS, values, particular[0].zeros)
-    return Case((minor,), generic.outcome, values)
+        return ParameterCase((minor,), Outcome.SOLUTIONS, values, particular[0].zeros)
+    return ParameterCase((minor,), generic.outcome, values)
 
 
 def condition_of(zero: Expr) -> str:
@@ -186,7 +188,7 @@ def condition_of(zero: Expr) -> str:
     return f"{-left if left.could_extract_minus_sign() else left} = 0"
 
 
-def can_be(case: Case) -> bool:
+def can_be(case: ParameterCase) -> bool:
     """Are there factors that may be zero in all that is zero in a case?"""
     return all(vanishing_factors(zero) != 1 for zero in case.zeros)
 

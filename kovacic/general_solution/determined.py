@@ -19,8 +19,8 @@ import sympy
 from kovacic.errors import InputError
 from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.constants import Case, Outcome, Row, determine
-from kovacic.general_solution.expansion import CONSTANT, Expansion, Monomial, UnknownBehaviour
+from kovacic.general_solution.constants import Outcome, ParameterCase, Row, determine
+from kovacic.general_solution.expansion import CONSTANT, Expansion, ExpansionTerm, UnknownBehaviour
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.variation import Basis
@@ -41,7 +41,7 @@ class Limit:
 
 def constants_of(
     question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], limits: dict[Expr, Approach]
-) -> tuple[Case, list[Case]]:
+) -> tuple[ParameterCase, list[ParameterCase]]:
     """What the conditions determine: for generic parameters, and for particular ones.
 
     Raises `NotImplementedError` where too little is known about the solutions.
@@ -151,18 +151,18 @@ def _growth(wronskian: Expr, x: Expr, place: Approach) -> Growth | None:
         return None
 
 
-def _coefficients(m: Monomial, found: Sequence[Expansion], value: Expr) -> Row:
+def _coefficients(m: ExpansionTerm, found: Sequence[Expansion], value: Expr) -> Row:
     u, v, w = (expansion.terms.get(m, _ZERO) for expansion in found)
     return Row(u, v, sympy.expand(value - w))
 
 
-def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Monomial]:
+def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[ExpansionTerm]:
     """The monomials that mustn't occur; of those with one growing exponential, the largest ones.
 
     The coefficients of the smaller ones follow: the series after one exponential is determined up to a factor.
     """
     least = 0 if oscillating else 1
-    seen: set[Monomial] = set()
+    seen: set[ExpansionTerm] = set()
     for expansion in found:
         large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least) is True]
         for m in large:
@@ -172,7 +172,7 @@ def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Mon
                 yield m
 
 
-def _is_large(m: Monomial, least: int) -> bool | None:
+def _is_large(m: ExpansionTerm, least: int) -> bool | None:
     """Is it unbounded (1), or not small (0)?  None where the assumptions don't tell."""
     try:
         return m.size >= least
@@ -180,7 +180,7 @@ def _is_large(m: Monomial, least: int) -> bool | None:
         return None
 
 
-def _is_before(first: Monomial, second: Monomial) -> bool:
+def _is_before(first: ExpansionTerm, second: ExpansionTerm) -> bool:
     return first != second and first.growth == second.growth and second.is_below(first)
 
 
@@ -193,7 +193,7 @@ def _uncertainty(expansion: Expansion, whole: Growth | None, condition: Conditio
     known = {m.growth for m in expansion.terms}
     least = 1 if condition.value is None else 0
     for error in expansion.errors:
-        series = Monomial(error.growth)
+        series = ExpansionTerm(error.growth)
         are_two = whole is not None and series.power(sympy.Integer(2)).growth != whole
         is_known = are_two and error.growth in known and _is_large(series, 1)
         if not is_known and _is_large(error, least) is not False:

@@ -23,9 +23,9 @@ from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
-from kovacic.general_solution.constants import Case, Outcome, can_be, condition_of
+from kovacic.general_solution.constants import Outcome, ParameterCase, can_be, condition_of
 from kovacic.general_solution.determined import constants_of
-from kovacic.general_solution.homogeneous import Found, find_basis, no_solution
+from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
 from kovacic.general_solution.question import Question, apart, read_question
@@ -265,7 +265,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     return written(question, value), notices
 
 
-def _by_sign(question: Question, found: Found, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
+def _by_sign(question: Question, found: DecidedBasis, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
     """Where the solutions are those for a natural number: that, and the others, unless their constants are determined."""
     if found.natural is None:
         return []
@@ -276,7 +276,7 @@ def _by_sign(question: Question, found: Found, particular: Expr, names: tuple[Ex
     return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
 
-def _said(question: Question, basis: Basis, particular: Expr, case: Case) -> str:
+def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCase) -> str:
     """The solutions for particular values of the parameters."""
     where = " and ".join(map(condition_of, case.zeros))
     if case.outcome is Outcome.NONE:

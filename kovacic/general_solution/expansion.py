@@ -44,7 +44,7 @@ def sign_of(value: Expr) -> int:
 
 
 @dataclass(frozen=True)
-class Monomial:
+class ExpansionTerm:
     """exp(sum of a t^(-p) over `growth`) t^e log(t)^k; `growth` has pairs (p, a), the largest p first."""
 
     growth: tuple[tuple[Expr, Expr], ...] = ()
@@ -61,17 +61,17 @@ class Monomial:
         t = sympy.Symbol("t", positive=True)
         return str(sympy.exp(sympy.Add(*(a / t**p for p, a in self.growth))) * t**self.e * sympy.log(t) ** self.k)
 
-    def __mul__(self, other: Monomial) -> Monomial:
-        return Monomial(_added(self.growth, other.growth), sympy.expand(self.e + other.e), self.k + other.k)
+    def __mul__(self, other: ExpansionTerm) -> ExpansionTerm:
+        return ExpansionTerm(_added(self.growth, other.growth), sympy.expand(self.e + other.e), self.k + other.k)
 
-    def power(self, r: Expr) -> Monomial:
+    def power(self, r: Expr) -> ExpansionTerm:
         """For a real exponent r."""
         k = sympy.expand(self.k * r)
         real = all(a.is_real for _, a in self.growth)
         if not k.is_Integer or not (r.is_Integer or real):
             raise UnknownBehaviour("a root of a logarithm or of a wave")
         growth = tuple((p, sympy.expand(a * r)) for p, a in self.growth)
-        return Monomial(growth, sympy.expand(self.e * r), int(k))
+        return ExpansionTerm(growth, sympy.expand(self.e * r), int(k))
 
     @property
     def growth_sign(self) -> int:
@@ -92,9 +92,9 @@ class Monomial:
     def is_constant(self) -> bool:
         return not self.growth and self.e == 0 and self.k == 0
 
-    def is_below(self, other: Monomial) -> bool:
+    def is_below(self, other: ExpansionTerm) -> bool:
         """Is it O(other), as far as that is known?"""
-        quotient = Monomial(
+        quotient = ExpansionTerm(
             _added(self.growth, tuple((p, -a) for p, a in other.growth)),
             sympy.expand(self.e - other.e),
             self.k - other.k,
@@ -119,16 +119,16 @@ def _added(first: Iterable[tuple[Expr, Expr]], second: Iterable[tuple[Expr, Expr
     return tuple((p, total[p]) for p in sorted(total, reverse=True) if total[p] != 0)
 
 
-CONSTANT = Monomial()
-LOG = Monomial(k=1)
+CONSTANT = ExpansionTerm()
+LOG = ExpansionTerm(k=1)
 
 
 class Expansion:
     """The sum of coefficient * monomial over `terms`, up to O(sum of the errors)."""
 
-    def __init__(self, terms: dict[Monomial, Expr], errors: Iterable[Monomial] = ()) -> None:
+    def __init__(self, terms: dict[ExpansionTerm, Expr], errors: Iterable[ExpansionTerm] = ()) -> None:
         self.errors = _largest(errors)
-        self.terms: dict[Monomial, Expr] = {}
+        self.terms: dict[ExpansionTerm, Expr] = {}
         for m, c in terms.items():
             if c != 0 and not any(m.is_below(error) for error in self.errors):
                 self.terms[m] = c
@@ -146,7 +146,7 @@ class Expansion:
         return Expansion(terms, (*self.errors, *other.errors))
 
     def __mul__(self, other: Expansion) -> Expansion:
-        terms: dict[Monomial, Expr] = {}
+        terms: dict[ExpansionTerm, Expr] = {}
         for m, c in self.terms.items():
             for n, d in other.terms.items():
                 terms[m * n] = sympy.expand(terms.get(m * n, _ZERO) + c * d)
@@ -154,17 +154,17 @@ class Expansion:
         errors += [m * n for m in self.errors for n in (*other.terms, *other.errors)]
         return Expansion(terms, errors)
 
-    def times(self, factor: Expr, monomial: Monomial = CONSTANT) -> Expansion:
+    def times(self, factor: Expr, monomial: ExpansionTerm = CONSTANT) -> Expansion:
         terms = {m * monomial: sympy.expand(c * factor) for m, c in self.terms.items()}
         return Expansion(terms, [m * monomial for m in self.errors])
 
     @property
-    def parts(self) -> tuple[dict[Monomial, Expr], Expr, Expansion]:
+    def parts(self) -> tuple[dict[ExpansionTerm, Expr], Expr, Expansion]:
         """What doesn't tend to 0, the constant apart; the constant; what tends to 0."""
         if any(error.size >= 0 for error in self.errors):
             raise UnknownBehaviour("too few terms", deeper=True)
-        large: dict[Monomial, Expr] = {}
-        small: dict[Monomial, Expr] = {}
+        large: dict[ExpansionTerm, Expr] = {}
+        small: dict[ExpansionTerm, Expr] = {}
         for m, c in self.terms.items():
             if m.is_constant:
                 continue
@@ -174,7 +174,7 @@ class Expansion:
                 small[m] = c
         return large, self.terms.get(CONSTANT, _ZERO), Expansion(small, self.errors)
 
-    def leading(self) -> tuple[Monomial, Expr, Expansion]:
+    def leading(self) -> tuple[ExpansionTerm, Expr, Expansion]:
         """m, c and d with self = c m (1 + d), where d tends to 0."""
         terms = {m: c for m, c in self.terms.items() if when_zero(c) is not Zero.ALWAYS}
         everything = [*terms, *self.errors]
@@ -201,7 +201,7 @@ class Expansion:
         if m.k:
             raise UnknownBehaviour("the logarithm of a logarithm")
         coefficients = [_ZERO, *(sympy.Rational((-1) ** (k + 1), k) for k in range(1, depth))]
-        exponent = Expansion({Monomial(e=-p): a for p, a in m.growth})
+        exponent = Expansion({ExpansionTerm(e=-p): a for p, a in m.growth})
         return _series(rest, coefficients) + exponent + Expansion({LOG: m.e, CONSTANT: sympy.log(c)})
 
     def exp(self, depth: int) -> Expansion:
@@ -209,11 +209,11 @@ class Expansion:
         factor = CONSTANT
         for m, c in large.items():
             if m == LOG:
-                factor = factor * Monomial(e=c)
+                factor = factor * ExpansionTerm(e=c)
             elif m.growth or m.k or not m.e.is_Rational:
                 raise UnknownBehaviour("an exponential that isn't that of a sum of powers")
             else:
-                factor = factor * Monomial(growth=((-m.e, c),))
+                factor = factor * ExpansionTerm(growth=((-m.e, c),))
         coefficients = [1 / sympy.factorial(k) for k in range(depth)]
         return _series(small, coefficients).times(sympy.exp(constant), factor)
 
@@ -236,9 +236,9 @@ class Expansion:
         return _series(small, coefficients)
 
 
-def _largest(errors: Iterable[Monomial]) -> tuple[Monomial, ...]:
+def _largest(errors: Iterable[ExpansionTerm]) -> tuple[ExpansionTerm, ...]:
     """Without those that are below others."""
-    kept: list[Monomial] = []
+    kept: list[ExpansionTerm] = []
     for error in errors:
         if not any(error.is_below(other) for other in kept):
             kept = [other for other in kept if not other.is_below(error)]
@@ -246,7 +246,7 @@ def _largest(errors: Iterable[Monomial]) -> tuple[Monomial, ...]:
     return tuple(kept)
 
 
-def _is_smaller(first: Monomial, second: Monomial) -> bool:
+def _is_smaller(first: ExpansionTerm, second: ExpansionTerm) -> bool:
     """Does the quotient tend to 0, as far as that is known?"""
     try:
         return (first * _inverse(second)).size < 0
@@ -254,8 +254,8 @@ def _is_smaller(first: Monomial, second: Monomial) -> bool:
         return False
 
 
-def _inverse(m: Monomial) -> Monomial:
-    return Monomial(tuple((p, -a) for p, a in m.growth), -m.e, -m.k)
+def _inverse(m: ExpansionTerm) -> ExpansionTerm:
+    return ExpansionTerm(tuple((p, -a) for p, a in m.growth), -m.e, -m.k)
 
 
 def _series(small: Expansion, coefficients: list[Expr]) -> Expansion:

@@ -40,7 +40,7 @@ class NothingKnown(NotImplementedError):
 
 
 @dataclass(frozen=True)
-class Found:
+class DecidedBasis:
     """Two independent solutions in the user's variable, and what was decided.
 
     With `natural`, an integer that depends on parameters, they are such where it isn't negative; where it is,
@@ -53,19 +53,19 @@ class Found:
     otherwise: Basis | None = None
 
 
-def find_basis(question: Question, budget: Budget, *, special: bool = False) -> Found:
+def find_basis(question: Question, budget: Budget, *, special: bool = False) -> DecidedBasis:
     """Liouvillian solutions if there are any, unless `special`; else special functions.
 
     Raises `NotImplementedError` without.
     """
     solution = decide(question, budget)
     if solution.case is not None and not special:
-        return Found(_basis(question, _liouvillian(question, solution, budget)), solution)
+        return DecidedBasis(_basis(question, _liouvillian(question, solution, budget)), solution)
     pair = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(pair, BySign):
-        return Found(_basis(question, pair), solution)
+        return DecidedBasis(_basis(question, pair), solution)
     otherwise = None if pair.negative is None else _basis(question, pair.negative)
-    return Found(_basis(question, pair.natural), solution, question.own(pair.integer), otherwise)
+    return DecidedBasis(_basis(question, pair.natural), solution, question.own(pair.integer), otherwise)
 
 
 def _basis(question: Question, pair: Pair) -> Basis:

@@ -98,7 +98,7 @@ def _radicands(term: Expr, x: Expr) -> list[Expr]:
 
 def _rate(g: Expr, x: Expr) -> Expr:
     """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    first, *rest = (_Powers.of(term) for term in sympy.Add.make_args(g))
+    first, *rest = (_PowerProduct.of(term) for term in sympy.Add.make_args(g))
     found = first.exponent.diff(x)
     for base, e in first.powers:
         if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
@@ -115,14 +115,14 @@ def _rate(g: Expr, x: Expr) -> Expr:
 
 
 @dataclass(frozen=True)
-class _Powers:
+class _PowerProduct:
     """A product of powers (base, e) and exp(exponent)."""
 
     powers: list[tuple[Expr, Expr]]
     exponent: Expr
 
     @classmethod
-    def of(cls, term: Expr) -> _Powers:
+    def of(cls, term: Expr) -> _PowerProduct:
         powers = []
         exponent = sympy.Integer(0)
         for factor in sympy.Mul.make_args(term):

@@ -24,7 +24,7 @@ _LARGEST_DEGREE, _MOST_TERMS = 8, 200
 
 
 @dataclass(frozen=True)
-class Step:
+class HeavisideTerm:
     """g(x) H(x - a)."""
 
     a: Expr
@@ -45,7 +45,7 @@ class Apart:
     """A right-hand side as the sum of `plain`, which has no jumps, of steps and of impulses."""
 
     plain: Expr
-    steps: tuple[Step, ...]
+    steps: tuple[HeavisideTerm, ...]
     impulses: tuple[Impulse, ...]
 
 
@@ -83,20 +83,20 @@ def _innermost_jumps(e: Expr, x: Expr) -> list[Expr]:
 
 
 @dataclass(frozen=True)
-class Place:
+class HeavisidePlace:
     """Where s (x - a) is zero: a, and the slope s."""
 
     a: Expr
     slope: Expr
 
 
-def place_of(jump: Expr, x: Expr) -> Place | None:
+def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
     """That of a step or an impulse of s (x - a) with constants s and a, s real; None for another."""
     inner = jump.args[0]
     slope = inner.diff(x)
     if slope.has(x) or not slope.is_real or slope.is_zero is not False:
         return None
-    return Place(sympy.expand(x - inner / slope), slope)
+    return HeavisidePlace(sympy.expand(x - inner / slope), slope)
 
 
 def taken_apart(right: Expr, x: Expr) -> Apart | None:
@@ -115,7 +115,7 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
         impulses += found.impulses
         for step in found.steps:
             steps[step.a] = steps.get(step.a, sympy.Integer(0)) + step.g
-    nonzero = tuple(Step(a, g) for a, g in steps.items() if g != 0)
+    nonzero = tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0)
     return Apart(sympy.Add(*plain), nonzero, tuple(impulses))
 
 
@@ -132,7 +132,7 @@ def _term_apart(term: Expr, x: Expr) -> Apart | None:
         return None
     g = term / sympy.Mul(*jumps)
     if not deltas:
-        return Apart(nothing, (Step(last, g),), ())
+        return Apart(nothing, (HeavisideTerm(last, g),), ())
     (delta,) = deltas
     place = place_of(delta, x)
     assert place is not None
@@ -153,7 +153,7 @@ def _last_place(jumps: Sequence[Expr], x: Expr) -> Expr | None:
     return _last(points)
 
 
-def _impulses(g: Expr, delta: Expr, place: Place, x: Expr) -> list[Impulse]:
+def _impulses(g: Expr, delta: Expr, place: HeavisidePlace, x: Expr) -> list[Impulse]:
     """g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n)."""
     a = place.a
     n = int(delta.args[1]) if len(delta.args) > 1 else 0

@@ -69,7 +69,7 @@ def _wave(A: Expr, B: Expr, angle: Expr) -> Expr:
 
 
 @dataclass(frozen=True)
-class _Term:
+class _ForcingTerm:
     """(u + i v) x^degree exp((rate + i frequency) x), of which the real part is meant."""
 
     degree: int
@@ -102,7 +102,7 @@ def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
     return result
 
 
-def _term(summand: Expr, x: Expr) -> _Term | None:
+def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
     """A product of a constant, powers of x, exponentials and one wave."""
     constant, rest = summand.as_independent(x, as_Add=False)
     degree = 0
@@ -121,7 +121,7 @@ def _term(summand: Expr, x: Expr) -> _Term | None:
             constant *= base ** line[0]
             rate += line[1] * sympy.log(base)
     if wave is None:
-        return _Term(degree, rate, sympy.Integer(0), constant, sympy.Integer(0))
+        return _ForcingTerm(degree, rate, sympy.Integer(0), constant, sympy.Integer(0))
     line = _line(wave.args[0], x)
     if line is None:
         return None
@@ -131,8 +131,8 @@ def _term(summand: Expr, x: Expr) -> _Term | None:
     if wave.func is sin:
         u, v = v, -u
     if frequency.could_extract_minus_sign():
-        return _Term(degree, rate, -frequency, u, -v)
-    return _Term(degree, rate, frequency, u, v)
+        return _ForcingTerm(degree, rate, -frequency, u, -v)
+    return _ForcingTerm(degree, rate, frequency, u, v)
 
 
 def _line(expression: Expr, x: Expr) -> Pair | None:

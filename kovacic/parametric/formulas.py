@@ -166,7 +166,7 @@ def _solved_for_a_parameter(above: Any, linear: Sequence[tuple[int, ...]], names
     return f"{_polynomial(left, names)} = {right}"
 
 
-def _power_in_linear_factors(polynomial: Any) -> tuple[Any, _Term] | None:
+def _power_in_linear_factors(polynomial: Any) -> tuple[Any, _FormulaTerm] | None:
     """`(t^k, f)` where the polynomial vanishes exactly where t^k = f, and f is a product of linear forms; None if none is."""
     for i, degree in enumerate(map(int, polynomial.degrees())):
         if not degree:
@@ -188,7 +188,7 @@ def root_written(square: Poly) -> str:
     (number, top, odd), (other, bottom, under) = _without_squares(above), _without_squares(below)
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
         odd, under = -odd, -under
-    return _sum([_Term(Fraction(number, other), top, bottom, odd, under)], names)
+    return _sum([_FormulaTerm(Fraction(number, other), top, bottom, odd, under)], names)
 
 
 def _cleared(function: FunctionPoly | RatFunc, letter: str) -> tuple[Any, Any, tuple[str, ...]]:
@@ -199,7 +199,7 @@ def _cleared(function: FunctionPoly | RatFunc, letter: str) -> tuple[Any, Any, t
 
 
 @dataclass(frozen=True)
-class _Term:
+class _FormulaTerm:
     """A number times powers of polynomials over others, times sqrt(root)/sqrt(under)."""
 
     number: Fraction
@@ -209,12 +209,12 @@ class _Term:
     under: Any = 1
 
 
-def _forms(above: Any, below: Any) -> Iterator[list[_Term]]:
+def _forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
     """Sums of terms that are equal to the quotient of two polynomials over Z."""
-    whole = [_Term(Fraction(1), ((above, 1),), ((below, 1),))]
+    whole = [_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]
     is_number = below.is_constant()
     most = 2 if is_number else _TERMS
-    apart: list[list[_Term]] = []
+    apart: list[list[_FormulaTerm]] = []
     if len(below) == 1 and 1 < len(above) <= most:
         terms = above.to_dict().items()
         apart = [[_factored(above.context().from_dict({e: c}), below) for e, c in terms]]
@@ -229,11 +229,11 @@ def _forms(above: Any, below: Any) -> Iterator[list[_Term]]:
     yield [_factored(above, below)]
 
 
-def _factored(above: Any, below: Any) -> _Term:
+def _factored(above: Any, below: Any) -> _FormulaTerm:
     """The quotient of two polynomials, the first one not zero, in irreducible factors."""
     common = above.gcd(below)
     (number, top), (other, bottom) = factorisation(above // common), factorisation(below // common)
-    return _Term(Fraction(number, other), tuple(top), tuple(bottom))
+    return _FormulaTerm(Fraction(number, other), tuple(top), tuple(bottom))
 
 
 def _without_squares(polynomial: Any) -> tuple[int, tuple[Power, ...], Any]:
@@ -244,7 +244,7 @@ def _without_squares(polynomial: Any) -> tuple[int, tuple[Power, ...], Any]:
     return int(number), tuple((factor, k // 2) for factor, k in factors if k > 1), odd
 
 
-def _sum(terms: Sequence[_Term], names: Sequence[str]) -> str:
+def _sum(terms: Sequence[_FormulaTerm], names: Sequence[str]) -> str:
     return _joined(_term(term, names) for term in terms) or "0"
 
 
@@ -260,7 +260,7 @@ def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
     return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], text)
 
 
-def _term(term: _Term, names: Sequence[str]) -> str:
+def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
     top = _pieces(abs(term.number.numerator), term.top, term.root, names)
     bottom = _pieces(term.number.denominator, term.bottom, term.under, names)
     sign = "-" if term.number < 0 else ""

@@ -36,13 +36,13 @@ class InPowers:
         field = self.S.field
         assert isinstance(field, FunctionField)
         names = dict(zip(field.names, self.powers, strict=True))
-        origin = None if region.origin is None else _Powers(region.origin, tuple(names.items()))
+        origin = None if region.origin is None else _PowersForT(region.origin, tuple(names.items()))
         statement = _in_factors(region.statement.rewritten(_raised(names)))
         return replace(region, statement=statement, origin=origin)
 
 
 @dataclass(frozen=True)
-class _Powers:
+class _PowersForT:
     """Solutions with t^k for T."""
 
     origin: Origin

@@ -210,13 +210,13 @@ class Schwarz(Statement):
         found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
         return names, [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
 
-    def _pairs_beside(self, third: Fraction) -> list[_Pair]:
+    def _pairs_beside(self, third: Fraction) -> list[_DifferencePair]:
         """The other two differences in sixtieths, up to signs modulo 2, with one of these structures."""
         found = []
         for u, v in product(range(61), repeat=2):
             structure = _table().get(tuple(sorted((u, v, _sixtieths(third)))))
             if structure in self.structures:
-                found.append(_Pair(structure, u, v))
+                found.append(_DifferencePair(structure, u, v))
         return found
 
     def merged(self, other: Statement) -> Schwarz | None:
@@ -234,7 +234,7 @@ def _class(sixtieths: int, lattice: str) -> str:
 
 
 @dataclass(frozen=True)
-class _Pair:
+class _DifferencePair:
     """The structure with two exponent differences, in sixtieths, beside a constant one."""
 
     structure: Structure
@@ -242,7 +242,7 @@ class _Pair:
     v: int
 
 
-def _is_symmetric(found: Sequence[_Pair]) -> bool:
+def _is_symmetric(found: Sequence[_DifferencePair]) -> bool:
     """Are the structures those of the differences modulo 1: the same for u and 1 - u, and for v and 1 - v?"""
     whole = {*found}
     return {replace(p, u=60 - p.u) for p in found} == whole and {replace(p, v=60 - p.v) for p in found} == whole

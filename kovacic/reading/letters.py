@@ -51,7 +51,7 @@ def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered 
     >>> found.parts, sorted(found.meanings.items(), key=str)
     ((sqrt_a + 1, sqrt_a**2*x, exp_b**2), [(exp_b, exp(b)), (sqrt_a, sqrt(a))])
     """
-    letters = _Letters(x, parts)
+    letters = _LetterTable(x, parts)
     found = tuple(parts)
     for _ in range(_MOST):
         inner = _innermost(found[:coefficients], x)
@@ -128,7 +128,7 @@ def _is_rational(e: Expr) -> bool:
     return bool(e.is_Add or e.is_Mul or (e.is_Pow and e.exp.is_Integer))
 
 
-class _Letters:
+class _LetterTable:
     """Letters with what they stand for; new ones have names that nothing else has."""
 
     def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:

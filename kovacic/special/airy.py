@@ -25,7 +25,7 @@ from kovacic.special.polar_parts import (
     scales,
 )
 from kovacic.special.pullback import Pullback, StandardEquation, standard_part, variable
-from kovacic.special.values import StandardForm, State, rational
+from kovacic.special.values import StandardForm, ValueAndSlope, rational
 
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
@@ -82,7 +82,7 @@ class Airy(StandardEquation):
         size = acb(1) if abs(q) == 1 else acb(arb(abs(q)).root(3))
         c = size if q > 0 else -size
 
-        def values(z: acb, needed: Sequence[bool]) -> list[State]:
+        def values(z: acb, needed: Sequence[bool]) -> list[ValueAndSlope]:
             Ai, dAi, Bi, dBi = (c * z).airy()
             return [(Ai, c * dAi), (Bi, c * dBi)]
 

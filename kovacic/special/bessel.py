@@ -34,7 +34,7 @@ from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
 from kovacic.special.values import (
     StandardForm,
     StandardSolution,
-    State,
+    ValueAndSlope,
     each,
     is_integer,
     rational,
@@ -269,7 +269,7 @@ def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution,
     def first(order: Any) -> StandardSolution:
         c = 1 + order
 
-        def value(z: acb) -> State:
+        def value(z: acb) -> ValueAndSlope:
             argument, slope = (z * z * (factor / 4), z * (factor / 2)) if squared else (z * factor, acb(factor))
             return _0f1(argument, c), _0f1(argument, c + 1) * slope / c
 
@@ -280,7 +280,7 @@ def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution,
     nu = acb(order)
     root = acb(abs(factor)).sqrt()
 
-    def second(z: acb) -> State:
+    def second(z: acb) -> ValueAndSlope:
         w, slope = (root * z, acb(root)) if squared else (2 * root * z.sqrt(), root / z.sqrt())
         value, above = (w.bessel_k(v) if factor > 0 else w.bessel_y(v) for v in (nu, nu + 1))
         return value, (nu / w * value - above) * slope

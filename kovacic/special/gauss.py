@@ -44,7 +44,7 @@ from kovacic.special.pullback import Pullback, StandardEquation, variable
 from kovacic.special.values import (
     StandardForm,
     StandardSolution,
-    State,
+    ValueAndSlope,
     each,
     ends,
     is_integer,
@@ -84,7 +84,7 @@ class Gauss(StandardEquation):
             yield Pullback(Gauss(covering.zeros, covering.ones, covering.poles), covering.f)
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
-        forms = sorted(_Form.of(self, writer, f).arranged, key=lambda form: form.cost)
+        forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
         for signed in (signed for form in forms for signed in form.signs):
             apart = (writer.is_natural(-value) or not writer.is_integer(value) for value in (signed.alpha, signed.beta))
             if writer.is_degree(signed.degree) and all(apart):
@@ -98,7 +98,7 @@ class Gauss(StandardEquation):
 
     def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
         """Degrees of polynomials, and the exponent differences."""
-        forms = _Form.of(self, writer, f).arranged
+        forms = _GaussForm.of(self, writer, f).arranged
         for form in sorted(forms, key=lambda form: form.cost):
             yield from (signed.degree for signed in form.signs if writer.is_natural(-signed.alpha))
         yield from (forms[0].alpha, forms[0].beta, forms[0].gamma)
@@ -128,7 +128,7 @@ class Gauss(StandardEquation):
 
 
 @dataclass(frozen=True)
-class _Form:
+class _GaussForm:
     """f with the exponent differences at its zeros, at its ones and at its poles."""
 
     writer: Writer
@@ -138,22 +138,22 @@ class _Form:
     gamma: Number
 
     @classmethod
-    def of(cls, equation: Gauss, writer: Writer, f: RatFunc) -> _Form:
+    def of(cls, equation: Gauss, writer: Writer, f: RatFunc) -> _GaussForm:
         return cls(writer, f, *(writer.square_root(v) for v in (equation.A, equation.B, equation.C)))
 
     @property
-    def arranged(self) -> list[_Form]:
+    def arranged(self) -> list[_GaussForm]:
         """The points 0, 1 and infinity in all orders."""
-        return [_Form(self.writer, *parts) for parts in _orders(self.f, self.alpha, self.beta, self.gamma)]
+        return [_GaussForm(self.writer, *parts) for parts in _orders(self.f, self.alpha, self.beta, self.gamma)]
 
     @property
-    def signs(self) -> Iterator[_Form]:
+    def signs(self) -> Iterator[_GaussForm]:
         """The same with all signs of the differences."""
         for s, t, u in product((1, -1), repeat=3):
-            yield _Form(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
+            yield _GaussForm(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
 
     @property
-    def turned(self) -> _Form:
+    def turned(self) -> _GaussForm:
         """The same with -alpha."""
         return replace(self, alpha=-self.alpha)
 
@@ -171,12 +171,12 @@ class _Form:
         return form.factor, _named(form)
 
     @property
-    def swapped(self) -> _Form:
+    def swapped(self) -> _GaussForm:
         """The same with 0 and 1 exchanged."""
-        return _Form(self.writer, 1 - self.f, self.beta, self.alpha, self.gamma)
+        return _GaussForm(self.writer, 1 - self.f, self.beta, self.alpha, self.gamma)
 
     @property
-    def regular(self) -> _Form:
+    def regular(self) -> _GaussForm:
         """The sign of alpha for which 1 - alpha isn't an integer <= 0, as far as that is known."""
         is_pole = self.writer.is_integer(self.alpha) and not self.writer.is_natural(-self.alpha)
         return self.turned if is_pole else self
@@ -207,7 +207,7 @@ def _orders(f: RatFunc, alpha: Number, beta: Number, gamma: Number) -> list[tupl
     ]
 
 
-def _named(form: _Form) -> Expr:
+def _named(form: _GaussForm) -> Expr:
     """2F1, or a multiple: the complete elliptic integrals K, E and Legendre's function P_nu, where SymPy keeps it as it is."""
     import sympy
 
@@ -228,7 +228,7 @@ def _named(form: _Form) -> Expr:
     return writer.hypergeometric(top, (1 - form.alpha,), z)
 
 
-def _reducible(writer: Writer, forms: list[_Form]) -> tuple[Expr, Expr] | None:
+def _reducible(writer: Writer, forms: list[_GaussForm]) -> tuple[Expr, Expr] | None:
     """Where the assumptions make the equation reducible; None where it isn't known which pair is independent."""
     free = next((form for form in forms if not writer.is_integer(form.alpha)), None)
     if free is not None:
@@ -240,7 +240,7 @@ def _reducible(writer: Writer, forms: list[_Form]) -> tuple[Expr, Expr] | None:
     return None if regular is None else writer.pair(regular.term, regular.swapped.term)
 
 
-def _is_irreducible_at(form: _Form) -> bool:
+def _is_irreducible_at(form: _GaussForm) -> bool:
     """Are -alpha and -beta natural, and the upper parameters positive where they are integers?"""
     writer = form.writer
     upper = [(1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (1, -1)]
@@ -248,7 +248,7 @@ def _is_irreducible_at(form: _Form) -> bool:
     return are_natural and all(writer.is_natural(value - 1) or not writer.is_integer(value) for value in upper)
 
 
-def _jacobi(form: _Form) -> tuple[Expr, Expr]:
+def _jacobi(form: _GaussForm) -> tuple[Expr, Expr]:
     """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
     import sympy
 
@@ -271,13 +271,13 @@ def _jacobi(form: _Form) -> tuple[Expr, Expr]:
         is_opposite = form.alpha == -form.beta
         polynomial = _named(form) if is_opposite else sympy.jacobi(N, a, b, t)
         if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
-            second = _Form(writer, 1 / f, -form.gamma, form.beta, form.alpha).term
+            second = _GaussForm(writer, 1 / f, -form.gamma, form.beta, form.alpha).term
         else:
             second = form.turned.term
     return writer.pair((form.factor, writer.without_constant(polynomial)), second)
 
 
-def _even_and_odd(form: _Form) -> tuple[WrittenTerm, WrittenTerm]:
+def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:
     """The even and the odd solution in 1 - 2 f, for alpha = beta."""
     writer = form.writer
     t = writer.argument(1 - 2 * form.f)
@@ -325,7 +325,7 @@ def _values(mapped: tuple[Any, Any, Any, Any, Any]) -> StandardForm:
 def _root(e: Any) -> StandardSolution:
     """((1 + w)/2)^(-e), w = sqrt(1 - z)."""
 
-    def value(z: acb) -> State:
+    def value(z: acb) -> ValueAndSlope:
         w = (1 - z).sqrt()
         power = (-(e * ((1 + w) / 2).log())).exp()
         return power, power * e / (2 * w * (1 + w))
@@ -336,7 +336,7 @@ def _root(e: Any) -> StandardSolution:
 def _sine(e: Any) -> StandardSolution:
     """sin(e theta)/(e sqrt(z)), theta/sqrt(z) for e = 0."""
 
-    def value(z: acb) -> State:
+    def value(z: acb) -> ValueAndSlope:
         root = z.sqrt()
         theta = root.asin()
         sine, slope = (theta, acb(1)) if e == 0 else ((e * theta).sin() / e, (e * theta).cos())
@@ -348,7 +348,7 @@ def _sine(e: Any) -> StandardSolution:
 def _cosine(e: Any) -> StandardSolution:
     """cos(e theta)."""
 
-    def value(z: acb) -> State:
+    def value(z: acb) -> ValueAndSlope:
         root = z.sqrt()
         angle = e * root.asin()
         return angle.cos(), -angle.sin() * e / (2 * root * (1 - z).sqrt())
@@ -362,7 +362,7 @@ def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSol
     whole = [is_integer(v) for v in (e2, a - c, b - c, e1)]
     first, second, third = acb(a), acb(b), acb(c)
 
-    def value(z: acb) -> State:
+    def value(z: acb) -> ValueAndSlope:
         w = 1 - z if mirrored else z
         F = w.hypgeom_2f1(first, second, third, False, *whole)
         slope = w.hypgeom_2f1(first + 1, second + 1, third + 1, False, *whole) * first * second / third

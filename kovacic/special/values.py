@@ -18,10 +18,10 @@ from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.rationals import RationalPoly
 
-State = tuple["acb", "acb"]  # (E, E')
-StandardSolution = Callable[["acb"], State]  # at z
+ValueAndSlope = tuple["acb", "acb"]  # (E, E')
+StandardSolution = Callable[["acb"], ValueAndSlope]  # at z
 StandardSolutions = Callable[
-    ["acb", Sequence[bool]], list[State]
+    ["acb", Sequence[bool]], list[ValueAndSlope]
 ]  # for those of both that are needed, zeros for the other
 HALF = fmpq(1, 2)
 

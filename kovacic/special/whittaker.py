@@ -49,7 +49,7 @@ from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
 from kovacic.special.values import (
     StandardForm,
     StandardSolution,
-    State,
+    ValueAndSlope,
     each,
     ends,
     is_integer,
@@ -107,7 +107,7 @@ class Whittaker(StandardEquation):
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
         if not self.r:
             return bessel.written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4), singular)
-        form = _Form.of(self, writer, f)
+        form = _WhittakerForm.of(self, writer, f)
         for turned in (form, form.turned):
             polynomial = _hermite(turned) or _laguerre(turned)
             if polynomial is not None:
@@ -117,7 +117,7 @@ class Whittaker(StandardEquation):
     def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
         """Degrees of Laguerre's polynomials."""
         if self.r:
-            form = _Form.of(self, writer, f)
+            form = _WhittakerForm.of(self, writer, f)
             yield from (turned.kappa - mu - HALF for turned in (form, form.turned) for mu in (form.mu, -form.mu))
 
     @property
@@ -166,7 +166,7 @@ def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
 
 
 @dataclass(frozen=True)
-class _Form:
+class _WhittakerForm:
     """Whittaker's equation in 2 q f: the parameters, and q for sqrt(q)."""
 
     writer: Writer
@@ -176,7 +176,7 @@ class _Form:
     mu: Number
 
     @classmethod
-    def of(cls, equation: Whittaker, writer: Writer, f: RatFunc) -> _Form:
+    def of(cls, equation: Whittaker, writer: Writer, f: RatFunc) -> _WhittakerForm:
         """The sign of sqrt(q) makes the exponential vanish where it can, or z positive."""
         q = writer.square_root(equation.q)
         given = writer.exponential_rate
@@ -189,7 +189,7 @@ class _Form:
         return cls(writer, f, q, q * (equation.r / (2 * equation.q)), mu)
 
     @property
-    def turned(self) -> _Form:
+    def turned(self) -> _WhittakerForm:
         """The same with -z and -kappa."""
         return replace(self, q=-self.q, kappa=-self.kappa)
 
@@ -212,7 +212,7 @@ class _Form:
         return self.factor(self.kappa), self.writer.hypergeometric(top, (), -1 / self.z)
 
 
-def _kummer_or_tricomi(form: _Form) -> tuple[Expr, Expr]:
+def _kummer_or_tricomi(form: _WhittakerForm) -> tuple[Expr, Expr]:
     """M_mu and M_-mu, or with W where 2 mu is an integer."""
     writer, mu = form.writer, form.mu
     if not writer.is_integer(2 * mu):
@@ -224,7 +224,7 @@ def _kummer_or_tricomi(form: _Form) -> tuple[Expr, Expr]:
     return writer.pair(form.kummer(natural), form.tricomi)
 
 
-def _hermite(form: _Form) -> tuple[Expr, Expr] | None:
+def _hermite(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
     import sympy
 
     writer, degree = form.writer, 2 * form.kappa - HALF
@@ -240,7 +240,7 @@ def _hermite(form: _Form) -> tuple[Expr, Expr] | None:
     return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)))
 
 
-def _laguerre(form: _Form) -> tuple[Expr, Expr] | None:
+def _laguerre(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
     import sympy
 
     writer = form.writer
@@ -267,7 +267,7 @@ def _values(q: Any, r: Any, mu: Any) -> tuple[StandardSolution, StandardSolution
     def first(mu: Any) -> StandardSolution:
         a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
 
-        def value(z: acb) -> State:
+        def value(z: acb) -> ValueAndSlope:
             decay, w = (-(rho * z)).exp(), 2 * rho * z
             F, above = w.hypgeom_1f1(a, b), w.hypgeom_1f1(a + 1, b + 1)
             return decay * F, decay * rho * (2 * a / b * above - F)
@@ -278,7 +278,7 @@ def _values(q: Any, r: Any, mu: Any) -> tuple[StandardSolution, StandardSolution
         return first(mu), first(-mu), None
     a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
 
-    def second(z: acb) -> State:
+    def second(z: acb) -> ValueAndSlope:
         decay, w = (-(rho * z)).exp(), 2 * rho * z
         U, above = w.hypgeom_u(a, b), w.hypgeom_u(a + 1, b + 1)
         return decay * U, -decay * rho * (U + 2 * a * above)

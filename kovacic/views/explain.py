@@ -87,7 +87,7 @@ def _body(blocks: list[Block], picture: str) -> str:
 
 def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
-    writer = _Writer(answer)
+    writer = _ExplanationWriter(answer)
     steps = writer.steps
     parts: list[Callable[[], Iterator[Block]]] = [
         writer.equation,
@@ -135,7 +135,7 @@ def _picture(answer: Answer) -> str:
     return f"\n{heading}\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
 
 
-class _Writer:
+class _ExplanationWriter:
     def __init__(self, answer: Answer) -> None:
         self.answer = answer
         self.formulas = formulas_of(answer)

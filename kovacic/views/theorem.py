@@ -66,10 +66,10 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
 
 def blocks(answer: ParametricAnswer) -> list[Block]:
     """The theorem, and what it rests on."""
-    return [*_Writer(answer).blocks()]
+    return [*_TheoremWriter(answer).blocks()]
 
 
-class _Writer:
+class _TheoremWriter:
     def __init__(self, answer: ParametricAnswer) -> None:
         self.answer = answer
         self.is_solvable = answer.generic.known and answer.generic.case is not None

@@ -37,7 +37,7 @@ def breakable(latex: str, line: float = LINE) -> str:
     nodes = _parsed(latex)
     if _width(nodes) <= line:
         return latex
-    return _BETWEEN_FACTORS.sub(r"\\allowbreak ", _Writer(line / 2).written(nodes))
+    return _BETWEEN_FACTORS.sub(r"\\allowbreak ", _LineBreaker(line / 2).written(nodes))
 
 
 def pieces(latex: str) -> list[str]:
@@ -89,7 +89,7 @@ def _width(nodes: list[Node]) -> float:
 
 
 @dataclass(frozen=True)
-class _Writer:
+class _LineBreaker:
     """What is wider than `most` is written on the line."""
 
     most: float
