@@ -16,7 +16,7 @@ import kovacic
 from kovacic import Ball
 from kovacic.cli.main import run
 from kovacic.doubles.curve import Arc
-from kovacic.views.plot import plot, sample
+from kovacic.views.plot import _Compressed, plot, sample
 
 
 def test_samples_are_cut_at_singular_points_and_complex_beyond() -> None:
@@ -46,7 +46,7 @@ def legend(figure: Any) -> list[str]:
 
 def test_the_error_band_is_drawn_where_it_is_visible_and_a_vanishing_imaginary_part_is_not() -> None:
     wide = plot("x", -3, 1, x0=-1, y0=Ball((1, 0), rad=(1, -4)), points=20)
-    assert legend(wide) == ["y", "error band"]
+    assert legend(wide)[1:] == ["error band"]
     around = plot("2/x^2", -2, 3, points=40)  # real on both sides, as far as the enclosures tell
     assert len(legend(around)) == 2
     assert legend(around)[1] == "singular point"
@@ -139,7 +139,7 @@ def test_both_solutions_of_a_solved_equation_are_drawn_and_named() -> None:
 @pytest.mark.long
 def test_a_growing_solution_leaves_the_rest_to_be_seen() -> None:
     axes = kovacic.solve("x^2 + 3").plot(-6, 6).axes[0]
-    assert axes.get_yscale() == "symlog"
+    assert axes.get_yscale() == "function"
     assert "logarithmic beyond" in axes.get_ylabel()
     assert kovacic.solve("-1").plot(0, 9).axes[0].get_yscale() == "linear"
 
@@ -201,3 +201,31 @@ def test_a_picture_of_an_equation_with_an_algebraic_constant() -> None:
     """y'' = 2^(1/2) y: cosh(2^(1/4) x)."""
     (arc,) = sample("sqrt(2)", -1, 2, x0=0, points=20).arcs
     assert np.abs(arc.y.real / np.cosh(2**0.25 * arc.x) - 1).max() < 1e-7
+
+
+def test_the_legend_says_which_solution_is_drawn_and_the_title_which_equation() -> None:
+    figure = plot("x", -3, 1, y0=2, points=20)
+    assert legend(figure) == ["y, where y(-1) = 2, y'(-1) = 0"]
+    assert figure.axes[0].get_title() == "y'' = x y"
+    assert legend(plot("x^2*y'' + x*y' + x^2*y = 0", 0, 5, x0=0, which="regular", points=20))[0] == "y, regular at 0"
+    assert legend(plot("-1", 0, 5, x0=0, frobenius=(1, 2), points=20)) == ["y = (1) y1 + (2) y2, Frobenius' basis at 0"]
+
+
+@pytest.mark.long
+def test_no_entry_of_a_legend_leaves_the_picture() -> None:
+    figure = kovacic.solve("y'' + y'/10 + 400*y = 0").plot(0, 60)
+    figure.draw_without_rendering()
+    (box,) = figure.legends
+    extent = box.get_window_extent()
+    assert extent.x0 >= 0
+    assert extent.x1 <= figure.bbox.x1
+
+
+@pytest.mark.parametrize("largest", [40.0, 1e4, 1e280])
+def test_the_axis_of_a_growing_solution_has_an_inverse_and_no_corner(largest: float) -> None:
+    usual = 0.9
+    scale = _Compressed(usual, 2 / np.log(largest / usual))
+    y = np.array([-largest, -1.0, -0.3, 0.0, 0.5, 0.9, 0.91, 7.0, largest])
+    assert scale.backward(scale.forward(y)) == pytest.approx(y, rel=1e-9)
+    assert scale.forward(np.array([0.9 + 1e-6]))[0] - 1 == pytest.approx(1e-6 / 0.9, rel=1e-3)
+    assert scale.forward(np.array([largest]))[0] < 4

@@ -90,13 +90,10 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     """
     from kovacic.errors import needs
 
-    title, S = equation, equation.strip()
-    if "=" not in equation:
-        title = f"y'' = {equation} y" if S.isalnum() else f"y'' = ({S}) y"
     with needs("plot", "a picture"), options.waiting("drawing"):
         from kovacic.views.plot import plot
 
-        plot(equation, start, stop, title=title, output=output, **given)
+        plot(equation, start, stop, output=output, **given)
     click.echo(f"wrote {output}")
 
 

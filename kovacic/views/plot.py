@@ -11,6 +11,7 @@ and neither the backend nor the state of pyplot is touched.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -51,8 +52,12 @@ _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 _FARTHEST = 10**300
 #: A formula of more characters isn't written into the legend.
 _LONGEST_LABEL = 50
+#: Entries of a legend in two columns have so many characters at most, and a title so many.
+_LONGEST_IN_COLUMNS, _LONGEST_TITLE = 55, 100
 #: Characters of a formula that SymPy evaluates where the curves start; powers of long numbers take it minutes.
 _LONGEST_EVALUATED = 2000
+#: Powers of ten beside an axis, at most.
+_MOST_POWERS = 4
 #: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
 _RANGE = 20
 
@@ -248,6 +253,8 @@ def plot(
     True
     """
     check_keywords("plot", options, PlotOptions.__annotations__)
+    if title is None:
+        title = _title(equation)
     if isinstance(equation, str) or options.get("var") is not None:
         equation = _read(equation, options.pop("var", None), options.get("limits"))
     from matplotlib.figure import Figure as NewFigure
@@ -262,22 +269,34 @@ def plot(
     marked = [z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high]
     for k, z in enumerate(marked):
         axes.axvline(z, color="0.4", linestyle="--", linewidth=1, label=None if k else "singular point")
-    axes.set(xlim=(low, high), xlabel=_variable(equation), title=_title(equation, title))
+    axes.set(xlim=(low, high), xlabel=_variable(equation), title=title)
     _scale(axes, [curve for _, curve in curves])
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
-    figure.legend(loc="outside lower center", ncols=2, frameon=False)
+    _legend(figure)
     if output is not None:
         figure.savefig(output, dpi=150)
     figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
     return figure
 
 
-def _title(equation: object, title: str | None) -> str:
-    if title is not None:
-        return title
+def _title(equation: object) -> str:
+    """The equation; nothing for coefficients without a text of their own."""
     if isinstance(equation, Answer):
         return equation_of(equation).text
-    return ""
+    if not isinstance(equation, str) or len(equation) > _LONGEST_TITLE:
+        return ""
+    if "=" in equation:
+        return equation
+    S = equation.strip()
+    return f"y'' = {S} y" if S.isalnum() else f"y'' = ({S}) y"
+
+
+def _legend(figure: Figure) -> None:
+    """Below the picture, in two columns where these have room."""
+    (axes,) = figure.axes
+    _, names = axes.get_legend_handles_labels()
+    ncols = 2 if max(map(len, names)) <= _LONGEST_IN_COLUMNS else 1
+    figure.legend(loc="outside lower center", ncols=ncols, frameon=False)
 
 
 def _read(equation: object, var: str | None, limits: Limits | None) -> object:
@@ -305,9 +324,24 @@ def _curves(equation: object, start: object, stop: object, options: PlotOptions)
         if found:
             return found
     curve = sample(equation, start, stop, **options)
-    if given:
-        return [("y", curve)]
-    return [(f"y, where y({curve.x0}) = 1, y'({curve.x0}) = 0", curve)]
+    name = _name(options, curve.x0)
+    return [(name if len(name) <= _LONGEST_LABEL else "y", curve)]
+
+
+def _name(options: PlotOptions, x0: object) -> str:
+    """Which solution is drawn."""
+    if options.get("which") == "decaying":
+        return f"y, decaying, y({x0}) = {options.get('y0')}"
+    if options.get("which") is not None:
+        return f"y, regular at {x0}"
+    weights = options.get("frobenius")
+    if weights is not None:
+        c1, c2 = weights
+        return f"y = ({c1}) y1 + ({c2}) y2, Frobenius' basis at {x0}"
+    values = {"y": options.get("y0"), "y'": options.get("dy0")}
+    usual = {"y": 1, "y'": 0}
+    said = [f"{name}({x0}) = {usual[name] if value is None else value}" for name, value in values.items()]
+    return f"y, where {', '.join(said)}"
 
 
 def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
@@ -393,12 +427,55 @@ def _scale(axes: Axes, curves: list[SampledCurve]) -> None:
     """A linear axis, or, where a solution grows so much that the rest wouldn't be seen, logarithmic beyond the usual."""
     sizes = [np.abs(arc.y) for curve in curves for arc in curve.arcs]
     sizes += [np.hypot(part.real, part.imaginary) for curve in curves for part in curve.envelopes]
-    usual = 2 * min(float(np.median(part)) for part in sizes)
+    usual = min(map(_usual, sizes))
     largest = max(float(part.max()) for part in sizes)
     axes.set_ylabel("y")
     if 0 < _RANGE * usual < largest:
-        axes.set_yscale("symlog", linthresh=usual, linscale=2)
+        scale = _Compressed(usual, 2 / np.log(largest / usual))
+        axes.set_yscale("function", functions=(scale.forward, scale.backward))
+        ticks = _ticks(usual, largest)
+        axes.set_yticks(list(ticks), list(ticks.values()))
         axes.set_ylabel(f"y (logarithmic beyond {usual:.2g})")
+
+
+def _usual(sizes: Any) -> float:
+    """Twice the median; of a solution that grows, twice the size that it has before it does."""
+    median = float(np.median(sizes))
+    if sizes.max() <= _RANGE * 2 * median:
+        return 2 * median
+    stretches = [part.max() for part in np.array_split(sizes, min(20, len(sizes)))]
+    return 2 * float(min(stretches))
+
+
+@dataclass(frozen=True)
+class _Compressed:
+    """y/L for |y| <= L, and sign(y) (1 + c log(1 + (|y|/L - 1)/c)) beyond, with the same slope: smooth curves stay smooth."""
+
+    L: float
+    c: float
+
+    def forward(self, y: Any) -> Any:
+        """Where y is drawn."""
+        size = np.abs(y) / self.L
+        return np.sign(y) * np.where(size <= 1, size, 1 + self.c * np.log1p(np.maximum(size - 1, 0) / self.c))
+
+    def backward(self, place: Any) -> Any:
+        """y."""
+        size = np.abs(place)
+        far = 1 + self.c * np.expm1(np.clip((size - 1) / self.c, 0, 700))
+        return np.sign(place) * np.where(size <= 1, size, far) * self.L
+
+
+def _ticks(usual: float, largest: float) -> dict[float, str]:
+    """0, a round number in the linear part, and powers of ten beyond it, on both sides."""
+    power = 10.0 ** math.floor(math.log10(usual))
+    near = power * max(k for k in (1, 2, 5) if k * power <= usual)
+    found = {near: f"{near:g}"}
+    first, last = math.ceil(math.log10(4 * usual)), math.floor(math.log10(largest))
+    every = (last - first) // _MOST_POWERS + 1
+    found |= {10.0**k: f"$10^{{{k}}}$" for k in range(first, last + 1, every)}
+    negative = {-value: f"\N{MINUS SIGN}{text}" for value, text in found.items()}
+    return negative | {0.0: "0"} | found
 
 
 def _png(figure: Figure) -> bytes:
