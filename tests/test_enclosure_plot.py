@@ -122,6 +122,22 @@ def test_an_oscillation_that_a_page_cannot_show_is_an_envelope_and_the_legend_sa
     assert 0.9 * periods < count <= 1.01 * periods
 
 
+def test_the_legend_says_which_solution_is_drawn() -> None:
+    """Values without a place are those at the left end, as in initial value problems; there must be one."""
+    waves = "y'' + y'/10 + y = 0"
+    figure = plot(waves, 0, 20, y0=1, points=20)
+    assert legend(figure) == ["y, where y(0) = 1, y'(0) = 0"]
+    assert figure.axes[0].lines[0].get_ydata()[0] == pytest.approx(1)
+    assert legend(plot(waves, 0, 20, points=20)) == ["y, where y(10) = 1, y'(10) = 0"]
+    assert legend(plot(waves, 0, 9, x0=3, y0="1/3", dy0="sqrt(2)", points=20)) == [
+        "y, where y(3) = 1/3, y'(3) = sqrt(2)"
+    ]
+    bessel = "x^2*y'' + x*y' + x^2*y = 0"
+    assert legend(plot(bessel, 0, 9, x0=0, which="regular", points=20))[0] == "y, regular at 0"
+    with pytest.raises(kovacic.InputError, match="the values need a place: 0, the left end, is a singular point"):
+        plot(bessel, 0, 9, y0=1)
+
+
 @pytest.mark.long
 def test_both_solutions_of_a_solved_equation_are_drawn_and_named() -> None:
     figure = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0").plot(1, 9)
@@ -205,7 +221,7 @@ def test_a_picture_of_an_equation_with_an_algebraic_constant() -> None:
 
 def test_the_legend_says_which_solution_is_drawn_and_the_title_which_equation() -> None:
     figure = plot("x", -3, 1, y0=2, points=20)
-    assert legend(figure) == ["y, where y(-1) = 2, y'(-1) = 0"]
+    assert legend(figure) == ["y, where y(-3) = 2, y'(-3) = 0"]
     assert figure.axes[0].get_title() == "y'' = x y"
     assert legend(plot("x^2*y'' + x*y' + x^2*y = 0", 0, 5, x0=0, which="regular", points=20))[0] == "y, regular at 0"
     assert legend(plot("-1", 0, 5, x0=0, frobenius=(1, 2), points=20)) == ["y = (1) y1 + (2) y2, Frobenius' basis at 0"]

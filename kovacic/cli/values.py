@@ -66,9 +66,13 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, as_j
 @click.option("--from", "start", required=True, metavar="A", help="Left end of the interval (a number or p/q).")
 @click.option("--to", "stop", required=True, metavar="B", help="Right end of the interval.")
 @click.option("-o", "--output", type=options.PICTURE, required=True, help="The file: png, svg or pdf.")
-@click.option("--x0", help="Where the initial values are given (default: the middle of the longest regular interval).")
-@click.option("--y0", default="1", show_default=True, help="y(x0).")
-@click.option("--dy0", default="0", show_default=True, help="y'(x0).")
+@click.option(
+    "--x0",
+    help="Where the initial values are given (default: the left end; without values, the middle of the longest regular "
+    "interval).",
+)
+@click.option("--y0", help="y(x0).  [default: 1]")
+@click.option("--dy0", help="y'(x0).  [default: 0]")
 @click.option("--points", default=400, show_default=True, type=click.IntRange(2, 100_000), help="Samples at the least.")
 @click.option(
     "--digits", default=8, show_default=True, type=click.IntRange(1, 1000), help="Proven digits of each value."

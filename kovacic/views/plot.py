@@ -36,7 +36,7 @@ from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
 from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import Limits, limited, limits_of
-from kovacic.numerals import as_text
+from kovacic.numerals import as_text, plain_text
 from kovacic.reading.read import read_input
 from kovacic.views.sentences import equation_of
 from kovacic.writing.formula import of_sympy
@@ -111,7 +111,8 @@ def sample(
     start, stop
         The ends of the interval, real numbers.
     x0
-        Where the initial values are given, real; the middle of the longest regular interval by default.
+        Where the initial values are given, real; by default `start`, or the middle of the longest regular interval where there
+        are no values.
     points
         The least number of samples; more are taken where the solution oscillates or bends.
     options
@@ -122,12 +123,14 @@ def sample(
     check_keywords("sample", options, SampleOptions.__annotations__)
     a, b = _ends(start, stop)
     points = whole(points, "points", least=2)
-    asked: dict[str, Any] = {**options}
+    asked: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     equation = with_variable(equation, asked.pop("var", None), asked.get("limits"))
     chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
         x0 = _middle_of_the_longest(intervals)
+        if {"y0", "dy0"} & {*asked}:
+            x0 = _ordinary_start(intervals, a)
     if asked.get("which") is None and asked.get("frobenius") is None:
         asked = {"y0": 1, "dy0": 0, **asked}
     else:
@@ -175,6 +178,15 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
     return found
 
 
+def _ordinary_start(intervals: list[tuple[Fraction, Fraction]], a: Fraction) -> Fraction:
+    """The left end.  Raises `InputError` where that is a singular point."""
+    if intervals[0][0] != a:
+        raise InputError(
+            f"the values need a place: {plain_text(a)}, the left end, is a singular point", hint="x0=...", shell="--x0"
+        )
+    return a
+
+
 def _middle_of_the_longest(intervals: list[tuple[Fraction, Fraction]]) -> Fraction:
     low, high = max(intervals, key=lambda interval: interval[1] - interval[0])
     return (low + high) / 2
@@ -204,7 +216,8 @@ def plot(
     output : str or Path
         A file to which the picture is saved; its type follows the suffix (png, svg, pdf).  None by default: nothing is saved.
     x0 : number
-        Where the initial values are given, real; by default the middle of the longest interval without singular points.
+        Where the initial values are given, real; by default `start`, or the middle of the longest interval without singular
+        points where there are no values.  The legend says where.
     y0, dy0 : number
         y(x0) and y'(x0); 1 and 0 by default.
     frobenius, which
@@ -330,18 +343,18 @@ def _curves(equation: object, start: object, stop: object, options: PlotOptions)
 
 def _name(options: PlotOptions, x0: object) -> str:
     """Which solution is drawn."""
+    at = plain_text(x0)
+    value = plain_text(1 if options.get("y0") is None else options["y0"])
+    slope = plain_text(0 if options.get("dy0") is None else options["dy0"])
     if options.get("which") == "decaying":
-        return f"y, decaying, y({x0}) = {options.get('y0')}"
+        return f"y, decaying, y({at}) = {value}"
     if options.get("which") is not None:
-        return f"y, regular at {x0}"
+        return f"y, regular at {at}"
     weights = options.get("frobenius")
     if weights is not None:
-        c1, c2 = weights
-        return f"y = ({c1}) y1 + ({c2}) y2, Frobenius' basis at {x0}"
-    values = {"y": options.get("y0"), "y'": options.get("dy0")}
-    usual = {"y": 1, "y'": 0}
-    said = [f"{name}({x0}) = {usual[name] if value is None else value}" for name, value in values.items()]
-    return f"y, where {', '.join(said)}"
+        c1, c2 = map(plain_text, weights)
+        return f"y = ({c1}) y1 + ({c2}) y2, Frobenius' basis at {at}"
+    return f"y, where y({at}) = {value}, y'({at}) = {slope}"
 
 
 def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
