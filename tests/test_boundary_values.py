@@ -431,3 +431,28 @@ def test_floats_come_back() -> None:
     assert found.atoms(sympy.Float)
     assert abs(found.subs(x, 2).evalf() - 0.4523) < 1e-3 or found.subs(x, 0) == 0.5
     assert str(dsolve("y'' + 0.4*y' + 0.04*y = 0").rhs) == "(C1 + C2*x)*exp(-x/5)"
+
+
+def test_long_constants_with_parameters_come_to_an_end() -> None:
+    """Determinants that are too long to be factored, and a Wronskian whose terms cancel."""
+    g = Symbol("g")
+    with pytest.warns(UserWarning, match="unless"):
+        assert dsolve(D2 + (x**2 + g) * D0, ics={y(1): y(2), slope_at(1): slope_at(2)}).rhs == 0
+    with pytest.raises(kovacic.InputError, match=r"no solution.*unless"):
+        dsolve(D2 + 2 * x * D1 - x * exp(-x) * sin(x), ics={slope_at(Rational(1, 3)): g + 1, slope_at(-2): 0})
+    found = dsolve(x**2 * D2 + 2 * x * D1 - (x**2 * (g + 2) ** 2 + 6) * D0 - 1).rhs
+    assert found.has(sympy.Ei)
+    assert len(str(found)) < 1500
+
+
+def test_numbers_for_integers_are_ones_for_which_the_answer_holds() -> None:
+    """At n = 4 the particular solution has a pole; and integrals in integrals have their own variable."""
+    even, b = Symbol("n", even=True, positive=True), Symbol("b")
+    left = (1 - x**2) * D2 - x * D1 + (even - 2) ** 2 * D0 - x**2
+    with pytest.warns(UserWarning, match="unless"):
+        found = dsolve(left, ics={y(Rational(1, 5)): 1, slope_at(Rational(1, 3)): -2}).rhs
+    assert abs(sympy.N(found.subs({even: 6, x: Rational(1, 5)}), 20) - 1) < 1e-15
+    found = dsolve(x * D2 + (b**2 - x) * D1 + D0 - 1 / x, ics={slope_at(Rational(-3, 2)): 1}).rhs
+    inner = [e for e in found.atoms(sympy.Integral) if e.function.has(sympy.Integral)]
+    assert inner
+    assert all(e.limits[0][0] not in e.function.atoms(sympy.Integral).pop().bound_symbols for e in inner)

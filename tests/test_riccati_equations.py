@@ -138,3 +138,41 @@ def test_the_linear_equation_for_the_reciprocal_where_it_is_the_simpler_one() ->
     assert kovacic.dsolve("w' = 1 - x*w^2").rhs.atoms(sympy.Function) == {
         *(f(x) for f in (airyai, airybi, sympy.airyaiprime, sympy.airybiprime))
     }
+
+
+k, L, b = sympy.Symbol("k", positive=True), sympy.Symbol("L", positive=True), sympy.Symbol("b")
+
+#: p, q, r, with symbols that the linear equation or the value alone has, and points at which r is 0; and a value.
+WITH_VALUES: list[tuple[Any, Any, Any, Any, Any]] = [
+    (0, k, -k / L, 0, b),
+    (0, k, C1 * k, 1, b),
+    (a, 0, 1, Rational(1, 3), L * b),
+    (0, 0, b * x, 0, C1),
+    (0, L / x, b * x, 1, k),
+    (0, a, x**2, 0, b),
+    (0, 2, (x - 1) ** 2, 1, b),
+    (2 / (x - 3) ** 2, 0, 1, 1, b),
+]
+
+
+@pytest.mark.parametrize(("p", "q", "r", "point", "value"), WITH_VALUES)
+def test_values_with_symbols(p: Any, q: Any, r: Any, point: Any, value: Any) -> None:
+    """No symbol of the question is taken for a constant, and r may be 0 at the point."""
+    found = kovacic.dsolve(sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2), w(x), ics={w(point): value}).rhs
+    numbers = {k: Rational(7, 5), L: Rational(9, 4), b: Rational(-3, 7), C1: Rational(5, 3), a: Rational(1, 3)}
+    residual = found.diff(x) - p - q * found - r * found**2
+    assert abs(sympy.N(residual.subs(numbers).subs(x, Rational(6, 5)), 30)) < 1e-20
+    beside = point + Rational(1, 10**15)
+    assert abs(sympy.N((found.subs(x, beside) - value).subs(numbers), 30)) < 1e-12
+
+
+def test_a_value_is_given_at_a_finite_point() -> None:
+    with pytest.raises(kovacic.InputError, match="at a finite point"):
+        kovacic.dsolve("w' = 1 - w^2", ics="w(oo)=1")
+
+
+def test_signs_and_floats() -> None:
+    assert str(kovacic.dsolve("w' = 1 + w^2", ics="w(0)=1").rhs) == "(sin(x) + cos(x))/(-sin(x) + cos(x))"
+    found = kovacic.dsolve(sympy.Eq(w(x).diff(x), w(x) ** 2 + 0.25), ics={w(0): 0.5}).rhs
+    assert found.atoms(sympy.Float)
+    assert not found.has(sympy.sqrt(2), Rational(1, 2))

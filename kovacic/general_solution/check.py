@@ -8,7 +8,7 @@ all monomials of the expansion, and isn't computed again.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any
@@ -36,6 +36,8 @@ _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 _STEP = fmpq(3, 7 * 101)
 #: How small a residual is, by the size of its terms.
 _SMALL = arb(10) ** (-DIGITS // 2)
+#: How many values of the integers are tried.
+_SAMPLES = 6
 #: What is raised for functions that can't be evaluated.
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
@@ -53,12 +55,13 @@ def check_answer(
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
     are the points at which conditions are on limits.  The answer holds where the integer `natural` isn't negative.
     """
-    numbers = _numbers_with(natural)
     if not is_finite(value):
         raise _failed(question, value, "has no value")
+    numbers = _numbers_for(question, value, natural)
+    there = None if start is None else start.xreplace(numbers)
     unchecked = []
     try:
-        is_wrong = _is_wrong_at(_at_numbers(question, numbers), value.xreplace(numbers), start)
+        is_wrong = _is_wrong_at(_at_numbers(question, numbers), value.xreplace(numbers), there)
     except _NOT_EVALUATED as reason:
         is_wrong = False
         unchecked.append(f"the answer wasn't put into the equation, numerically: {_said(reason)}")
@@ -77,16 +80,30 @@ def check_answer(
     return unchecked
 
 
-def _numbers_with(natural: Expr | None) -> dict[Expr, Expr]:
-    """Numbers for the symbols of this integer, for which it isn't negative."""
-    if natural is None:
-        return {}
-    symbols = sorted(natural.free_symbols, key=str)
-    for ordered in (symbols, symbols[::-1]):
-        numbers = {symbol: sample_value(symbol, 1 + 3 * position) for position, symbol in enumerate(ordered)}
-        if natural.xreplace(numbers) >= 0:
-            return numbers
-    return {}
+def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[Expr, Expr]:
+    """Numbers for symbols that are integers or not positive; other symbols have values by their names.
+
+    The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
+    """
+    known = {*question.symbols.values(), *value.free_symbols, *_symbols_of(question.conditions)}
+    symbols = sorted((s for s in known if s.is_integer or s.is_negative or s.is_nonpositive), key=str)
+    first: dict[Expr, Expr] = {}
+    for k in range(1, 1 + _SAMPLES):
+        for ordered in (symbols, symbols[::-1]):
+            numbers = {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
+            if natural is not None and natural.xreplace(numbers).is_negative:
+                continue
+            first = first or numbers
+            if is_finite(value.xreplace(numbers)):
+                return numbers
+    return first
+
+
+def _symbols_of(conditions: Sequence[Condition]) -> Iterator[Expr]:
+    for condition in conditions:
+        yield from getattr(condition.value, "free_symbols", ())
+        for term in condition.terms:
+            yield from term.point.free_symbols | term.coefficient.free_symbols
 
 
 def _at_numbers(question: Question, numbers: dict[Expr, Expr]) -> Question:
@@ -112,29 +129,29 @@ def _failed(question: Question, value: Expr, what: str) -> VerificationFailed:
     return VerificationFailed(f"an answer for {question.equation} {what}; please report the equation: {value}")
 
 
-def _sampled(expression: Expr, symbols: set[Expr], number: int) -> Expr:
-    """With values in the places of those of the symbols that are integers or not positive; others have values by name."""
-    special = {s for s in symbols if s.is_integer or s.is_negative or s.is_nonpositive}
-    if not special:
-        return expression
-    sample = next(islice(samples(special), number, None))
-    return expression.xreplace(sample)
-
-
 def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
     """Is the residual seen not to be zero at a point?  Raises one of `_NOT_EVALUATED` where it can't be computed."""
     x = question.x
-    definite = [integral for integral in value.atoms(sympy.Integral) if not integral.has_free(x)]
+    definite = [integral for integral in _outer_integrals(value) if not integral.has_free(x)]
     value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
     h = question.given.h
     if h is not None and (h.has(*JUMPING) or h.has(AppliedUndef)):
         return _is_wrong_in_pieces(question, value)
-    middle = None if start is None else ball(_sampled(start, start.free_symbols, 1))
+    middle = None if start is None else ball(start)
     base = middle
     if base is None:
         base = acb(fmpq(23, 71), fmpq(41, 89) if start is None else fmpq(0))
     with ctx.workdps(DIGITS):
         return _residual_is_large(question, value, base + arb(_STEP))
+
+
+def _outer_integrals(e: Expr) -> Iterator[Expr]:
+    """Those that aren't in the integrand of another one, whose variable they may have."""
+    if isinstance(e, sympy.Integral):
+        yield e
+        return
+    for argument in e.args:
+        yield from _outer_integrals(argument)
 
 
 @dataclass(frozen=True)
@@ -239,15 +256,12 @@ def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, 
 def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
     equation, x = question.equation, question.x
     if equation.change is None and equation.a.field == QQ:
-        y = value
         a, b, c, f = (value_of_fraction(part, point) for part in (equation.a, equation.b, equation.c, equation.f))
         f += 0 if equation.h is None else jet(equation.h, x, point)[0]
     else:
         parts = [question.own(part) for part in _coefficients(question)]
-        symbols = {s for e in (value, *parts) for s in e.free_symbols if s != x}
-        y = _sampled(value, symbols, 1)
-        a, b, c, f = (jet(_sampled(part, symbols, 1), x, point)[0] for part in parts)
-    return _is_large((a, b, c, f), jet(y, x, point))
+        a, b, c, f = (jet(part, x, point)[0] for part in parts)
+    return _is_large((a, b, c, f), jet(value, x, point))
 
 
 def _is_large(coefficients: Sequence[Any], values: Sequence[Any]) -> bool:
@@ -289,9 +303,8 @@ def _is_violated(question: Question, value: Expr, condition: Condition, numbers:
         (e for e in total.atoms(sympy.Integral) if e.limits[0][1:]), key=str
     )  # numbers that aren't known
     total = total.xreplace({e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(integrals)})
-    difference = _sampled(total, total.free_symbols, 1)
     with ctx.workdps(2 * DIGITS):
-        found = jet(difference, sympy.Dummy(), acb(0))[0]
+        found = jet(total, sympy.Dummy(), acb(0))[0]
         if not found.is_finite():
             raise NotImplementedError("a value isn't finite")
         return bool(abs(found) > _SMALL)

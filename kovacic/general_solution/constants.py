@@ -25,6 +25,9 @@ Expr = Any  # SymPy publishes no types
 #: Functions whose values are simplified, in constants of so many subexpressions.
 _ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
 _LONGEST = 200
+#: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
+_LONGEST_FACTORED = 300
+_MOST_ATOMS = 10
 _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
 
 
@@ -194,16 +197,24 @@ def can_be(case: ParameterCase) -> bool:
 
 
 def vanishing_factors(zero: Expr) -> Expr:
-    """The factors that may be zero, each once."""
-    whole = sympy.numer(sympy.together(zero))
-    waves = sympy.expand(TR8(sympy.expand(whole)))
-    factored = min(map(sympy.factor, (whole, waves)), key=size)
+    """The factors that may be zero, each once; a long expression is taken with the factors that are seen."""
+    factored = zero
+    if size(zero) <= _LONGEST_FACTORED and len(_atoms_of(zero)) <= _MOST_ATOMS:
+        whole = sympy.numer(sympy.together(zero))
+        waves = sympy.expand(TR8(sympy.expand(whole)))
+        factored = min(map(sympy.factor, (whole, waves)), key=size)
     found = []
     for factor in sympy.Mul.make_args(factored):
         if not is_nowhere_zero(factor):
             is_power = factor.is_Pow and factor.exp.is_positive
             found.append(factor.base if is_power else factor)
     return sympy.Mul(*found)
+
+
+def _atoms_of(e: Expr) -> set[Expr]:
+    """What SymPy takes for variables when it factors an expression."""
+    powers = {power for power in e.atoms(sympy.Pow) if not power.exp.is_Integer}
+    return e.free_symbols | e.atoms(sympy.Function) | powers
 
 
 def tidy(value: Any) -> Any:

@@ -19,6 +19,8 @@ from contextlib import suppress
 from functools import partial
 from typing import Any
 
+import sympy
+
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.check import check_answer
@@ -28,11 +30,11 @@ from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
-from kovacic.general_solution.question import Question, apart, read_question
+from kovacic.general_solution.question import Question, apart, has_floats, read_question
 from kovacic.general_solution.riccati_equation import RiccatiEquation, read_riccati
 from kovacic.general_solution.riccati_equation import solved as riccati_solution
 from kovacic.general_solution.variation import Basis
-from kovacic.general_solution.written import combination, free_constants, written
+from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numerals import as_text
 from kovacic.views.sentences import SCREEN
@@ -210,7 +212,10 @@ def _answered(
             riccati = _riccati_equation(eq, func, ics, var, budget.limits)
             if riccati is None:
                 raise reason from None
-            return riccati_solution(*riccati, partial(_answered, limits=limits))
+            found, notices = riccati_solution(*riccati, partial(_answered, limits=limits))
+            if has_floats(eq, as_mapping(ics)):
+                found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
+            return found, notices
         try:
             return _solved(question, budget, special=special)
         except LimitExceeded as limit:

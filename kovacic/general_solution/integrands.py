@@ -16,12 +16,15 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
+from kovacic.general_solution.substitution import size
 from kovacic.limits import check_duration
 from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
 #: SymPy's time for a term of what it expands; and from which on terms and exponent of a power aren't counted.
 _TERM_SECONDS, _MANY = 2e-5, 10**4
+#: The longest constant with parameters that is written in one form, in subexpressions.
+_LONGEST = 200
 #: The numbers that are parameters in coefficients.
 NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
 
@@ -73,9 +76,16 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes
         return None
     ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
-    values = (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5))
+    values = (_in_one_form(sympy.powsimp(ratio.subs(x, k))) for k in (2, 3, 5))
     constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
     return None if found is None or constant is None else sympy.expand(constant * found)
+
+
+def _in_one_form(constant: Expr) -> Expr:
+    """Without terms that cancel, where it has parameters."""
+    if not constant.free_symbols or size(constant) > _LONGEST:
+        return constant
+    return sympy.cancel(constant)
 
 
 def _is_real_far_away(term: Expr, x: Expr) -> bool:

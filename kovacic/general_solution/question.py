@@ -75,7 +75,7 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
     """The question.  Raises `InputError` for what isn't one."""
     eq, ics = apart(eq, ics)
     values = as_mapping(ics)
-    floats = _has_floats(eq) or any(_has_floats(value) for item in values.items() for value in item)
+    floats = has_floats(eq, values)
     renamed: dict[Expr, Expr] = {}
     if isinstance(eq, sympy.Basic):
         renamed = _renamed(eq)
@@ -142,8 +142,10 @@ def _plain_value(text: str) -> str:
 _LATEX_VALUE = re.compile(r"\s*(?P<function>\w+'*)\s*\((?P<point>[^=]*)\)\s*=(?P<value>.*)", re.DOTALL)
 
 
-def _has_floats(given: Any) -> bool:
-    return isinstance(given, float) or bool(isinstance(given, sympy.Basic) and given.atoms(sympy.Float))
+def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
+    """Are floats in an equation, or among given values?"""
+    given = [eq, *values, *values.values()]
+    return any(isinstance(e, float) or (isinstance(e, sympy.Basic) and bool(e.atoms(sympy.Float))) for e in given)
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,8 @@ from kovacic.solution import Solution
 Expr = Any  # SymPy publishes no types
 #: The largest real part (in subexpressions, by those of the solution) that is written instead of a solution.
 _LARGEST = 4
+#: The largest solution that is separated, in subexpressions.
+_LONGEST = 300
 _COMPLEX = (sympy.re, sympy.im, sympy.Abs, sympy.arg, sympy.atan2)
 
 
@@ -87,14 +89,17 @@ def negative_arguments(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
 
 
 def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
-    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long."""
-    if y.has(sympy.RootSum, BesselBase):
+    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long.
+
+    They are taken for real parameters; as functions of these they are analytic, and so solutions for others as well.
+    """
+    if y.has(sympy.RootSum, BesselBase) or size(y) > _LONGEST:
         return [y]
     back: dict[Expr, Expr] = {}
     exact = y.xreplace(_with_positive_arguments(y, point, x, back))
-    t = sympy.Dummy(real=True)
-    back[t] = x
-    exact = exact.subs(x, t)
+    real = {symbol: sympy.Dummy(real=True) for symbol in exact.free_symbols - back.keys()}
+    back |= {dummy: symbol for symbol, dummy in real.items()}
+    exact = exact.subs(real)
     for power in exact.atoms(sympy.Pow):
         polar = _polar(power, x, back)
         if polar is not None:

@@ -26,6 +26,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, exact
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, ball, is_zero, samples, when_zero
 from kovacic.limits import Limits
@@ -37,6 +38,8 @@ Expr = Any  # SymPy publishes no types
 _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
 #: Points at which a solution is put into the equation, and how small a residual is, by the size of its terms.
 _POINTS = (acb(fmpq(23, 71), fmpq(41, 89)), acb(fmpq(-83, 97), fmpq(11, 59)))
+#: The longest solution with exponentials that is tried in another form, in subexpressions.
+_LONGEST = 100
 _SMALL = arb(10) ** (-DIGITS // 2)
 _NO_VALUE = "a part of it can't be evaluated"
 
@@ -117,14 +120,18 @@ def solved(
     is_regular = value is not None and _is_unit(solved_for.r, equation.x, value[0])
     ics = _start(equation, u, *value, is_inverted=is_inverted) if value is not None and is_regular else {}
     found, notices = linear_solution(linear, u, ics=ics)
-    solution = found.rhs
+    constants: dict[Expr, Expr] = {}
+    if not is_regular:  # others may be symbols of r, and of the value
+        symbols = sorted(found.rhs.free_symbols - linear.free_symbols, key=str)
+        constants = {symbol: sympy.Dummy() for symbol in symbols}
+    solution = found.rhs.xreplace(constants)
+    c1c2 = tuple(constants.values())
     if value is not None and not is_regular:
-        solution = _through(solution, equation, linear, *value)
-    rate = _rate_of(solution, linear, equation.x)
+        solution = _through(solution, c1c2, equation, *value)
+    rate = _rate_of(solution, c1c2, equation.x)
     z = sympy.Add(*(_with_sign_before(-term / solved_for.r) for term in sympy.Add.make_args(rate)))
     w = 1 / z if is_inverted else z
-    if w.is_rational_function(equation.x):
-        w = sympy.cancel(w)
+    w = _in_short(w.xreplace(dict.fromkeys(c1c2, _name_of_constant(equation))), equation.x)
     unchecked = _check(equation, w, conditions)
     return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
 
@@ -152,12 +159,11 @@ def _start(equation: RiccatiEquation, u: Expr, point: Expr, v: Expr, *, is_inver
     return {u.subs(here): start[0], u.diff().subs(here): start[1]}
 
 
-def _through(u: Expr, equation: RiccatiEquation, linear: Expr, point: Expr, v: Expr) -> Expr:
+def _through(u: Expr, constants: Sequence[Expr], equation: RiccatiEquation, point: Expr, v: Expr) -> Expr:
     """The solutions among C1 u1 + C2 u2 for which -u'/(r u) is v at a: one, or all.
 
     Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
     """
-    constants = sorted(u.free_symbols - linear.free_symbols, key=str)
     basis = [u.diff(constant) for constant in constants]
     x = equation.x
     misses = [value_at(-y.diff(x) / equation.r, x, point) - v * value_at(y, x, point) for y in basis]
@@ -175,13 +181,30 @@ def _value_of(conditions: Sequence[Condition]) -> tuple[Expr, Expr] | None:
     if len(conditions) > 1 or not condition.is_value or condition.terms[0].order:
         raise InputError("a Riccati equation has one value, at one point", hint='write "w(0)=1"')
     assert condition.value is not None
+    if condition.points[0] in (sympy.oo, -sympy.oo):
+        raise InputError(f"{condition.text}: a value determines a solution at a finite point")
     return condition.points[0], condition.value
 
 
-def _rate_of(u: Expr, linear: Expr, x: Expr) -> Expr:
+def _name_of_constant(equation: RiccatiEquation) -> Expr:
+    """C1, or the next of these names that isn't in the equation."""
+    own = equation.p.free_symbols | equation.q.free_symbols | equation.r.free_symbols
+    return next(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(symbol.name) for symbol in own]))
+
+
+def _in_short(w: Expr, x: Expr) -> Expr:
+    """Over one denominator, where it is rational; with exponentials, where that is shorter."""
+    if w.is_rational_function(x):
+        return sympy.cancel(w)
+    functions = {f.func for f in w.atoms(sympy.Function)}
+    if functions <= {sympy.exp} and size(w) <= _LONGEST:
+        return min((w, sympy.cancel(w)), key=size)
+    return w
+
+
+def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
     """u'/u, where of the constants of u only their quotient matters."""
-    constants = sorted(u.free_symbols - linear.free_symbols, key=str)
-    if len(constants) == 2:
+    if u.has(*constants):
         c1, c2 = constants
         u = _wave(u.diff(c1), u.diff(c2), c1) or u.subs(c2, 1)
     return sympy.Add(*(_rate(factor, x) for factor in sympy.Mul.make_args(u)))

@@ -96,7 +96,8 @@ class Basis:
                 continue
             if functions:
                 c = sympy.gammasimp(c)
-            W = sympy.radsimp(c) * kernel
+            c = sympy.cancel(c) if c.free_symbols and c.is_rational_function() else sympy.radsimp(c)
+            W = c * kernel
             return W if self._is_wronskian(W) else None
         return None
 
@@ -128,8 +129,13 @@ class Basis:
 
     @property
     def _by_definition(self) -> Expr:
-        """The Wronskian wherever the solutions are defined, on any branch."""
+        """The Wronskian wherever the solutions are defined, on any branch; without integrals that cancel."""
         W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
+        for integral in W.atoms(sympy.Integral):
+            letter = sympy.Dummy()
+            linear = W.xreplace({integral: letter})
+            if expand(linear.diff(letter)) == 0:
+                W = linear.xreplace({letter: sympy.Integer(0)})
         roots = any(p.exp.is_Rational and not p.exp.is_Integer for p in W.atoms(sympy.Pow))
         return sympy.cancel(sympy.together(W)) if roots and not W.has(*_UNKNOWN, sympy.Function) else W
 
@@ -286,7 +292,7 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     """The unevaluated integral, from `start` on with a variable that doesn't occur."""
     if start is None:
         return sympy.Integral(integrand, x)
-    names = {symbol.name for symbol in integrand.free_symbols | start.free_symbols}
+    names = {symbol.name for symbol in integrand.atoms(sympy.Symbol) | start.free_symbols}
     s = next(sympy.Symbol(name) for name in ("s", "t", "u", *(f"s{k}" for k in range(99))) if name not in names)
     return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
 

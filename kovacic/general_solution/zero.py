@@ -23,11 +23,14 @@ from sympy.simplify.fu import TR8
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared
+from kovacic.general_solution.substitution import size
 from kovacic.reading.parser import shown
 
 Expr = Any  # SymPy publishes no types
 #: How many subexpressions a constant may have that is rewritten.
 _LARGEST = 2000
+#: How many subexpressions a sum may have of which SymPy is asked whether it is zero.
+_LARGEST_ASKED = 100
 #: How many bits of an algebraic number are computed to show that it is zero.
 _MOST_BITS = 100_000
 #: Digits to which a number is compared with zero before it is rewritten at length.
@@ -90,6 +93,8 @@ def _is_nonzero(factor: Expr) -> bool:
         return bool(base.args[0].is_real)
     if isinstance(base, sympy.mathieuc | sympy.mathieusprime):  # an even solution, the slope of an odd one
         return bool(base.args[-1] == 0)
+    if base.is_Add and size(base) > _LARGEST_ASKED:  # SymPy would compute parts of it, to ever more digits
+        return False
     return base.is_zero is False and exponent.is_finite is not False
 
 
