@@ -214,7 +214,7 @@ def vanishing_factors(zero: Expr) -> Expr:
 def _atoms_of(e: Expr) -> set[Expr]:
     """What SymPy takes for variables when it factors an expression."""
     powers = {power for power in e.atoms(sympy.Pow) if not power.exp.is_Integer}
-    return e.free_symbols | e.atoms(sympy.Function) | powers
+    return {*e.free_symbols, *e.atoms(sympy.Function), *powers}
 
 
 def tidy(value: Any) -> Any:
