@@ -1,13 +1,15 @@
 """Is the route that is chosen the right one?  The default of `evaluate` against every method, on texts of every kind.
 
-Regenerate:  python benchmarks/routes.py 1000     (some minutes; --seed for others, --rows FILE goes on where a run ended)
+Regenerate:  python benchmarks/routes.py 1000 --patience 3     (some ten minutes; --seed for others, --rows FILE goes on where a
+run ended)
 prints, and writes results/routes.{json,md}.
 
 Processor times of a first call, from the text to the balls, with every cache of the package emptied before it, and of this and
 a second one together, at another point of the same solution.  What the default takes is to be at most twice the best method's
 time and 1 ms.
 A call that misses this is measured again, up to five times, and the least times count: other processes disturb a single one.
-A method is given up after 20 s.  What the imports of a first call in a process take is measured apart, in new processes.
+A method is given up after 20 s, or what --patience says; where the default is given up, or refuses, and another method is not,
+it is missed, too.  What the imports of a first call in a process take is measured apart, in new processes.
 """
 
 from __future__ import annotations
@@ -40,7 +42,6 @@ from tests import special_cases
 METHODS = (None, "taylor", "closed form")
 FACTOR, SPARE = 2.0, 1e-3
 _AGAIN = 5
-_PATIENCE = kovacic.Limits(seconds=20)
 X = kovacic.algebra.ratfunc.RatFunc(QQ.poly([0, 1]))
 
 
@@ -179,11 +180,11 @@ def timed(action: Callable[[], Any]) -> tuple[float, Any]:
     return time.process_time() - begin, result
 
 
-def times(asked: Question, method: str | None, caches: list[Any]) -> tuple[float, float] | None:
+def times(asked: Question, method: str | None, caches: list[Any], patience: float) -> tuple[float, float] | None:
     """Of the first call, and of it and the second one; None where the method doesn't serve."""
     for cache in caches:
         cache.cache_clear()
-    options = {**asked.options, "method": method, "limits": _PATIENCE}
+    options = {**asked.options, "method": method, "limits": kovacic.Limits(seconds=patience)}
     try:
         begin = time.process_time()
         solution = kovacic.prepared(asked.equation, **options)
@@ -206,13 +207,13 @@ def ratio(row: dict[str, Any], which: int) -> float:
     return float(row["None"][which] / (FACTOR * best + SPARE))
 
 
-def measured(seed: int, caches: list[Any]) -> dict[str, Any]:
+def measured(seed: int, caches: list[Any], patience: float) -> dict[str, Any]:
     asked = question(seed)
     shown = f"{asked.equation}, {len(asked.first)} points to {asked.first[-1]}, {asked.options}"
     row: dict[str, Any] = {"seed": seed, "kind": asked.kind, "question": shown}
     for _ in range(_AGAIN):
         for method in METHODS:
-            found, known = times(asked, method, caches), row.get(str(method))
+            found, known = times(asked, method, caches, patience), row.get(str(method))
             if found is not None:
                 row[str(method)] = found if known is None else tuple(map(min, found, known))
         if row.get("None") is None or not (is_missed(row, 0) or is_missed(row, 1)):
@@ -271,16 +272,20 @@ def imports() -> dict[str, float]:
     return found
 
 
-def report(rows: list[dict[str, Any]], seed: int) -> None:
+def report(rows: list[dict[str, Any]], seed: int, patience: float) -> None:
     done = [row for row in rows if row.get("None")]
+    lost = [row for row in rows if not row.get("None") and any(row.get(str(method)) for method in METHODS)]
     lines = ["# Is the route that is chosen the right one?", "", frame.line(), ""]
     lines += [
-        f"Regenerate: `python benchmarks/routes.py {len(rows)} --seed {seed}`.  Processor times in milliseconds, all caches",
-        f"empty before each first call.  {len(done)} questions; {len(rows) - len(done)} were refused by every method, or not",
-        "ended in 20 s.",
+        f"Regenerate: `python benchmarks/routes.py {len(rows)} --seed {seed} --patience {patience:g}`.  Processor times in",
+        f"milliseconds, all caches empty before each first call.  {len(done)} questions; {len(rows) - len(done) - len(lost)}",
+        f"were refused by every method, or not ended in {patience:g} s.",
+        f"Given up by the default, and not by another method: {len(lost)}.",
         "",
+        *(f"- {row['kind']}: {row['question'][:150]}" for row in lost),
+        *([""] if lost else []),
     ]
-    data: dict[str, Any] = {"seed": seed, "questions": len(done), "imports": imports()}
+    data: dict[str, Any] = {"seed": seed, "questions": len(done), "lost": lost, "imports": imports()}
     for which, name in enumerate(("first call", "first and second call")):
         missed = [row for row in done if is_missed(row, which)]
         worst = sorted(done, key=lambda row: ratio(row, which), reverse=True)
@@ -337,6 +342,7 @@ def main() -> None:
     arguments.add_argument("count", type=int, nargs="?", default=1000)
     arguments.add_argument("--prices", action="store_true", help="print what a target costs on each way, and end")
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("--patience", type=float, default=20.0, help="seconds after which a method is given up")
     arguments.add_argument("--rows", type=Path, help="a file that keeps the rows, from which a run goes on")
     given = arguments.parse_args()
     warnings.simplefilter("ignore")
@@ -345,17 +351,17 @@ def main() -> None:
         return
     for seed in range(-40, 0):  # so that every module is there
         for method in METHODS:
-            times(question(seed), method, [])
+            times(question(seed), method, [], given.patience)
     caches, rows = emptied(), []
     if given.rows and given.rows.exists():
         rows = [json.loads(line) for line in given.rows.read_text(encoding="utf-8").splitlines()]
     first = given.seed * 1_000_000
     for seed in range(first + len(rows), first + given.count):
-        rows.append(measured(seed, caches))
+        rows.append(measured(seed, caches, given.patience))
         if given.rows:
             with given.rows.open("a", encoding="utf-8") as kept:
                 kept.write(json.dumps(rows[-1]) + "\n")
-    report(rows, given.seed)
+    report(rows, given.seed, given.patience)
 
 
 if __name__ == "__main__":
