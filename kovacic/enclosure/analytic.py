@@ -17,6 +17,7 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
+from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField, JetBasis
@@ -25,7 +26,6 @@ from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_p
 from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.start import middle, spread_by
-from kovacic.enclosure.states import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.way import Local, Way, by_rays
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, count_work, limits_of

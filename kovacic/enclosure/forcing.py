@@ -63,7 +63,16 @@ class Forcing:
         return value(function, None, x) if self.embedded is None else self.embedded.value(function, x)
 
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
-        """Raise InputError where a part has a pole or a branch point on the way, but for its ends."""
+        """Raise InputError where a part has a pole or a branch point on the way.
+
+        At an end it may have a value, such as sqrt(x) at 0, and not be analytic.
+        """
+        for end in (a, b):
+            if not self.value(to_acb(end)).is_finite():
+                raise InputError(
+                    f"the right-hand side has no value at {end}, an end of the path",
+                    hint="choose a point beside it",
+                )
         for function in (self.rational, self.over):
             if self.embedded is None:
                 check_segment(System.of(function), a, b)

@@ -27,6 +27,8 @@ from kovacic.limits import Limits
 from kovacic.numerals import in_a_message
 
 _LOG = logging.getLogger(__name__)
+_STEP = 64
+"""Precisions by which Taylor's method goes on are multiples of so many bits above the first one."""
 
 Method = Literal["taylor", "closed form"]
 METHODS: tuple[Method, ...] = ("taylor", "closed form")
@@ -122,7 +124,10 @@ def raise_precision(
                 raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
             return run.explained()
         previous = run if run.finite else previous
-        prec = min(prec + run.missing + 16, ceiling.bits)
+        more = run.missing + 16
+        if closed is None:  # other points find what was expanded at the same precision
+            more = -(-more // _STEP) * _STEP
+        prec = min(prec + more, ceiling.bits)
 
 
 @dataclass(frozen=True)

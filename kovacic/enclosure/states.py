@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal
 
 from flint import arb
 
+from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import ChosenForm, Journey
-from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
-from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision, start_bits
+from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.routes import TAYLOR, route_of
 from kovacic.enclosure.singular import Singular
@@ -45,6 +46,9 @@ class AskedSolution:
             if self.method is None and self.journey.knows(targets, start_bits(self.digits)):
                 _LOG.info("route: Taylor's method, on discs that are known")
                 return raise_precision(self.journey, targets, None, self.digits, self.limits)
+            found = self._on_kept_ways(targets)
+            if found is not None:
+                return found
             choice = route_of(self.journey, targets, self.method, self.digits)
             _LOG.info("route: %s", "Taylor's method" if choice is None else choice.closed)
             if choice is not None:
@@ -56,6 +60,23 @@ class AskedSolution:
                         raise InputError(said, hint=TAYLOR) from None
                     _LOG.info("it doesn't prove its values on this path: Taylor's method")
             return raise_precision(self.journey, targets, None, self.digits, self.limits)
+
+    def _on_kept_ways(self, targets: Sequence[Number]) -> tuple[PointValue, ...] | None:
+        """The values of an equation with a right-hand side, where its ways pay; None on all others."""
+        if self.journey.problem.right is None or self.method is not None:
+            return None
+        from kovacic.enclosure.forced_ways import ways_of  # imports SymPy
+
+        ways = ways_of(self.journey)
+        if ways is None or not ways.pay(targets):
+            return None
+        try:
+            found = raise_precision(ways.journey, targets, None, self.digits, self.limits)
+        except InputError:
+            # A right-hand side such as sqrt(x) from 0 on is integrated there, and has no power series.
+            return None
+        _LOG.info("route: power series of the coefficients and the right-hand side, on ways that are kept")
+        return found
 
     def _by_closed_form(self, choice: ChosenForm, targets: Sequence[Number]) -> tuple[PointValue, ...]:
         """The precision that was enough for the last targets is tried first: polynomials cancel again as much as they did."""
@@ -89,38 +110,9 @@ def question_of(
     return AskedSolution(looked_up(journey_of, *given), digits, method, limits)
 
 
-def check_method(method: object) -> None:
-    """Raise InputError for an unknown one."""
-    if method is not None and method not in METHODS:
-        raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
-
-
 def evaluate_states(equation: object, points: Sequence[object], **given: Any) -> tuple[PointValue, ...]:
     """As `evaluate`, with y and y' and the circumstances, for each of `points`."""
     return question_of(equation, **given).states(points)
-
-
-def comparable(value: object) -> object:
-    """A number of NumPy's as a point: SymPy can't compare all of them with its own, when journeys are looked up."""
-    return as_point(value, "a number of the start") if type(value).__module__ == "numpy" else value
-
-
-def comparables(values: object, name: str) -> Any:
-    """A sequence of numbers as a tuple of such; a word, or None, as it is."""
-    if values is None or isinstance(values, str):
-        return values
-    if isinstance(values, bytes | Mapping | Set) or not isinstance(values, Iterable):
-        raise InputError(f"{name} is a sequence of numbers, not {type(values).__name__!r}")
-    return tuple(map(comparable, values))
-
-
-def looked_up(cached: Any, *given: Any) -> Any:
-    """A function that keeps its values; of lists and FLINT's balls, which can't be looked up, computed anew."""
-    try:
-        hash(given)
-    except (TypeError, ValueError):
-        return cached.__wrapped__(*given)
-    return cached(*given)
 
 
 @lru_cache(maxsize=32, typed=True)

@@ -1,0 +1,101 @@
+"""Right-hand sides at many points: kept ways have the values of the integration, and nothing is expanded twice."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from build import parametrize
+
+import kovacic
+from kovacic.enclosure import jets
+from kovacic.views.plot import sample
+
+START = {"y0": 1, "dy0": "1/3"}
+
+
+@parametrize(
+    ("equation", "x0", "points"),
+    [
+        ("y'' + 10*y = sin(3*x)", 0, ["1/2", 3, -4, "77/10"]),
+        ("y'' + x*y = 1/(x + 1)", 0, [1, 2, 3, 4]),
+        ("x^2*y'' + x*y' + (x^2 - 4)*y = log(x)", 1, ["1/3", 2, 5, 9]),
+        ("y'' + y'/(x - 1) + a*y = a*exp(x)", 2, [2, 3, "3/2", 6]),
+        ("(x + 2)*y'' - y = x^3", 0, [-1, 1, "5/2", 4]),
+    ],
+    ordinary=2,
+)
+def test_values_on_kept_ways_are_those_of_the_integration(equation: str, x0: Any, points: list[Any]) -> None:
+    start = {"x0": x0, **START} | ({"params": {"a": "2/3"}} if "a*y" in equation else {})
+    ways = kovacic.evaluate(equation, points, digits=25, derivative=True, **start)
+    others = kovacic.evaluate(equation, points, digits=25, derivative=True, method="taylor", **start)
+    for pair, other in zip(ways, others, strict=True):
+        assert all(first.overlaps(second) for first, second in zip(pair, other, strict=True))
+        assert pair[0].digits >= 25
+
+
+def test_a_side_matters_only_where_a_singular_point_is_passed() -> None:
+    start = {"x0": 1, "path": "above", **START}
+    equation = "y'' + y/(4*x^2) = exp(x)"
+    together = kovacic.evaluate(equation, ["1/2", 2, 3, "5/2", -1], **start)
+    alone = [kovacic.evaluate(equation, x, method="taylor", **start) for x in ("1/2", 2, 3, "5/2", -1)]
+    assert all(first.overlaps(second) for first, second in zip(together, alone, strict=True))
+    assert abs(complex(together[-1]).imag) > 0.1
+
+
+@pytest.mark.parametrize("f", ["log(x)", "1/sqrt(x)", "sqrt(x)*log(x)", "exp(-1/x)", "sin(1/x)"])
+@pytest.mark.parametrize(("x0", "x"), [(0, 1), (1, 0)])
+def test_a_right_hand_side_without_a_value_at_an_end_is_refused_at_once(f: str, x0: int, x: int) -> None:
+    with pytest.raises(kovacic.InputError, match="no value at 0"):
+        kovacic.evaluate(f"y'' + y = {f}", x, x0=x0, **START)
+
+
+@pytest.mark.parametrize(("x0", "x"), [(0, "11/10"), (-1, "11/10"), (-1, 0), (-1, "1 + I")])
+@pytest.mark.parametrize("digits", [15, 40])
+def test_removable_singularities_of_right_hand_sides_are_none(x0: int, x: str, digits: int) -> None:
+    """y = sin(x)/x has y'' + y = (2 sin(x) - 2 x cos(x))/x^3."""
+    equation = "y'' + y = (2*sin(x) - 2*x*cos(x))/x^3"
+    y0, dy0 = ("1", "0") if x0 == 0 else ("sin(1)", "sin(1) - cos(1)")
+    value = kovacic.evaluate(equation, x, x0=x0, y0=y0, dy0=dy0, digits=digits)
+    exact = (
+        kovacic.Ball(1) if x == 0 else kovacic.evaluate("x*y'' + 2*y' + x*y = 0", x, x0=0, which="regular", digits=50)
+    )
+    assert value.overlaps(exact)
+    assert value.digits >= digits
+
+
+def test_a_right_hand_side_that_is_singular_at_the_start_is_integrated() -> None:
+    """y'' = sqrt(x) from 0: 4 x^(5/2)/15."""
+    found = kovacic.evaluate("y'' = sqrt(x)", [1, 4, 9, 16], x0=0, y0=0, dy0=0)
+    assert [float(value) for value in found] == pytest.approx([4 * x**2.5 / 15 for x in (1, 4, 9, 16)], rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "equation", ["y'' + 10*y = sin(3*x)", "y'' + (100 + cos(x))*y = 0", "y'' + 100*y = sqrt(x + 1)"]
+)
+def test_nothing_is_expanded_twice(equation: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever precision a value needs: near zeros of the solution it is higher."""
+    solution = kovacic.prepared(equation, x0=0, **START)
+    places = [Fraction(k, 64) for k in range(1, 400)]
+    solution(places)
+    made: list[object] = []
+    whole = jets.CoefficientField.jets
+
+    def counted(self: Any, *args: Any) -> Any:
+        made.append(args)
+        return whole(self, *args)
+
+    monkeypatch.setattr(jets.CoefficientField, "jets", counted)
+    for place in places[::7]:
+        solution(place)
+    assert not made
+
+
+def test_pictures_of_equations_with_a_right_hand_side_are_drawn_on_ways(monkeypatch: pytest.MonkeyPatch) -> None:
+    def integrated(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("kovacic.enclosure.forcing.Forcing.step", integrated)
+    curve = sample("y'' + 10*y = sin(3*x)", "7/5", "42/5", x0="49/10", y0="5/4", dy0="9/4")
+    assert len(curve.arcs) == 1
