@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from flint import acb, acb_poly, arb
 
-from kovacic.enclosure.frame import Parts, make_frame, shift
+from kovacic.enclosure.frame import GaussianParts, make_frame, shift
 from kovacic.enclosure.frobenius import Majorant
 from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System
@@ -19,11 +19,11 @@ from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_ra
 Gauss = tuple[int, int]
 
 
-def gaussian(parts: Parts) -> list[Gauss]:
+def gaussian(parts: GaussianParts) -> list[Gauss]:
     return [(int(a), int(b)) for a, b in zip(parts[0], parts[1] or [0] * len(parts[0]), strict=True)]
 
 
-def exact_defect(p: Parts, q: Parts, re: list[int], im: list[int] | None) -> int:
+def exact_defect(p: GaussianParts, q: GaussianParts, re: list[int], im: list[int] | None) -> int:
     """sum |r_n| for r = q Y'' - p Y, rounded down: the sum of floor |r_n|."""
     a = [(int(u), int(v)) for u, v in zip(re, im or [0] * len(re), strict=True)]
     second = [((n + 2) * (n + 1) * u, (n + 2) * (n + 1) * v) for n, (u, v) in enumerate(a[2:])]
@@ -43,7 +43,7 @@ def exact_defect(p: Parts, q: Parts, re: list[int], im: list[int] | None) -> int
 def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, start: int) -> None:
     """With positive coefficients all terms are, and rounded down they end in zeros: there is no other error, and it grows
     like n^3/6."""
-    parts: tuple[Parts, Parts] = (p, None), ([q_0], None)
+    parts: tuple[GaussianParts, GaussianParts] = (p, None), ([q_0], None)
     re, im = _recurrence(*parts, 1500, start, 1)
     assert len(re) > 100
     bound = _proven_defect(*parts, 0, re, im, 1)
@@ -64,7 +64,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
     ],
     ids=str,
 )
-def test_the_last_terms_are_counted(p: Parts, q: Parts, bits: int, start: int) -> None:
+def test_the_last_terms_are_counted(p: GaussianParts, q: GaussianParts, bits: int, start: int) -> None:
     """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""
     quiet = bits + 6
     re, im = _recurrence(p, q, 200, start, 1 << quiet)
@@ -81,8 +81,8 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
     """The terms satisfy the recurrence of the trimmed coefficients; the defect is meant for the whole ones."""
     excess, ones = 100, (1 << 100) - 1
     low_p, low_q = (ones, 0) if which == "p" else (0, ones)
-    p: Parts = [(3 << excess) + low_p] * 2, [(1 << excess) + low_p] * 2 if is_complex else None
-    q: Parts = [5 << excess, (1 << excess) + low_q], [0, (2 << excess) + low_q] if is_complex else None
+    p: GaussianParts = [(3 << excess) + low_p] * 2, [(1 << excess) + low_p] * 2 if is_complex else None
+    q: GaussianParts = [5 << excess, (1 << excess) + low_q], [0, (2 << excess) + low_q] if is_complex else None
     trimmed = _cut(p, excess), _cut(q, excess)
     re, im = _recurrence(*trimmed, 150, start, 1 << 8)
     exact = exact_defect(p, q, re, im)
