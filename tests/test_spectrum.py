@@ -340,7 +340,7 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out)["complete"] is True
     assert run([*arguments, "--latex"]) == 0
     assert r"\begin{aligned}" in capsys.readouterr().out
-    assert run(["spectrum", "x^4 + x^3"]) == 3
+    assert run(["spectrum", "x^2 + 1/(x^2 + 5)"]) == 3
 
 
 def test_a_box_has_the_levels_of_its_waves() -> None:
@@ -492,3 +492,36 @@ def test_the_sign_of_a_quotient_is_that_of_its_denominator() -> None:
     answer = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=(0, "oo"), assume={"Z": "positive"})
     n, l = sympy.symbols("n l")  # noqa: E741
     assert [levels.above for levels in answer.levels] == [(n > -l - 1,), (n > l,)]
+
+
+@parametrize(
+    ("V", "domain", "known"),
+    [
+        ("sqrt(x)", HALF, True),
+        ("sqrt(x)", (1, 4), True),
+        ("x^(-3/2)", HALF, True),
+        ("1/sqrt(x)", HALF, False),
+        ("x^(1/3)", ("-1", "oo"), None),
+        ("sqrt(x)", ("-oo", "oo"), None),
+        ("x^(3/2)", ("-oo", 2), None),
+        ("1/sqrt(x)", ("a", "oo"), None),
+    ],
+    ordinary=4,
+)
+def test_potentials_in_roots_of_x(V: str, domain: tuple[str | int, str | int], known: bool | None) -> None:
+    """No levels are known, but whether a closed form can be; a root has one meaning on one side of its branch point only."""
+    if known is None:
+        with pytest.raises(kovacic.InputError, match="branch point at x = 0"):
+            kovacic.spectrum(V, domain=domain)
+    else:
+        assert kovacic.spectrum(V, domain=domain).closed_forms_complete is known
+
+
+def test_powers_of_numbers_are_exponentials() -> None:
+    """b^x = exp(x log(b)): Morse's potential, whose levels are E_n = -(10 - (n + 1/2) |log(b)|)^2."""
+    for base, rate in (("2", sympy.log(2)), ("(1/3)", -sympy.log(3))):
+        found = kovacic.spectrum(f"{base}^(2*x) - 20*{base}^x")
+        assert found.complete
+        (levels,) = found.levels
+        expected = -((10 - (n + sympy.Rational(1, 2)) * abs(rate)) ** 2)
+        assert sympy.simplify(levels.energy - expected) == 0

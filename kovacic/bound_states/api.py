@@ -434,6 +434,7 @@ def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:
 def _in_real_variable(question: SpectralProblem) -> tuple[Any, Original, Any]:
     """V as a function of a real t, what t is, and t."""
     parsed, signs = question.parsed, question.signs
+    _check_branch_point(question)
     original = Original.of(parsed.equation, question.x, signs)
     t = sympy.Symbol(parsed.variable)
     terms = parsed.S.num.degree + parsed.S.den.degree
@@ -442,6 +443,23 @@ def _in_real_variable(question: SpectralProblem) -> tuple[Any, Original, Any]:
     V = potential_in_t(S, parsed.equation, original, question.E, t, signs)
     V, original = on_real_circle(V, original, t)
     return V, original, t
+
+
+def _check_branch_point(question: SpectralProblem) -> None:
+    """Raises `InputError` where V has a root of x, and the domain isn't known to be right of 0."""
+    equation = question.parsed.equation
+    if equation is None or equation.change is None:
+        return
+    t = read_expression(equation.change.expression)
+    is_root = t.is_Pow and t.base == sympy.Symbol(question.variable)
+    start = question.domain[0]
+    if is_root and (start.is_infinite or not question.signs.is_nonnegative(start)):
+        hint = "choose a domain on the right of it"
+        raise InputError(
+            f"the potential has a branch point at {question.variable} = 0, which may be inside the domain",
+            hint=f'{hint}: domain=(0, "oo")',
+            shell=f"{hint}: --from 0",
+        )
 
 
 def _on_periodic_line(question: SpectralProblem, V: Any, original: Original, t: Any) -> Spectrum:

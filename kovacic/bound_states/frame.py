@@ -27,6 +27,7 @@ from kovacic.limits import Budget
 from kovacic.parametric import riemann
 from kovacic.parametric.theorems import symmetries
 from kovacic.reading.symbolic import read_expression
+from kovacic.writing.formula import caret
 
 #: (dt/dtheta)^2 as a function of t, for t a function of theta = k x + c.
 SLOPES = {
@@ -59,8 +60,11 @@ class Original:
         if equation is None or equation.change is None:
             return cls(x)
         t = signs.real(read_expression(equation.change.expression)).xreplace({sympy.Symbol(x.name): x})
+        kind = t.func.__name__
+        if kind not in SLOPES:
+            raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
         theta = sympy.expand(t.args[0])
-        return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
+        return cls(x, kind, theta.coeff(x, 1), theta.coeff(x, 0))
 
     @property
     def is_circular(self) -> bool:

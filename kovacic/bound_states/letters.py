@@ -61,7 +61,7 @@ def _free_names(expression: Any) -> Iterator[str]:
 def assumed_of_letters(
     assume: Mapping[Any, Any] | None, letters: Sequence[tuple[str, Any]]
 ) -> Mapping[Any, Any] | None:
-    """What is assumed, with that of a letter for sqrt(a): it isn't negative, and positive where a is."""
+    """What is assumed, with that of a letter for log(2), a real number, or for sqrt(a): not negative, and positive where a is."""
     found = dict(assume or {})
     for letter, meaning in letters:
         base, exponent = meaning.as_base_exp()
@@ -69,6 +69,8 @@ def assumed_of_letters(
             own = next((key for key in found if str(key) == base.name), None)
             word = found.pop(own, "nonnegative") if own is not None else "nonnegative"
             found[letter] = "positive" if word in ("positive", ">0") else "nonnegative"
+        elif meaning.is_number and meaning.is_real:
+            found[letter] = "positive" if meaning.is_positive else "negative"
     return found if letters else assume
 
 

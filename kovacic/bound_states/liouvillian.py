@@ -7,6 +7,9 @@ parameters under which there is one, where they are proven to be complete, say w
 - there are no parameters, and E is a zero of one of finitely many polynomials: where each one with a real zero was found to
   give levels, these are all levels with a closed form;
 - each value is of case 1: then omega is rational, and each level with a closed form has a polynomial of some degree d.
+
+The conditions are asked for where all poles of V, in the variable of the equation, are in the field of the parameters: at others
+they may take minutes.
 """
 
 from __future__ import annotations
@@ -30,7 +33,7 @@ from kovacic.parametric.statements import Either, Statement, Vanishes
 
 def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limits: Limits) -> Spectrum:
     """The same spectrum, with what is proven of the levels that have a closed form, where the others aren't known."""
-    if found.complete or found.needs_boundary_condition:
+    if found.complete or found.needs_boundary_condition or not _has_rational_poles(parsed):
         return found
     conditions = _conditions(parsed, known, limits)
     if conditions is None:
@@ -44,6 +47,10 @@ def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limit
         reason = f"{shown}; each level with a closed form has a polynomial of some degree d: {conditions.theory}"
         return replace(found, reason=reason)
     return found
+
+
+def _has_rational_poles(parsed: Parsed) -> bool:
+    return all(factor.degree == 1 for factor, _ in parsed.S.field.factor(parsed.S.den))
 
 
 def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> ParametricAnswer | None:

@@ -51,7 +51,7 @@ def behaviour(expression: Expr, x: Expr, place: Approach) -> Expansion:
 
     >>> x = sympy.Symbol("x")
     >>> found = behaviour((1 - sympy.cos(x)) / x**2 + log(x), x, Approach(_ZERO))
-    >>> found.terms[CONSTANT], found.terms[Monomial(k=1)]
+    >>> found.terms[CONSTANT], found.terms[ExpansionTerm(k=1)]
     (1/2, 1)
     """
     t = sympy.Dummy("t", positive=True)

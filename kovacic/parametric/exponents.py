@@ -28,6 +28,8 @@ from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions
 
 #: The degree of the extension that the exponents may need, and singular points up to which all choices are tried.
 _DEGREE, _POINTS = 16, 8
+#: The degree of the extension that the singular points may need over a field with parameters: factoring there is slow.
+_POINTS_DEGREE = 2
 #: The degree of a hypersurface in its parameter up to which roots are looked for in its field: factoring there is slow.
 _SURFACE = 2
 
@@ -217,12 +219,12 @@ def _places(problem: Problem) -> _Places | None:
     """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
     if is_too_large(problem.field):
         return None
+    if sum(place.degree for place in _singular(problem)) > _POINTS:
+        return None
     split = _with_rational_points(problem)
     if split is None:
         return None
-    singular = [place for place in split.places if place.kind is not Kind.ORDINARY]
-    if len(singular) > _POINTS:
-        return None
+    singular = _singular(split)
     field = split.field
     roots: list[Poly] = []
     for place in singular:
@@ -236,20 +238,25 @@ def _places(problem: Problem) -> _Places | None:
     return _Places(split, field, parts)
 
 
+def _singular(problem: Problem) -> list[Place]:
+    return [place for place in problem.places if place.kind is not Kind.ORDINARY]
+
+
 def _with_rational_points(problem: Problem) -> Problem | None:
     """The same problem over an extension over which its singular points are rational; None where that is too large."""
     base = problem.field
+    most = _DEGREE if base.ground == QQ else _POINTS_DEGREE
     while True:
         factor = next((place.factor for place in problem.finite_places if place.degree > 1), None)
         if factor is None:
             return problem
         field = problem.field
+        if factor.degree * _degree_over(field, base) > most:
+            return None
         if factor.degree == 2:
             extension = _square_root(factor[1] * factor[1] - 4 * factor[0], field).field
         else:
             extension = AlgebraicField(field, factor, "point")
-        if _degree_over(extension, base) > _DEGREE:
-            return None
         S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
         problem = analyse(S, problem.budget)
 
