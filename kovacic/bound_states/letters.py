@@ -61,7 +61,7 @@ def _free_names(expression: Any) -> Iterator[str]:
 def assumed_of_letters(
     assume: Mapping[Any, Any] | None, letters: Sequence[tuple[str, Any]]
 ) -> Mapping[Any, Any] | None:
-    """What is assumed, with that of a letter for log(2), a real number, or for sqrt(a): not negative, and positive where a is."""
+    """What is assumed, and the sign of a letter for log(2), or for sqrt(a): not negative, and positive where a is."""
     found = dict(assume or {})
     for letter, meaning in letters:
         base, exponent = meaning.as_base_exp()

@@ -8,8 +8,8 @@ parameters under which there is one, where they are proven to be complete, say w
   give levels, these are all levels with a closed form;
 - each value is of case 1: then omega is rational, and each level with a closed form has a polynomial of some degree d.
 
-The conditions are asked for where all poles of V, in the variable of the equation, are in the field of the parameters: at others
-they may take minutes.
+The conditions are asked for where all poles of V, in the variable of the equation, are in the field of the parameters: at
+others they may take minutes.
 """
 
 from __future__ import annotations
