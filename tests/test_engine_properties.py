@@ -18,7 +18,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Poly, RatFunc, parametrize
+from build import QQ, AlgebraicField, Poly, RatFunc, function, parametrize
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -132,6 +132,22 @@ def test_no_wrong_answer_in_the_long_run(family: str) -> None:
         check(example)
 
     run()
+
+
+@parametrize("p", ["x^2 + 1", "x^2 - x + 3", "x^3 - 2", "x^4 + 1", "x^4 - 2", "x^4 + x + 1"], ordinary=2)
+@pytest.mark.parametrize("m", [2, 3, 5, -1, -6])
+def test_conjugate_places_with_one_irrational_exponent(p: str, m: int) -> None:
+    """b = (m - 1)/4 at each root of p: exponents (1 +- sqrt(m))/2 that aren't rational over its field, of whatever norm.
+
+    At infinity there is room for zeros; that no solution has as many as are left is an irrational exponent all the same.
+    """
+    factor = function(p)
+    slope = factor.derivative()
+    poles = (slope * slope - factor * slope.derivative()) / (factor * factor) * Fraction(m - 1, 4)
+    for E in range(1, 14, 2):
+        answer = solve(function(f"x^2 + {E}") + poles)
+        assert answer.verified
+        assert answer.case is None
 
 
 @pytest.mark.long
