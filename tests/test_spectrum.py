@@ -68,7 +68,8 @@ def check(row: Solvable) -> None:
                 max(a, -8.0 if "exp(-" in row.V else -40.0),
                 min(b, 40.0 if "h(" in row.V or "exp" in row.V else 200.0),
             )
-            assert abs(integral / complex(sympy.N(levels.norm.subs({**at, n: state.number}))) - 1) < 1e-9
+            (index,) = sympy.solve(levels.zeros - state.zeros, n)
+            assert abs(integral / complex(sympy.N(levels.norm.subs({**at, n: index}))) - 1) < 1e-9
 
 
 @pytest.mark.long
@@ -525,3 +526,62 @@ def test_powers_of_numbers_are_exponentials() -> None:
         (levels,) = found.levels
         expected = -((10 - (n + sympy.Rational(1, 2)) * abs(rate)) ** 2)
         assert sympy.simplify(levels.energy - expected) == 0
+
+
+@pytest.mark.parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"])
+@pytest.mark.parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))])
+def test_two_solutions_at_an_end(nu: str, base: str, domain: tuple[object, object]) -> None:
+    """They are sqrt(x) and sqrt(x)*log(x) where the exponents agree, real inside the domain, and solve the equation there."""
+    found = kovacic.spectrum(f"(({nu})^2 - 1/4)/{base}^2 + {base}^2", domain=domain, boundary="friedrichs")
+    (sentence,) = (end for end in found.ends if "y ~ " in end)
+    first, second = (
+        read_expression(text)
+        for text in sentence.partition("y ~ ")[2].rpartition(", ")[0].partition(",")[0].split(" or ")
+    )
+    strength = read_expression(f"(({nu})^2 - 1/4)/{base}^2")
+    inside = sympy.Rational(5, 2) if domain == HALF else 4 if domain[0] == 3 else -1
+    for y in (first, second):
+        assert sympy.simplify(sympy.diff(y, x, 2) - strength * y) == 0
+        assert y.subs(x, inside).is_real
+    assert sympy.simplify(first / second).has(x)
+
+
+@parametrize(
+    ("kind", "degrees"),
+    [
+        ("nonnegative integer", (0, 2)),
+        ("half-integer", (1,)),
+        ("even", (0,)),
+        ("odd", (2,)),
+        ("noninteger", (1,)),
+        ("irrational", ()),
+        (">=1/2", (1, 2)),
+        ("integer", (0, 2)),
+    ],
+    ordinary=2,
+)
+def test_levels_by_degree_are_those_that_the_assumptions_admit(kind: str, degrees: tuple[int, ...]) -> None:
+    """V has levels with a polynomial of degree d for m = d/2."""
+    found = kovacic.spectrum("x^6 + 2*a*x^4 + (a^2 - 4*m - 3)*x^2", assume={"m": kind})
+    assert tuple(one.degree for one in found.algebraic) == degrees
+
+
+@parametrize("row", [row for row in TABLE + MORE if row.name not in LONG], ordinary=1, ids=lambda row: row.name)
+def test_a_norm_has_each_number_once(row: Solvable) -> None:
+    """Not 2^A*2^n/2^(3*n), and no quotient of Gamma functions that differ by an integer: gamma(n + 1)/factorial(n)."""
+    for levels in spectrum_of(row).levels:
+        if levels.norm is None:
+            continue
+        factors = [part.as_base_exp() for part in sympy.Mul.make_args(levels.norm)]
+        numbers = [base for base, exponent in factors if base.is_number and exponent.free_symbols]
+        assert len(numbers) == len({*numbers})
+        gammas = [base.args[0] for base, _ in factors if base.func == sympy.gamma]
+        gammas += [base.args[0] + 1 for base, _ in factors if base.func == sympy.factorial]
+        assert not any((a - b).is_Integer for k, a in enumerate(gammas) for b in gammas[:k])
+
+
+def test_where_no_condition_is_distinguished_none_is_proposed() -> None:
+    found = kovacic.spectrum("-1/x^2", domain=HALF, boundary="friedrichs")
+    with pytest.raises(kovacic.InputError) as refused:
+        found.states()
+    assert "friedrichs" not in str(refused.value)

@@ -164,7 +164,8 @@ class Spectrum:
         at = self._symbols_at(values or {})
         for relation in self.excluded:
             if _is_true(relation, at):
-                raise InputError("both solutions are square integrable at an end", hint='boundary="friedrichs"')
+                hint = "no boundary condition is distinguished" if self.boundary else 'boundary="friedrichs"'
+                raise InputError("both solutions are square integrable at an end", hint=hint)
         found: dict[Any, BoundState] = {}
         for levels in self.levels:
             for state in _states_of(levels, at, count):

@@ -129,11 +129,14 @@ def _angles(kind: str, point: Any, ends: list[Any]) -> list[Any]:
 def end_of(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs, *, is_right: bool) -> End:
     """An end of the domain; the potential is a function of t."""
     other, at = domain if is_right else domain[::-1]
-    point, mu, direction, end = _end_of(V, original, at, other, t, signs)
+    distance = at - original.x if is_right else original.x - at
+    point, mu, direction, end = _end_of(V, original, at, other, distance, t, signs)
     return replace(end, domain=domain, is_right=is_right, point=point, mu=mu, direction=direction)
 
 
-def _end_of(V: Any, original: Original, at: Any, other: Any, t: Any, signs: Signs) -> tuple[Any, int, int, End]:
+def _end_of(
+    V: Any, original: Original, at: Any, other: Any, distance: Any, t: Any, signs: Signs
+) -> tuple[Any, int, int, End]:
     point = original.at(at, signs)
     u = sympy.Dummy("u")
     value = 1 / u if point == sympy.oo else point + u
@@ -148,7 +151,7 @@ def _end_of(V: Any, original: Original, at: Any, other: Any, t: Any, signs: Sign
     elif -order > 2 - mu:
         end = _irregular(at, original, inside, signs)
     else:
-        end = _finite(at, original, mu, -order, strength, slope, u, signs)
+        end = _finite(at, original, distance, mu, -order, strength, slope, u, signs)
     return point, mu, direction, end
 
 
@@ -220,7 +223,9 @@ def _irregular(at: Any, original: Original, strength: Any, signs: Signs) -> End:
     return End(at, sympy.Lt(strength, 0), f"{where}: one solution decays where {caret(as_text(strength))} > 0", True)
 
 
-def _finite(at: Any, original: Original, mu: int, j: int, strength: Any, slope: Any, u: Any, signs: Signs) -> End:
+def _finite(
+    at: Any, original: Original, distance: Any, mu: int, j: int, strength: Any, slope: Any, u: Any, signs: Signs
+) -> End:
     where = f"{original.x} -> {caret(as_text(at))}"
     if mu >= 2:
         raise Uncovered(f"the coordinate isn't regular at {where}")
@@ -234,17 +239,13 @@ def _finite(at: Any, original: Original, mu: int, j: int, strength: Any, slope: 
     circle = _less_than_1(square, signs)
     known = signs.holds(circle)
     if known is False:
-        return End(at, False, f"{where}: y ~ {_power(at, original.x, square)}, the smaller one is square integrable")
+        return End(at, False, f"{where}: y ~ {_powers(distance, square)}, the smaller one is square integrable")
     negative = signs.is_nonnegative(square) is False
     if negative:
-        return End(
-            at,
-            True,
-            f"{where}: V ~ -c/(x - a)^2 with c > 1/4, the solutions oscillate (limit circle)",
-            True,
-        )
-    said = f"y ~ {_power(at, original.x, square)}, both are square integrable (limit circle)"
-    where_circle = "" if known else f" where {_relation(circle)}"
+        shown = caret(as_text(-sympy.Symbol("c") / distance**2))
+        return End(at, True, f"{where}: V ~ {shown} with c > 1/4, the solutions oscillate (limit circle)", True)
+    said = f"y ~ {_powers(distance, square)}, both are square integrable (limit circle)"
+    where_circle = "" if known else f" where {_relation(tidied([circle], signs)[0])}"
     is_ordinary = square == sympy.Rational(1, 4)
     return End(at, True if known else circle, f"{where}: {said}{where_circle}", is_ordinary=is_ordinary)
 
@@ -265,11 +266,12 @@ def _relation(relation: Any) -> str:
     return f"{caret(as_text(relation.lhs))} {relation.rel_op} {caret(as_text(relation.rhs))}"
 
 
-def _power(at: Any, x: Any, square: Any) -> str:
+def _powers(distance: Any, square: Any) -> str:
+    """How the two solutions behave at a distance from an end where the exponents are 1/2 +- nu."""
     root = exact_root(square)
     nu = sympy.sqrt(square) if root is None else root
-    base = x - at
     if square == sympy.Rational(1, 4):
-        return f"{caret(as_text(base))} or 1"
-    first, second = (caret(as_text(base ** sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)))) for s in (1, -1))
-    return f"{first} or {second}"
+        return f"{caret(as_text(distance))} or 1"
+    exponents = (sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)) for s in (1, -1))
+    first, second = (caret(as_text(distance**exponent)) for exponent in exponents)
+    return f"{first} or {second}" if square != 0 else f"{first} or {second}*log({caret(as_text(distance))})"

@@ -120,12 +120,15 @@ def _of_degree(
         surface = hypersurface(factor)
         if surface.curve is not None:
             continue
-        bounds = []
-        for name, value in zip(surface.names, surface.values, strict=True):
-            expression = demands.signs.real(value.to_sympy(sympy.Dummy("x")))
-            if str(expression) != name:
-                bounds += demands.signs.bounds_of(name, expression)
-        yield factor, surface.restricted(S), bounds
+        signs = demands.signs
+        values = {
+            name: signs.real(v.to_sympy(sympy.Dummy("x")))
+            for name, v in zip(surface.names, surface.values, strict=True)
+        }
+        eliminated = {name: value for name, value in values.items() if str(value) != name}
+        if all(signs.admits(name, value) for name, value in eliminated.items()):
+            bounds = [bound for name, value in eliminated.items() for bound in signs.bounds_of(name, value)]
+            yield factor, surface.restricted(S), bounds
 
 
 def _decay(choice: Exponents, end: End, demands: Ends) -> list[Any]:

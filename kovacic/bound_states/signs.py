@@ -6,6 +6,7 @@ A parameter with a bound, l >= 1/2, is written 1/2 + s with s >= 0, so that SymP
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from itertools import product
 from typing import Any
 
@@ -19,6 +20,7 @@ class Signs:
 
     def __init__(self, known: Assumptions, names: Iterable[str]) -> None:
         found = known.symbols()
+        self._known_of = known.of
         self.symbols = {name: _real(name, found.get(name)) for name in names}
         #: The number of a level.
         self.n = sympy.Dummy("n", integer=True, nonnegative=True)
@@ -37,6 +39,14 @@ class Signs:
             difference = bound.sign * (expression - sympy.Rational(bound.end.numerator, bound.end.denominator))
             found.append(sympy.Gt(difference, 0) if bound.strict else sympy.Ge(difference, 0))
         return found
+
+    def admits(self, name: str, expression: Any) -> bool:
+        """May the expression be the value of the parameter, which is an integer, say?  False where it can't be."""
+        coset = self._known_of(name).coset
+        if coset is not None and expression.is_Rational:
+            return bool(coset.contains(Fraction(int(expression.p), int(expression.q))))
+        facts = self.symbols[name].assumptions0
+        return all(getattr(expression, f"is_{fact}", None) in (None, value) for fact, value in facts.items())
 
     def holds(self, relation: Any) -> bool | None:
         """Is the relation true for all values, false for all values, or neither of these as far as is known?

@@ -252,11 +252,21 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, si
 
 
 def _tidy(norm: Any) -> Any:
+    """The shorter one of the norm as it is, and with quotients of Gamma functions simplified."""
+    simplified = sympy.gammasimp(norm).replace(
+        lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
+    )
+    return min((_shortened(norm), _shortened(simplified)), key=lambda e: len(str(e)))
+
+
+def _shortened(norm: Any) -> Any:
     """With short arguments of the Gamma functions, and short exponents."""
     written = norm.replace(
         lambda e: e.func in (sympy.gamma, sympy.exp), lambda e: e.func(shortest(sympy.together(e.args[0])))
     )
-    written = sympy.powsimp(written)
-    return written.replace(
-        lambda e: e.is_Pow and not e.exp.is_number, lambda e: e.base ** shortest(sympy.together(e.exp))
-    ).replace(lambda e: e.is_Add and e.has(sympy.Dummy), lambda e: shortest(e))
+    written = written.replace(lambda e: e.is_Add and e.has(sympy.Dummy), lambda e: shortest(e))
+    for _ in range(2):  # short exponents of one base are added up
+        written = sympy.powsimp(written).replace(
+            lambda e: e.is_Pow and not e.exp.is_number, lambda e: e.base ** shortest(sympy.together(e.exp))
+        )
+    return written
