@@ -20,6 +20,7 @@ from kovacic.reading.expression import parse_with
 from kovacic.reading.lexer import tokenize
 from kovacic.reading.notation import plain
 from kovacic.reading.parser import Site, evaluate
+from kovacic.reading.pasted import unwrapped
 from kovacic.reading.symbolic import read_expression
 
 # Far from every root that the small numbers of the strategies produce.
@@ -101,7 +102,7 @@ PIECES = [
 def test_garbage_is_refused_with_a_position_or_read(text: str) -> None:
     outcome = outcome_of(text, Limits(exponent=200, degree=500, bits=20_000, digits=50))
     if isinstance(outcome, InputError):
-        assert outcome.text == text or outcome.text == plain(text).text
+        assert outcome.text == text or outcome.text == plain(unwrapped(text).text).text
         assert outcome.position is not None
         assert 0 <= outcome.position <= len(outcome.text)
         assert outcome.message in str(outcome)
@@ -397,9 +398,8 @@ REFUSED = [
     ("(x+1)2", ParseError, 4, "operator is missing"),
     ("x(x+1)", NotRational, 0, "write x*(x+1)"),
     ("x!", ParseError, 1, "unexpected character '!'"),
-    ("½x", ParseError, 0, "digits 0 to 9"),
-    ("[x]", ParseError, 0, "round parentheses"),
-    ("1,5*x", ParseError, 1, "point"),
+    ("3½x", ParseError, 1, "digits 0 to 9"),
+    ("1,5*x", ParseError, 0, "point"),
     ("1_000", ParseError, 1, "grouped"),
     ("2e-3*e", ParseError, 0, "2*e - 3"),
     ("1.2.3", ParseError, 0, "operator is missing"),
@@ -691,7 +691,7 @@ WRONG = [
     "y'' + y*z'' = 0",
     "y'' = foo(x)*y",
     "gama(x)",
-    "sin x",
+    "sin x y",
     "sinx",
     "Sin(x)",
     "EXP(x)",
@@ -706,9 +706,9 @@ WRONG = [
     "x < 2",
     "90°",
     "x°",
-    "$x^2$",
+    "$x^2",
     "{x}",
-    "[x]",
+    "[x",
     "x^-",
     "x^x",
     "0^0",
@@ -731,7 +731,7 @@ WRONG = [
     "x^2 % 3",
     "x!",
     "|x|",
-    "√x",
+    "∛x",
     "∞",
     "pi*x*y",
     "I*x+oo",
@@ -758,7 +758,7 @@ WRONG = [
     "y''+1.2.3*y",
     "1_000",
     "x·y",
-    "½",
+    "3½",
     "1/2x",
     "1/2(x+1)",
     "x/2x",

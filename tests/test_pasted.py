@@ -5,7 +5,10 @@ Each equation is written in every notation from its coefficients, by SymPy's pri
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,6 +16,8 @@ import sympy
 from build import parametrize
 
 import kovacic
+from kovacic.general_solution.question import apart, read_question
+from kovacic.limits import DEFAULT_LIMITS
 from kovacic.reading.notation import plain
 from kovacic.reading.read import read_input
 
@@ -193,13 +198,43 @@ def test_what_is_not_read_is_refused_with_a_hint_that_works(text: str, hint: str
 
 @parametrize(
     "piece",
-    ["d/dx(", r"\frac{", "d^2y/dx^2 + ", "x$", "y(x).diff(x)", "D(", "'", "a", " ", "[", "{", "d", "_{"],
-    ordinary=1,
+    [
+        "d/dx(",
+        r"\frac{",
+        "d^2y/dx^2 + ",
+        "x$",
+        "y(x).diff(x)",
+        "D(",
+        "'",
+        "a",
+        " ",
+        "[",
+        "{",
+        "d",
+        "_{",
+        "|",
+        "√",
+        "½",
+        ")'",
+        "sin^2(",
+        "sin x ",
+        r"\sin k ",
+        r"\sin",
+        r"\dot",
+        "^",
+        r"\operatorname{",
+        r"y{\left(x\right)}",
+        "y_xx ",
+        "\n",
+        "dsolve(",
+    ],
+    ordinary=3,
 )
 def test_rewriting_takes_linear_time(piece: str) -> None:
     """Counted in characters of the result, and by ending at all: each piece 20,000 times in a row."""
     try:
         found = plain(piece * 20_000 + "\\,$")
+        apart(piece * 20_000, None)
     except kovacic.InputError:
         return
     assert len(found.text) < 40 * 20_000 * len(piece) + 100
@@ -297,3 +332,107 @@ def test_riccati_equations_in_any_notation(text: str) -> None:
 def test_infinity_has_many_names(infinity: str) -> None:
     assert kovacic.dsolve(f"y'' - y = 0, y(0) = 1, y({infinity}) = 0").rhs == sympy.exp(-x)
     assert kovacic.dsolve("y'' - y = 0, y(0) = 1, y(-infinity) = 0").rhs == sympy.exp(x)
+
+
+PASTED = [
+    json.loads(line) for line in (Path(__file__).parent / "data" / "pasted.jsonl").read_text("utf-8").splitlines()
+]
+#: Greek letters as they are written in texts, and by their names.
+GREEK_NAMES = {"ν": "nu", "ω": "omega", "ω_0": "omega_0", "λ": "lambda", "θ": "theta", "ψ": "psi"}
+#: What isn't a symbol in a meaning.
+KNOWN = [
+    "Abs",
+    "DiracDelta",
+    "Heaviside",
+    "I",
+    "Rational",
+    "acos",
+    "asin",
+    "atan",
+    "cos",
+    "cosh",
+    "exp",
+    "log",
+    "pi",
+    "sec",
+    "sin",
+    "sinh",
+    "sqrt",
+    "tan",
+]
+
+
+def meant(text: str) -> Any:
+    """The expression that a text of SymPy's means; all names are symbols but those of `KNOWN`."""
+    text = text.replace("lambda", "lambda_")  # a word of Python's
+    names = {name: sympy.Symbol(GREEK_NAMES.get(name, name)) for name in re.findall(r"[^\W\d]\w*", text)}
+    symbols = {name: symbol for name, symbol in names.items() if name not in KNOWN}
+    return sympy.sympify(text, locals=symbols).subs("lambda_", sympy.Symbol("lambda"))
+
+
+@parametrize("row", PASTED, ordinary=60, ids=[row["text"] for row in PASTED])
+def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
+    """The coefficients of an equation, its right-hand side, its variable and its values are those that a reader finds."""
+    question = read_question(row["text"], None, None, None, DEFAULT_LIMITS)
+    equation = question.given
+    argument = sympy.Symbol(row["variable"])
+    assert str(question.x) == row["variable"]
+    values = [condition.text.replace(" ", "").replace("π", "pi") for condition in question.conditions]
+    assert values == row["values"]
+    a, b, c, f = (meant(part) for part in row["equation"])
+    if equation.change is not None:
+        return
+    A, B, C, F = (meant(part.to_str()).subs(x, argument) for part in (equation.a, equation.b, equation.c, equation.f))
+    F += 0 if equation.h is None else meant(str(question.own(equation.h)))
+    for found, expected in ((A * b, a * B), (A * c, a * C), (A * f, a * F)):
+        assert sympy.simplify(found - expected) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "written", "typed"),
+    [
+        ("y'' + 2.5*y = e^2x", "e^2x", "e^(2*x)"),
+        ("y'' + y = e^at", "at", "(a*t)"),
+        ("y'' + y = sin(wt)", "wt", "w*t"),
+        ("(1-x^2)y'' - 2xy' + n(n+1)y = 0", "xy'", "x*y'"),
+        ("y'' = 1,5*y", "1,5", "1.5"),
+        ("y'' - 2y' + y = xe^x", "xe", "x*e"),
+        ("y'' + y = u(t-1)", "u(t-1)", "heaviside(t-1)"),
+        ("y'' + 3y' + 2y = δ(t)", "δ(t)", "dirac(t)"),
+        ("y'' = 3⁄4 y", "3⁄4 y", "(3/4)*y"),
+        ("solve y'' + x*y = 0", "solve ", ""),
+        ("y'' + x*y = 0 given y(0) = 1", " given", ","),
+        ("y''+4y=0 (y(0)=1)", " (y(0)=1)", ", y(0)=1"),
+        (
+            "desolve(diff(y,x,2) + y == 0, y, ivar=x)",
+            "desolve(diff(y,x,2) + y == 0, y, ivar=x)",
+            "diff(y,x,2) + y == 0",
+        ),
+        ("dsolve(y(x).diff(x,2)+y(x), hint='best')", "dsolve(y(x).diff(x,2)+y(x), hint='best')", "y(x).diff(x,2)+y(x)"),
+        ("D^2y + 3Dy + 2y = 0", "D^2y + 3Dy", "y'' + 3y'"),
+        (r"y'' + a_{n+1} y = \cos x", "_{n+1}", "_{n1}"),
+    ],
+)
+def test_what_can_be_read_in_two_ways_is_refused_with_what_to_type(text: str, written: str, typed: str) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        read_question(text, None, None, None, DEFAULT_LIMITS)
+    assert refused.value.hint
+    read_question(text.replace(written, typed), None, None, None, DEFAULT_LIMITS)
+
+
+def test_the_imaginary_unit_is_a_capital_letter_which_is_said() -> None:
+    assert any("the imaginary unit is I" in said for said in read_input("y'' + (x + i)*y = 0").notices)
+
+
+def test_command_and_values_are_read_in_one_way_with_values_apart() -> None:
+    """DSolve and dsolve with values, pasted whole, give what the equation and its values give."""
+    expected = kovacic.dsolve("y'' + y = 0, y(0) = 1, y'(0) = 2")
+    for text in (
+        "DSolve[{y''[x] + y[x] == 0, y[0] == 1, y'[0] == 2}, y[x], x]",
+        "dsolve({diff(y(x), x, x) + y(x) = 0, y(0) = 1, D(y)(0) = 2}, y(x));",
+        "dsolve(Eq(y(x).diff(x, 2) + y(x), 0), ics={y(0): 1, y(x).diff(x).subs(x, 0): 2})",
+        "dsolve('D2y = -y', 'y(0)=1', 'Dy(0)=2', 'x')",
+        r"\begin{cases} y''+y=0 \\ y(0)=1 \\ y'(0)=2 \end{cases}",
+    ):
+        assert kovacic.dsolve(text) == expected
+    assert kovacic.dsolve("y'' + y = 0", ics="y(0) = 1, D(y)(0) = 2") == expected

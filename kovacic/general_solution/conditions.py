@@ -18,6 +18,7 @@ from kovacic.errors import InputError
 from kovacic.exact import exact_real, exact_text, is_complex
 from kovacic.numerals import plain_text
 from kovacic.reading.parser import listed
+from kovacic.reading.pasted import plain_values
 
 Expr = Any  # SymPy publishes no types
 #: The word that stands for a value.
@@ -59,7 +60,8 @@ def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
     if not isinstance(ics, str):
         return dict(ics or {})
     found: dict[Any, Any] = {}
-    for part in listed(ics) if ics.strip() else ():
+    given = [value for part in listed(ics) for value in plain_values(part)] if ics.strip() else []
+    for part in given:
         place, separator, value = (piece.strip() for piece in part.partition("="))
         if not (separator and place and value) or place in found:
             raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')

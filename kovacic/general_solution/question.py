@@ -21,8 +21,8 @@ from kovacic.general_solution.conditions import Condition, ConditionReader, as_m
 from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.reading.notation import plain
 from kovacic.reading.parser import listed
+from kovacic.reading.pasted import plain_values, unwrapped, without_spacing
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import function_of, functions_in
 
@@ -110,36 +110,35 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
 
 #: y(0) = 1, y'(pi) = 0: what stands behind an equation in one text with it.
 _VALUE = re.compile(r"\w+['’′″]*\s*\([^=]*\)\s*=")
+#: The words that stand between an equation and its values.
+_WORDS = re.compile(
+    r"(?<![\s,])[\s,]+(?:(?:and|with|where|subject to)\s+)?(?=\w+['’′″´`]*\s?[(\[][^()\[\]=]*[)\]]\s?=)"
+)
+
+
+def _comma(found: re.Match[str]) -> str:
+    """A comma for a word, or the end of a line, between an equation and its values."""
+    return ", " if found[0].strip(" ,") or "," in found[0] else found[0]
 
 
 def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
     if not isinstance(eq, str):
         return eq, ics
-    equation, *values = listed(eq.replace("$", " ") if eq.lstrip().startswith("$") else eq.replace(";", ","))
-    values = [_plain_value(value) for value in values if value.strip()]
-    if not values or not all(_VALUE.match(value) for value in values):
+    whole = _WORDS.sub(_comma, without_spacing(unwrapped(eq).text))
+    equation, *parts = listed(whole.replace("$", " ") if whole.lstrip().startswith("$") else whole.replace(";", ","))
+    values = [value for part in parts if part.strip() for value in plain_values(part)]
+    are_values = [_VALUE.match(value) is not None for value in values]
+    if not any(are_values):
         return eq, ics
+    if not all(are_values):
+        wrong = values[are_values.index(False)]
+        raise InputError(
+            f"{wrong} behind the equation isn't a value", hint="write y(0) = 1, y'(0) = 1/2 or 0.5, with commas between"
+        )
     if ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
     return equation, ", ".join(values)
-
-
-def _plain_value(text: str) -> str:
-    """y'(pi) = 0 for \\dot{y}(\\pi) = 0: a value may be in LaTeX, as its equation is."""
-    if "\\" not in text and "^{" not in text:
-        return text
-    text = re.sub(r"\\(?:quad|qquad|,|;|:|!)", " ", text)
-    text = re.sub(r"\\(d?)dot\s*\{?\s*(\w)\s*\}?", lambda found: found[2] + ("''" if found[1] else "'"), text)
-    text = re.sub(r"\^\s*\{?\s*\\prime\s*\}?", "'", text)
-    parts = _LATEX_VALUE.match(text)
-    if parts is None:
-        return text
-    return f"{parts['function']}({plain(parts['point']).text}) = {plain(parts['value']).text}"
-
-
-#: y'(a) = b, with LaTeX in a and b alone.
-_LATEX_VALUE = re.compile(r"\s*(?P<function>\w+'*)\s*\((?P<point>[^=]*)\)\s*=(?P<value>.*)", re.DOTALL)
 
 
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:

@@ -71,6 +71,8 @@ class EquationReader(RationalReader):
                 f"an equation of second order is expected, and this one {what}",
                 f"for example {y}'' = (x^2 + 3) {y}",
             )
+            if "D" in self.constants.parameters:
+                hint = f"D isn't read as an operator: write {y}' for D {y}, and {y}'' for D^2 {y}"
             place = {} if text is None else {"text": text, "position": 0, "length": len(text)}
             raise NotLinear(said, hint=hint, **place)  # type: ignore[arg-type]
         h = None
@@ -166,7 +168,13 @@ class EquationReader(RationalReader):
                 raise NotLinear(f"{self.unknown} is a function of {self.variable} alone")
             if not self._is_variable(arguments[0]):
                 beside = f"{site.text()} beside {self.unknown}({self.variable})"
-                raise NotLinear(f"{beside}: the argument is another one, as with delays")
+                hint = f"values follow the equation after commas: {self.unknown}'' + {self.unknown} = 0, {self.unknown}(0) = 1"
+                raise NotLinear(
+                    f"{beside}: the argument is another one, as with delays",
+                    hint=hint
+                    if is_rational(arguments[0]) and self.arithmetic.number(arguments[0]) is not None
+                    else None,
+                )
             return _derivative_of_unknown(_order_of(head[len(bare) :]))
         if head in DERIVATIVES:
             return self._differentiated(arguments)

@@ -26,6 +26,8 @@ _SHOWN_DECIMALS = 3
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
 _FUNCTIONS = frozenset({*FUNCTION_NAMES, *ROOTS})
 _LARGEST_INDEX = 100
+#: Names that steps and impulses have elsewhere.
+_STEPS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
 
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
 
@@ -174,6 +176,8 @@ def usage(name: str) -> str:
         return "roots are those of numbers: sqrt(2), cbrt(2), root(2, 5)"
     if name in FUNCTION_NAMES:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
+    if name in _STEPS:
+        return f"for a product write {name}*(...), for a step heaviside(...), for an impulse dirac(...)"
     known = ", ".join(sorted(FUNCTION_NAMES))
     return f"for a product write {name}*(...); the functions are {known}, of one argument"
 

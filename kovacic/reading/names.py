@@ -28,6 +28,8 @@ FUNCTION_NAMES |= {
     "heaviside": "Heaviside",
     "dirac": "DiracDelta",
     "abs": "Abs",
+    "Abs": "Abs",
+    "sgn": "sign",
     "sign": "sign",
     "Gamma": "gamma",
 }  # gamma(...) may be a product

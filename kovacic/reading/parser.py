@@ -29,6 +29,8 @@ _OPERANDS = frozenset({"NUMBER", "NAME", "PRIMED", "HEAD", "LPAR"})
 _OPERATORS = (*_BINARY, "CIRCUMFLEX")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
+#: So many digits form a group in 1,000.
+_GROUPED = 3
 _SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 
 
@@ -395,18 +397,22 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
 
 
 def _are_apart(tokens: Tokens, left: int, right: int) -> bool:
-    """Are these a letter and another letter or a call, with a space between: a x, a sin(x)?"""
+    """Are these a letter and another letter or a call, with a space between: a x, a sin(x); or a factor before parentheses?"""
+    if (
+        tokens.kinds[left] == "NAME" and tokens.kinds[right] == "LPAR"
+    ):  # `source` has found that the name is no function
+        return True
     if tokens.kinds[left] != "NAME" or tokens.kinds[right] not in ("NAME", "HEAD"):
         return False
-    if tokens.ends[left] == tokens.starts[right] or not _is_letter(tokens.pieces[left]):
+    if tokens.ends[left] == tokens.starts[right] or not is_letter(tokens.pieces[left]):
         return False
-    return _is_letter(tokens.pieces[right]) or tokens.pieces[right] in FUNCTION_NAMES
+    return is_letter(tokens.pieces[right]) or tokens.pieces[right] in FUNCTION_NAMES
 
 
-def _is_letter(name: str) -> bool:
-    """x, x1, omega, omega_0; not a word."""
-    bare = name.rstrip("0123456789").rstrip("_")
-    return len(bare) == 1 or bare in GREEK
+def is_letter(name: str) -> bool:
+    """x, x1, omega, omega_0, k_x; not a word."""
+    bare = name.partition("_")[0].rstrip("0123456789")
+    return len(bare) == 1 or bare in GREEK or bare == "pi"
 
 
 def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError:
@@ -446,23 +452,28 @@ def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
         hint = "write the number or name that belongs there"
     elif kind == "COMMA":
         message, hint = "a comma doesn't belong here", "decimals are written with a point, and one expression is one S"
-        if "EQUAL" in tokens.kinds[:k]:
+        if before == kinds[k + 1] == "NUMBER" and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
+            whole, digits = tokens.pieces[k - 1], tokens.pieces[k + 1]
+            first, hint = k - 1, f"decimals are written with a point: {whole}.{digits}"
+            if len(digits) == _GROUPED:
+                hint += f"; digits aren't grouped: {whole}{digits}"
+        elif "EQUAL" in tokens.kinds[:k]:
             hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
     elif kind == "EQUAL":
         hint = "an equation has one equals sign, outside all parentheses"
     return tokens.error(ParseError, message, first, k + 1, hint=hint)
 
 
-def listed(text: str) -> list[str]:
+def listed(text: str, opening: str = "(", closing: str = ")") -> list[str]:
     """The parts between commas, those within parentheses apart."""
-    parts, depth = [""], 0
-    for character in text:
-        depth += {"(": 1, ")": -1}.get(character, 0)
+    parts: list[str] = []
+    start = depth = 0
+    for k, character in enumerate(text):
+        depth += (character in opening) - (character in closing)
         if character == "," and depth == 0:
-            parts.append("")
-        else:
-            parts[-1] += character
-    return [part.strip() for part in parts]
+            parts.append(text[start:k].strip())
+            start = k + 1
+    return [*parts, text[start:].strip()]
 
 
 def shown(value: Any, width: int = 40) -> str:

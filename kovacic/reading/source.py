@@ -6,6 +6,7 @@ given -> `Source`, which can be walked -> a reader, which calculates -> `Parsed`
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -18,7 +19,8 @@ from kovacic.reading.expression import RationalReader, as_function
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, check_length, is_equation, tokens_of
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 from kovacic.reading.notation import GREEK, plain
-from kovacic.reading.parser import evaluate
+from kovacic.reading.parser import evaluate, is_letter
+from kovacic.reading.pasted import unwrapped
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -49,18 +51,22 @@ def source_of(
     if not isinstance(given, str):
         return _sympy_source(given, variable, unknown, equation)
     check_length(given, limits, what="the text")
-    written = plain(given)
+    written = plain(unwrapped(given).text)
     tokens = tokens_of(written.text, limits, what="the text", hint="give S(x), for example x^2 + 3")
     walk = partial(evaluate, tokens)
     notes = _guesses(tokens)
     if equation or is_equation(written.text):
+        _refuse_words(tokens)
         y = unknown or _unknown_of(tokens)
+        _refuse_two_exponents(tokens, y)
         x = variable
+        is_guessed = x is None
         if x is None:
             x, taken = _variable_of(tokens, y, written.variable)
             notes += taken
-        _refuse_glued_names(tokens, x, y)
-        return Source(walk, x, y, written.text, notes)
+        _refuse_glued_names(tokens, x, y, might_be_time=is_guessed)
+        factors = _with_factors(tokens, x, y)
+        return Source(partial(evaluate, factors), x, y, written.text, notes + _imaginary(tokens, x, y))
     x = _variable_of_S(tokens, variable)
     _refuse_glued_names(tokens, x, "")
     if variable is None:
@@ -156,14 +162,92 @@ _USUAL_UNKNOWNS = frozenset("xyzuvwq")
 _FACTORS = 2
 
 
-def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str) -> None:
-    """Raises `ParseError` where a name looks like a product without its signs: ky, kx."""
+def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str, *, might_be_time: bool = False) -> None:
+    """Raises `ParseError` where a name looks like a product: ky, kx; where the variable `might_be_time`: at."""
+    no_variable = might_be_time and not {variable, "t"} & tokens.names().keys()
     for name, k in tokens.names().items():
         if name in (variable, unknown) or name in NUMBER_NAMES or as_function(name) is not None or name in GREEK:
             continue
+        if unknown and name == f"D{unknown}":
+            hint = f"write {unknown}' for D{unknown}, and {unknown}'' for D^2 {unknown}"
+            raise tokens.error(ParseError, f"{name} is one name, and D isn't read as an operator", k, k + 1, hint=hint)
+        if unknown and name == f"d{variable}":
+            hint = f"write {unknown}'' or d^2{unknown}/d{variable}^2, and operators applied: {unknown}'' - x*{unknown}"
+            raise tokens.error(ParseError, f"{name} belongs to no derivative of {unknown}", k, k + 1, hint=hint)
         meant = _as_product(name, variable, unknown)
+        if meant is None and no_variable and len(name) == _FACTORS and name[-1] == "t":
+            meant = _as_product(name, "t", unknown)
         if meant is not None:
+            if k and tokens.kinds[k - 1] == "CIRCUMFLEX":
+                meant = f"({meant})"
             raise tokens.error(ParseError, f"{name} is one name", k, k + 1, hint=f"did you mean {meant}?")
+
+
+#: Words around an equation; all other words are names.
+_WORDS = frozenset(
+    [
+        "and",
+        "equation",
+        "find",
+        "Find",
+        "for",
+        "given",
+        "if",
+        "let",
+        "Let",
+        "solve",
+        "Solve",
+        "subject",
+        "where",
+        "with",
+    ]
+)
+
+
+def _refuse_words(tokens: Tokens) -> None:
+    """Raises `ParseError` for words beside an equation, which would be parameters."""
+    for name, k in tokens.names().items():
+        if name in _WORDS:
+            hint = "leave it out; values follow the equation after commas: y'' + y = 0, y(0) = 1"
+            raise tokens.error(ParseError, f"{name} is a word and no part of an equation", k, k + 1, hint=hint)
+
+
+def _refuse_two_exponents(tokens: Tokens, unknown: str) -> None:
+    """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
+    kinds = tokens.kinds
+    for k in range(1, len(kinds) - 2):
+        if kinds[k] != "CIRCUMFLEX" or tokens.pieces[k - 1] != "e":
+            continue
+        number = k + 2 if kinds[k + 1] == "MINUS" else k + 1
+        factor = tokens.pieces[number + 1]
+        if kinds[number] != "NUMBER" or kinds[number + 1] != "NAME" or factor == unknown:
+            continue
+        if tokens.ends[number] == tokens.starts[number + 1]:
+            power = tokens.piece(k + 1, number + 1)
+            whole = tokens.piece(k - 1, number + 2)
+            hint = f"write e^({power}*{factor}) or e^({power})*{factor}"
+            raise tokens.error(ParseError, f"{whole} can be read in two ways", k - 1, number + 2, hint=hint)
+
+
+def _with_factors(tokens: Tokens, variable: str, unknown: str) -> Tokens:
+    """With names in the place of heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
+    names = tokens.names()
+    kinds = list(tokens.kinds)
+    for k, kind in enumerate(tokens.kinds[:-3]):
+        name = tokens.pieces[k]
+        if kind != "HEAD" or name == unknown or not (name in names or name == variable):
+            continue
+        is_applied = tokens.kinds[k + 2 : k + 4] == ["NAME", "RPAR"]
+        if is_letter(name) and not is_applied and name not in DERIVATIVES | FUNCTION_NAMES.keys():
+            kinds[k] = "NAME"
+    return replace(tokens, kinds=kinds) if kinds != tokens.kinds else tokens
+
+
+def _imaginary(tokens: Tokens, variable: str, unknown: str) -> tuple[str, ...]:
+    """That i is a letter as others, where it occurs."""
+    if "i" in (variable, unknown) or "i" not in tokens.names():
+        return ()
+    return ("i is a parameter; the imaginary unit is I",)
 
 
 def _as_product(name: str, variable: str, unknown: str) -> str | None:
