@@ -253,6 +253,36 @@ def test_a_root_that_is_nowhere_is_refused(near: Any) -> None:
         loads(data)
 
 
+@pytest.mark.parametrize("polynomial", ["0", "7", "c", "c**2", "(c**2 + 1)**2", "c**3 - c", "c**2 - 4", "2*c**2 + 2"])
+@pytest.mark.parametrize("S", ["2", "(6*x^2-8)/(x^2-1)^2"])
+def test_constants_of_no_field_are_refused(S: str, polynomial: str) -> None:
+    """Before anything is computed with them: without inverses, and without primes that split, no gcd would end."""
+    data = json.loads(kovacic.solve(S).to_json())
+    with pytest.raises(InputError, match="isn't monic and irreducible"):
+        loads({**data, "constants": {**data["constants"], "minimal_polynomial": polynomial}})
+
+
+def test_a_rational_form_that_isnt_that_of_omega_is_refused() -> None:
+    """All forms are rational for S = 0: those with the solution 1 among their factors belong to omega = 0."""
+    data = json.loads(kovacic.solve("0").to_json())
+    invariant = data["proof"]["invariant"]
+    for P, fits in (("1", True), ("x", True), ("x - 5", True), ("x**2 + 1", False), ("x**2 - x", False), ("7", False)):
+        changed = {**data, "proof": {**data["proof"], "invariant": {**invariant, "P": P}}}
+        if fits:
+            assert loads(changed).verified
+            continue
+        with pytest.raises(InputError, match="normal form|doesn't belong"):
+            loads(changed)
+
+
+@pytest.mark.parametrize("form", ["semi_invariant", "invariant"])
+def test_a_degree_is_an_integer(form: str) -> None:
+    data = json.loads(kovacic.solve("2").to_json())
+    for wrong in (True, 1.0, 2.0, "1", "2", None):
+        with pytest.raises(InputError, match="degree"):
+            loads({**data, "proof": {**data["proof"], form: {**data["proof"][form], "degree": wrong}}})
+
+
 def test_notices_and_exact_text_are_kept() -> None:
     answer = kovacic.solve(" 0.25*x^2 - 7/2 ")
     assert answer.notices

@@ -77,6 +77,7 @@ def _bundles(
         # c lies over Q while there are parameters: then the prime decides about splitting, not the point.
         allowed = _splitting(QQ.poly([v for v in values if v is not None]), allowed)
     for bundle in base.bundles(allowed):
+        check_time()
         found: list[ExtensionHomomorphism] = []
         try:
             for h in bundle:

@@ -49,6 +49,8 @@ from kovacic.reading.read import read_input
 from kovacic.reading.written import WrittenReader
 from kovacic.shown import json_line
 from kovacic.verify import verify
+from kovacic.verify.factors import is_a_field
+from kovacic.verify.identity import form_numerators
 from kovacic.writing.formula import Formulas
 
 SCHEMA = 1
@@ -261,15 +263,31 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
 
 
 def _check_normal_form(answer: Answer) -> None:
-    """Raises `ValueError` where P isn't monic, or D isn't the product of the factors to half the orders of the poles."""
-    form, riccati, field = answer.decision.semi_invariant, answer.decision.riccati, answer.S.field
+    """Raises `ValueError` where a P isn't monic, D isn't the product of the factors to half the orders of the poles, or omega
+    doesn't belong to the rational form of degree 2."""
+    decision, field = answer.decision, answer.S.field
+    form, riccati, invariant = decision.semi_invariant, decision.riccati, decision.invariant
     if form is None or riccati is None:
         return
     D = field.poly([1])
     for p, k in field.factor(answer.S.den) if answer.S.den.degree > 0 else []:
         D *= p ** ((k + 1) // 2)
-    if form.P.lc != 1 or riccati.D != D:
+    if form.P.lc != 1 or riccati.D != D or (invariant is not None and invariant.P.lc != 1):
         raise ValueError("P or D isn't in its normal form")
+    if invariant is not None and riccati.degree == 1 and not _is_root(answer.S, riccati, invariant):
+        raise ValueError("omega doesn't belong to the invariant")
+
+
+def _is_root(S: RatFunc, riccati: RiccatiPolynomial, F: SemiInvariant) -> bool:
+    """Is omega = A/(P D) a root of the polynomial of F = y1 y2, which is W^2 - B_1/(B_0 D) W + B_2/(B_0 D^2)?
+
+    The second solution is F/y1 then; another rational form would be a right one, too, but not that of this omega.
+    """
+    B = form_numerators(S, F, riccati.D)
+    if B is None or len(B) != 3:
+        return False
+    P, A = riccati.numerators
+    return not (B[0] * A * A - B[1] * A * P + B[2] * P * P)
 
 
 def _check_group(answer: Answer, data: Mapping[str, Any]) -> None:
@@ -331,16 +349,18 @@ class _Reader(WrittenReader):
         return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
 
     def extended(self, constants: Mapping[str, Any] | None) -> _Reader:
-        """With the constants of omega, too."""
+        """With the constants of omega, too.  Raises `ValueError` where they are none: in K[c] without a field no gcd need end."""
         if constants is None:
             return self
         symbol = constants["symbol"]
         modulus = replace(self, names={**self.names, symbol: VARIABLE}).poly(constants["minimal_polynomial"])
         field = AlgebraicField(self.field, modulus)
+        if not (modulus.is_monic and is_a_field(field)):
+            raise ValueError(f"the polynomial of {symbol} isn't monic and irreducible")
         return replace(self, names={**self.names, symbol: field.generator}, field=field)
 
     def semi_invariant(self, data: Mapping[str, Any]) -> SemiInvariant:
-        return SemiInvariant(data["degree"], self.ratfunc(data["theta"]), self.poly(data["P"]))
+        return SemiInvariant(_typed(data, "degree", int), self.ratfunc(data["theta"]), self.poly(data["P"]))
 
 
 def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> RiccatiPolynomial:
