@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -271,7 +273,7 @@ def test_a_rational_form_that_isnt_that_of_omega_is_refused() -> None:
         if fits:
             assert loads(changed).verified
             continue
-        with pytest.raises(InputError, match="normal form|doesn't belong"):
+        with pytest.raises(InputError, match=r"normal form|doesn't belong"):
             loads(changed)
 
 
@@ -281,6 +283,64 @@ def test_a_degree_is_an_integer(form: str) -> None:
     for wrong in (True, 1.0, 2.0, "1", "2", None):
         with pytest.raises(InputError, match="degree"):
             loads({**data, "proof": {**data["proof"], form: {**data["proof"][form], "degree": wrong}}})
+
+
+EVIDENCE = [
+    "x",
+    "x*y'' = (x^2+1)*y' - 7*y",
+    "1/(x^4-2)",
+    "y'' + sqrt(2)*y' + x*y = 0",
+    "1/x + 3/(16*(x-1)^2)",
+    "a/x^2 + 1",
+]
+
+
+def with_other_evidence(data: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """What no search writes: a bound or a point where none is needed, places where the condition holds, or of no factor."""
+    places = ["infinity", "x", "x - 1", "x**4 - 2", "nowhere", "x + 1", ""]
+    for i, excluded in enumerate(data["proof"]["excluded"]):
+        for k, item in enumerate(excluded["evidence"]):
+            if item["kind"] == "necessary_condition":
+                others = [{"places": [*item["places"], name]} for name in places]
+                others += [{"places": [name]} for name in places if name not in item["places"]]
+            elif item["prime"] is None:
+                changes: list[tuple[str, Any]] = [
+                    ("degree", 0),
+                    ("degree", -2),
+                    ("degree", 3),
+                    ("point", 1),
+                    ("point", -1),
+                ]
+                changes += [("place", name) for name in places[:-1]]
+                others = [{key: value} for key, value in changes if key in item]
+            else:
+                others = []
+            for other in others:
+                changed = deepcopy(data)
+                changed["proof"]["excluded"][i]["evidence"][k] |= other
+                yield changed
+
+
+@pytest.mark.parametrize("text", EVIDENCE)
+def test_evidence_says_no_more_than_is_recomputed(text: str) -> None:
+    data = json.loads(kovacic.solve(text).to_json())
+    assert loads(data).verified
+    changed = list(with_other_evidence(data))
+    assert len(changed) > 5
+    for other in changed:
+        with pytest.raises((VerificationFailed, InputError)):
+            loads(other)
+
+
+@pytest.mark.parametrize("key", ["minimal_polynomial", "near", "symbol", "parameters"])
+def test_another_field_of_the_equation_is_refused(key: str) -> None:
+    data = json.loads(kovacic.solve("y'' + sqrt(2)*y' + x*y = 0").to_json())
+    right = data["equation"]["field"]
+    for wrong in ("t**2 - 3", ["1.5", "0"], ["a"], None, 3):
+        with pytest.raises(InputError, match="field"):
+            loads({**data, "equation": {**data["equation"], "field": {**right, key: wrong}}})
+    older = {key: value for key, value in right.items() if key != "near"}
+    assert loads({**data, "equation": {**data["equation"], "field": older}}).verified
 
 
 def test_notices_and_exact_text_are_kept() -> None:

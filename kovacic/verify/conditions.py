@@ -19,24 +19,20 @@ _ORDERS = {Structure.TETRAHEDRAL: {1, 2, 3}, Structure.OCTAHEDRAL: {1, 2, 3, 4},
 
 
 def condition_fails(item: NecessaryCondition, structure: Structure, points: list[Point]) -> bool:
-    """Is the condition one that this structure implies, and does it fail at one of the places that are named?"""
-    if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
-        return structure is Structure.IMPRIMITIVE and _branch_points(points) < 2
-    concerns, fails = _RULES[item.rule]
-    if not concerns(structure):
-        return False
-    return any(fails(point, structure) for point in _named(item, points))
-
-
-def _branch_points(points: list[Point]) -> int:
-    """The number of points at which the square root of an invariant of degree 4 can branch."""
-    return sum(point.factor.degree for point in points if point.can_branch)
-
-
-def _named(item: NecessaryCondition, points: list[Point]) -> list[Point]:
-    """The singular points that are named; none if a name is that of no point."""
+    """Is the condition one that this structure implies, and does it fail at each of the places that are named?"""
     named = [point for point in points if point.name in item.places]
-    return named if len(named) == len(item.places) else []
+    if len(named) < len(item.places):  # a name is that of no point, or occurs twice
+        return False
+    if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
+        return structure is Structure.IMPRIMITIVE and _are_all_branch_points(named, points)
+    concerns, fails = _RULES[item.rule]
+    return concerns(structure) and bool(named) and all(fails(point, structure) for point in named)
+
+
+def _are_all_branch_points(named: list[Point], points: list[Point]) -> bool:
+    """Are these the places at which the square root of an invariant of degree 4 can branch, fewer than two points?"""
+    number = sum(point.factor.degree for point in named)
+    return number < 2 and named == [point for point in points if point.can_branch]
 
 
 def _is_ramified(point: Point, structure: Structure) -> bool:
@@ -56,6 +52,8 @@ def _is_irregular(point: Point, structure: Structure) -> bool:
 
 
 def _has_other_exponents(point: Point, structure: Structure) -> bool:
+    if point.order > 2:
+        return False
     return point.difference is None or point.difference.denominator not in _ORDERS[structure]
 
 

@@ -76,7 +76,7 @@ class Inspector:
             return False
         bounds = room(self.points, m)
         if bounds is None or item.prime is None:
-            return bounds is None and item.prime is None
+            return bounds is None and item == NoInvariant(m)
         valuations, degree = bounds
 
         def is_zero(h: Homomorphism) -> bool:
@@ -109,7 +109,7 @@ class Inspector:
         """No unique rational omega: no number of zeros is possible, or no expansion at the place is one, modulo the prime."""
         counts = self.zero_counts
         if counts is None or counts.largest < 0:
-            return item.degree < 0 and item.prime is None
+            return item == NoRationalOmega(-1)
         if item.degree != counts.largest or item.prime is None:
             return False
 

@@ -185,8 +185,9 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
         raise ValueError("the answer says that it failed its check, and passes it")
     _demand_the_same(data, to_dict(answer), "")
     _check_normal_form(answer)
-    if data.get("group") is not None and verified:
-        _check_group(answer, data["group"])
+    if verified:
+        _check_invariant(answer)
+        _check_group(answer, data.get("group"))
     return answer
 
 
@@ -195,7 +196,7 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
     change = (data.get("equation") or {}).get("change") or {}
     given = change.get("variable", variable)
     parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable)
-    is_over_the_same = parsed.variable == variable and data.get("field") == _field(parsed.S.field)
+    is_over_the_same = parsed.variable == variable and _is_field(data.get("field"), parsed.S.field)
     if not is_over_the_same or _Reader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
         raise ValueError("S isn't that of the input")
     if data.get("equation") is not None or data.get("gauge") is not None:
@@ -263,18 +264,25 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
 
 
 def _check_normal_form(answer: Answer) -> None:
-    """Raises `ValueError` where a P isn't monic, D isn't the product of the factors to half the orders of the poles, or omega
-    doesn't belong to the rational form of degree 2."""
-    decision, field = answer.decision, answer.S.field
-    form, riccati, invariant = decision.semi_invariant, decision.riccati, decision.invariant
+    """Raises `ValueError` where a P isn't monic, or D isn't the product of the factors to half the orders of the poles."""
+    form, riccati, field = answer.decision.semi_invariant, answer.decision.riccati, answer.S.field
     if form is None or riccati is None:
         return
     D = field.poly([1])
     for p, k in field.factor(answer.S.den) if answer.S.den.degree > 0 else []:
         D *= p ** ((k + 1) // 2)
-    if form.P.lc != 1 or riccati.D != D or (invariant is not None and invariant.P.lc != 1):
+    if form.P.lc != 1 or riccati.D != D:
         raise ValueError("P or D isn't in its normal form")
-    if invariant is not None and riccati.degree == 1 and not _is_root(answer.S, riccati, invariant):
+
+
+def _check_invariant(answer: Answer) -> None:
+    """Raises `ValueError` where P of the rational form isn't monic, or one of degree 2 isn't that of omega."""
+    F, riccati = answer.decision.invariant, answer.decision.riccati
+    if F is None or riccati is None:
+        return
+    if F.P.lc != 1:
+        raise ValueError("P of the invariant isn't in its normal form")
+    if riccati.degree == 1 and not _is_root(answer.S, riccati, F):
         raise ValueError("omega doesn't belong to the invariant")
 
 
@@ -290,8 +298,10 @@ def _is_root(S: RatFunc, riccati: RiccatiPolynomial, F: SemiInvariant) -> bool:
     return not (B[0] * A * A - B[1] * A * P + B[2] * P * P)
 
 
-def _check_group(answer: Answer, data: Mapping[str, Any]) -> None:
+def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
     """Raises `ValueError` where the group, computed and verified anew, is another one; its evidence isn't needed for that."""
+    if data is None:
+        return
     found = group_dict(answer)
     if found is not None:
         facts = {key: found[key] for key in ("name", "order", "finite", "family", "n") if key in data}
@@ -303,6 +313,8 @@ def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable
     if equation is None:
         raise ValueError("an equation or its gauge, where S alone was given")
     reader, found = _Reader.over(equation.a.field, variable), data["equation"]
+    if not _is_field(found["field"], equation.a.field):
+        raise ValueError("the field of the equation isn't that of the input")
     if any(reader.ratfunc(found[name]) != getattr(equation, name) for name in ("a", "b", "c", "f")):
         raise ValueError("the equation isn't that of the input")
     if reader.ratfunc(data["gauge"]) != equation.gauge:
@@ -333,6 +345,14 @@ def _field(field: Field) -> dict[str, Any] | None:
     return data
 
 
+def _is_field(data: Mapping[str, Any] | None, field: Field) -> bool:
+    """Is this what `_field` writes?  Where a root is may be absent, as in answers of older versions."""
+    written = _field(field)
+    if written is None or data is None:
+        return written is data
+    return {"near": written.get("near"), **data} == {"near": None, **written}
+
+
 @dataclass(frozen=True)
 class _Reader(WrittenReader):
     """What `to_dict` wrote of a decision."""
@@ -349,7 +369,7 @@ class _Reader(WrittenReader):
         return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
 
     def extended(self, constants: Mapping[str, Any] | None) -> _Reader:
-        """With the constants of omega, too.  Raises `ValueError` where they are none: in K[c] without a field no gcd need end."""
+        """With the constants of omega, too.  Raises `ValueError` where K[c] is no field, in which no gcd need end."""
         if constants is None:
             return self
         symbol = constants["symbol"]
