@@ -134,6 +134,19 @@ def test_no_wrong_answer_in_the_long_run(family: str) -> None:
     run()
 
 
+@parametrize("form", ["x^2*({}) + a", "({})*a^2*x^2 + b*x", "({})*x^2 + a + 1/(x^2+1)", "({})*x^4 + a*x"], ordinary=1)
+@pytest.mark.parametrize("number", [2, 3, 5, 7, 11, 13])
+def test_exponents_with_a_root_of_a_number_beside_parameters(form: str, number: int) -> None:
+    """At infinity the exponents have the root of a number, which isn't rational over Q(a): that is proven for every number.
+
+    Whether a number is a square modulo a prime doesn't depend on the values of the parameters there.
+    """
+    for sign in (1, -1):
+        answer = kovacic.solve(form.format(sign * number))
+        assert answer.verified
+        assert answer.case is None
+
+
 @parametrize("p", ["x^2 + 1", "x^2 - x + 3", "x^3 - 2", "x^4 + 1", "x^4 - 2", "x^4 + x + 1"], ordinary=2)
 @pytest.mark.parametrize("m", [2, 3, 5, -1, -6])
 def test_conjugate_places_with_one_irrational_exponent(p: str, m: int) -> None:

@@ -39,28 +39,31 @@ def is_usable_prime(p: int) -> bool:
     return 2 < p < 2 * _LARGEST and bool(fmpz(p).is_prime())
 
 
-def homomorphisms_modulo(field: Field, p: int) -> Iterator[Homomorphism]:
-    """Homomorphisms of the field's p-integral elements to F_p: of Q the one; of Q(t) some values of the parameters.
+def homomorphisms_modulo(field: Field, p: int, *, points: int = _POINTS) -> Iterator[Homomorphism]:
+    """Homomorphisms of the field's p-integral elements to F_p: of Q the one; of Q(t) values of the parameters at some points.
 
     Of K(c) those that extend one of K: c goes to a simple root of its minimal polynomial, which keeps its degree.  Such a
     homomorphism belongs to an unramified prime ideal of degree 1 [Dedekind].
     """
     if isinstance(field, AlgebraicField):
-        for base in homomorphisms_modulo(field.base, p):
+        for base in homomorphisms_modulo(field.base, p, points=points):
             for root in roots_modulo(field.modulus, base):
                 yield AtRoot(base, root, field.height)
     elif isinstance(field, FunctionField):
         values = Random(p)
-        for _ in range(_POINTS):
+        for _ in range(points):
             yield AtValues(p, tuple(values.randrange(p) for _ in field.names))
     else:
         yield OfRationals(p)
 
 
 def homomorphisms(field: Field) -> Iterator[Homomorphism]:
-    """Homomorphisms of the field modulo the kernel's own primes, without end."""
+    """Homomorphisms of the field modulo the kernel's own primes, without end.
+
+    Each prime has one point only: whether a number is a square modulo p is the same at all points.
+    """
     for index in count():
-        yield from homomorphisms_modulo(field, prime(index))
+        yield from homomorphisms_modulo(field, prime(index), points=1)
 
 
 def roots_modulo(polynomial: Poly, h: Homomorphism) -> list[int]:
