@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 from kovacic.errors import ParseError
 from kovacic.reading.names import FUNCTION_NAMES
-from kovacic.reading.typeset import ordinary_signs, with_calls
+from kovacic.reading.typeset import BARE, ordinary_signs, with_calls
 
 GREEK = frozenset(
     [
@@ -100,7 +100,7 @@ _DOLLAR = re.compile(r"[`']\$[`']\(\s*(\w+)\s*,\s*(\d+)\s*\)")
 _FOREIGN = re.compile(
     r'\\|\[|\||[\^_]\{|==|\$|@@|["`´\xa0\xad]|;\s*$|%[eip]|/\s*\(?\s*d|\bD|\bEq|\.diff|\bFunction\(|\bPi\b|[₀-₉]'
     r"|[^\x00-\xac\xae-\xb3\xb5-\xbb\xbf-\xfe\u0100-\u02ff]|diff\(|Rational\(|\w_[a-z]{2}\b|\)'"
-    r"|(?:sin|cos|tan|cot|sec|csc|exp|log|ln|sinh|cosh|tanh|coth)[ ^²]"
+    rf"|(?:{BARE})[ ^²]"
 )
 _DOTS = re.compile("[\u00ff\u1e8d\u1e8b\u1e8f]|[\u0307\u0308]")
 _MATHEMATICA = re.compile(r"(?<![\\\w])\w+'*\[")

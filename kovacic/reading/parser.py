@@ -412,7 +412,7 @@ def _are_apart(tokens: Tokens, left: int, right: int) -> bool:
 def is_letter(name: str) -> bool:
     """x, x1, omega, omega_0, k_x; not a word."""
     bare = name.partition("_")[0].rstrip("0123456789")
-    return len(bare) == 1 or bare in GREEK or bare == "pi"
+    return len(bare) == 1 or bare in GREEK or bare in ("pi", "hbar", "ell")
 
 
 def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError:

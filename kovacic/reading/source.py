@@ -51,9 +51,12 @@ def source_of(
     if not isinstance(given, str):
         return _sympy_source(given, variable, unknown, equation)
     check_length(given, limits, what="the text")
-    written = plain(unwrapped(given).text)
+    pasted = unwrapped(given)
+    if pasted.values:
+        said = "values are for dsolve, which takes a command with them"
+        raise ParseError(said, text=given, position=0, length=len(given), hint=f"give the equation: {pasted.equation}")
+    written = plain(pasted.equation)
     tokens = tokens_of(written.text, limits, what="the text", hint="give S(x), for example x^2 + 3")
-    walk = partial(evaluate, tokens)
     notes = _guesses(tokens)
     if equation or is_equation(written.text):
         _refuse_words(tokens)
@@ -69,6 +72,9 @@ def source_of(
         return Source(partial(evaluate, factors), x, y, written.text, notes + _imaginary(tokens, x, y))
     x = _variable_of_S(tokens, variable)
     _refuse_glued_names(tokens, x, "")
+    if x != "e":
+        _refuse_two_exponents(tokens, "")
+    walk = partial(evaluate, _with_factors(tokens, x, ""))
     if variable is None:
         notes += _only_name(tokens, x)
     return Source(walk, x, notes=notes)
@@ -237,7 +243,7 @@ def _with_factors(tokens: Tokens, variable: str, unknown: str) -> Tokens:
         name = tokens.pieces[k]
         if kind != "HEAD" or name == unknown or not (name in names or name == variable):
             continue
-        is_applied = tokens.kinds[k + 2 : k + 4] == ["NAME", "RPAR"]
+        is_applied = tokens.kinds[k + 2] in ("NAME", "NUMBER") and tokens.kinds[k + 3] == "RPAR"
         if is_letter(name) and not is_applied and name not in DERIVATIVES | FUNCTION_NAMES.keys():
             kinds[k] = "NAME"
     return replace(tokens, kinds=kinds) if kinds != tokens.kinds else tokens
