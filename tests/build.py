@@ -10,7 +10,7 @@ A test that needs more of the inside than this says so by its imports.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import pytest
@@ -58,24 +58,33 @@ def equation(text: Any, var: str | None = None) -> Equation:
 
 
 def parametrize(
-    names: str | tuple[str, ...], values: Iterable[Any], *, ordinary: int, **options: Any
+    names: str | tuple[str, ...], values: Iterable[Any], *, ordinary: int, long: int | None = None, **options: Any
 ) -> pytest.MarkDecorator:
     """`pytest.mark.parametrize` of which `ordinary` values, spread evenly, are in the ordinary suite; the others are `long`.
 
     For properties of which every member takes a while: a few say at once that something broke, all of them run in .ci/run.
+    Where that takes minutes, `long` is how many of the others, spread evenly, run there; the rest is `slow`.
     """
     members = list(values)
-    kept = {index * len(members) // ordinary for index in range(ordinary)}
     one_name = isinstance(names, str) and "," not in names
-    return pytest.mark.parametrize(
-        names,
-        [member if index in kept else _long(member, one_name) for index, member in enumerate(members)],
-        **options,
-    )
+    at_once = _spread(range(len(members)), ordinary)
+    others = [index for index in range(len(members)) if index not in at_once]
+    in_ci = _spread(others, len(others) if long is None else long)
+    marked = []
+    for index, member in enumerate(members):
+        if index in at_once:
+            marked.append(member)
+        else:
+            marked.append(_marked(member, pytest.mark.long if index in in_ci else pytest.mark.slow, one_name))
+    return pytest.mark.parametrize(names, marked, **options)
 
 
-def _long(member: Any, one_name: bool) -> Any:
+def _spread(indices: Sequence[int], count: int) -> set[int]:
+    return {indices[k * len(indices) // count] for k in range(count)}
+
+
+def _marked(member: Any, mark: pytest.MarkDecorator, one_name: bool) -> Any:
     if hasattr(member, "marks"):  # what pytest.param gives
-        return pytest.param(*member.values, marks=[*member.marks, pytest.mark.long], id=member.id)
+        return pytest.param(*member.values, marks=[*member.marks, mark], id=member.id)
     parts = (member,) if one_name else member
-    return pytest.param(*parts, marks=pytest.mark.long)
+    return pytest.param(*parts, marks=mark)

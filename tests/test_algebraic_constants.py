@@ -83,7 +83,7 @@ def _has_the_right_case(example: Example) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(strategies.over_number_fields())
 def test_moved_by_a_moebius_map_over_a_number_field(example: Example) -> None:
     _has_the_right_case(example)
@@ -111,7 +111,7 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(strategies.over_number_fields("case 1", "case 2", "odd"))
 def test_closed_forms_over_a_number_field(example: Example) -> None:
     """Each is checked, exactly and to 50 digits, before it is returned."""

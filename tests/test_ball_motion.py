@@ -204,7 +204,7 @@ def random_starts(seed, count):
 
 
 @pytest.mark.parametrize(
-    ("seed", "count"), [pytest.param(1, 60, marks=pytest.mark.long), pytest.param(2, 500, marks=pytest.mark.slow)]
+    ("seed", "count"), [pytest.param(1, 25, marks=pytest.mark.long), pytest.param(2, 500, marks=pytest.mark.slow)]
 )
 def test_no_start_is_refused(seed, count):
     """Energy and both closed forms hold over three periods; or as long as a motion next to an unstable steady one is known."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from build import parametrize
 from documents import ROOT
 from published import load
 
@@ -122,8 +123,7 @@ def look(line: str) -> int:
     return judged
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("text", ANSWERS)
+@parametrize("text", ANSWERS, ordinary=0, long=6)
 def test_a_change_is_refuted_or_named(text: str) -> None:
     assert look(kovacic.solve(text).to_json(full=True)) > 300
 

@@ -212,9 +212,21 @@ def off_axis(rng: random.Random, count: int) -> list[complex]:
     return found
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("S", ["x^3 + x + 1", "(x + 3)/(x^2 + 1)", "1/(x - 1)^2 + 2/(x^2 + 2)", "1 + 1/(8*x + 3)^3"])
-@pytest.mark.parametrize("x0", ["1/5", 2 + 1j])
+@parametrize(
+    ("S", "x0"),
+    [
+        ("x^3 + x + 1", "1/5"),
+        ("(x + 3)/(x^2 + 1)", 2 + 1j),
+        ("1/(x - 1)^2 + 2/(x^2 + 2)", "1/5"),
+        ("1 + 1/(8*x + 3)^3", 2 + 1j),
+        ("x^3 + x + 1", 2 + 1j),
+        ("(x + 3)/(x^2 + 1)", "1/5"),
+        ("1/(x - 1)^2 + 2/(x^2 + 2)", 2 + 1j),
+        ("1 + 1/(8*x + 3)^3", "1/5"),
+    ],
+    ordinary=0,
+    long=4,
+)
 def test_values_at_many_complex_points_are_those_at_each_alone(S: str, x0: Any) -> None:
     """One expansion serves the points of its disc, on the right side of every singular point."""
     rng = random.Random(f"{S} {x0}")

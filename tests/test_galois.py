@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from fractions import Fraction
+from itertools import product
 from math import gcd, lcm
 
 import published
@@ -212,10 +213,13 @@ def pell(genus: int, field: Field, rest: int, multiple: Fraction) -> RatFunc:
 NUMBER_FIELDS = [QQ, AlgebraicField(QQ, QQ.poly([-2, 0, 1]), "sqrt(2)"), AlgebraicField(QQ, QQ.poly([1, 0, 1]), "I")]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("multiple", [Fraction(1, 1000), Fraction(4001, 1000)], ids=str)
-@pytest.mark.parametrize("field", NUMBER_FIELDS, ids=str)
-@pytest.mark.parametrize("genus", [1, 2, 3])
+@parametrize(
+    ("genus", "field", "multiple"),
+    list(product([1, 2, 3], NUMBER_FIELDS, [Fraction(1, 1000), Fraction(4001, 1000)])),
+    ordinary=0,
+    long=7,
+    ids=str,
+)
 def test_a_unit_beside_a_differential_of_the_first_kind(genus: int, field: Field, multiple: Fraction) -> None:
     """The divisor of eta is a torsion one in both cases; only the holomorphic rest tells the infinite group."""
     for rest, order in ((0, 4000), (5, None)):
