@@ -64,7 +64,7 @@ def forced(seed: int) -> None:
     assert found[0].digits >= digits or found[0].contains_zero()
 
 
-@parametrize("seed", range(40), ordinary=1)
+@parametrize("seed", range(40), ordinary=1, long=15)
 def test_a_chosen_solution_of_an_equation_with_constants_and_a_right_hand_side(seed: int) -> None:
     forced(seed)
 
