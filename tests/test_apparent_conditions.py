@@ -130,3 +130,27 @@ def test_a_limit_within_the_search_is_a_value(seconds: float) -> None:
         answer = kovacic.conditions(S, var="x", limits=kovacic.Limits(seconds=seconds))
     assert "only as far as the limits allowed" in str(answer.complete)
     assert "The list is complete only as far as the limits allowed" in answer.theorem()
+
+
+@parametrize(
+    ("first", "rest"),
+    [
+        (1, "2/(x-1)^2 + b/(x-1)"),
+        (2, "2/(x-1)^2 + b/(x-1)"),
+        (1, "6/(x-1)^2 + b/(x-1)"),
+        (3, "2/(x-1)^2 + b/(x-1)"),
+        (1, "-3/(16*(x-1)^2) + b/(x-1)"),
+        (2, "2/(x-1)^2 + b/(x-1) + c"),
+        (1, "2/(x-1)^2 + b/(x-1) - 3/(16*(x+1)^2)"),
+        (1, "b*x + c"),
+        (2, "b*x^3"),
+    ],
+    ordinary=2,
+)
+def test_a_logarithm_leaves_case_1(first: int, rest: str) -> None:
+    """Beside integer differences of exponents no invariant is asked for in words: where a logarithm vanishes is an equation."""
+    answer = kovacic.conditions(f"{first}*({first}+1)/x^2 + a/x + {rest}", var="x")
+    assert answer.complete is True
+    assert "exists" not in answer.text(all=True)
+    assert "invariant" not in answer.text(all=True).partition("otherwise")[0]
+    assert answer.check(30)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import reduce
 from operator import mul
 from random import Random
@@ -214,3 +215,12 @@ def test_an_invariant_of_degree_4_alone_shows_no_case_1() -> None:
 def test_all_families_agree_with_the_engine(name: str) -> None:
     """Where a natural number is involved, statements are decided by ranks, and the engine by its own way."""
     assert kovacic.conditions(FAMILIES[name], var="x", max_degree=0).check(40)
+
+
+@pytest.mark.parametrize("product", ["2*a*b", "a*b*c", "(a - 1)*b", "2*(a + b)*(a - c)", "a*(b + 1)^2"])
+def test_no_single_name_is_in_parentheses(product: str) -> None:
+    """Where the spectrum has a pole, a product has to vanish: b*a = 0, not (b)*(a) = 0."""
+    answer = kovacic.conditions(f"a*(a-1)/x^2 + {product}/x + e", var="x")
+    assert any(" = 0 where " in str(region) for region in answer.regions)
+    assert not re.search(r"(?<!\w)\(\w+\)", answer.text())
+    assert answer.check(20)

@@ -291,9 +291,13 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
     return pieces
 
 
+def in_product(text: str) -> str:
+    """A factor of a product: sums and what begins with a minus in parentheses."""
+    is_sum = " + " in text or " - " in text or text.startswith("-")
+    return f"({text})" if is_sum else text
+
+
 def _power(text: str, k: int) -> str:
     """The k-th power, with parentheses where they are needed in a product."""
-    is_sum = " + " in text or " - " in text or text.startswith("-")
-    if is_sum or (k > 1 and "*" in text):
-        text = f"({text})"
+    text = f"({text})" if k > 1 and "*" in text else in_product(text)
     return text if k == 1 else f"{text}^{k}"

@@ -23,6 +23,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
+from kovacic.limits import check_time
 from kovacic.parametric import riemann
 from kovacic.parametric.exponents import Numbers, degrees_of_solutions, form_conditions, with_degree, zeros_of_forms
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
@@ -34,6 +35,8 @@ from kovacic.parametric.statements import ALWAYS, NEVER, Statement, both
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
+#: Exponent differences up to which the obstruction to a solution without logarithm is computed.
+_SERIES = 8
 #: Singular points of Heun's equation.
 _HEUN = 4
 #: A rational form of this degree has a linear factor with a rational omega; one of degree 4 is that of case 2, maybe.
@@ -78,6 +81,10 @@ def search(problem: Problem) -> Findings:
         findings = Findings("the exponents, and polynomials of bounded or natural degree")
         _reducible(problem, findings)
         degrees = _degrees_that_are_possible(problem)
+    without_logarithm = _where_a_logarithm_vanishes(problem) if degrees else None
+    if without_logarithm is not None:
+        findings.candidates += without_logarithm
+        degrees = {m: [Structure.REDUCIBLE] for m, possible in degrees.items() if Structure.REDUCIBLE in possible}
     by_degree: dict[int, tuple[FunctionPoly, ...] | None] = {}
     for m, possible in degrees.items():
         factors = _forms(problem, m, findings)
@@ -115,15 +122,53 @@ def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
         for m in {2, q}:
             found[m] = [Structure.REDUCIBLE]
     if not _has_logarithms(problem):
-        found.setdefault(4, []).append(Structure.IMPRIMITIVE)
+        if _has_two_branch_points(problem):
+            found.setdefault(4, []).append(Structure.IMPRIMITIVE)
         if not is_ramified:
             found.setdefault(12, []).append(Structure.TETRAHEDRAL)
     return dict(sorted(found.items()))
 
 
 def _has_logarithms(problem: Problem) -> bool:
-    """Is there a simple pole?  Its logarithm, for all values, leaves only case 1 or none."""
-    return any(place.order == 1 for place in problem.places)
+    """Is there a simple pole, or a double exponent?  The logarithm, for all values, leaves only case 1 or none."""
+    return any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places)
+
+
+def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
+    """Hypersurfaces outside of which there is a logarithm, and so only case 1 or none: each is examined as a whole.
+
+    Where an exponent difference is a positive integer, that is where the obstruction to a solution without one vanishes.
+    None where the obstructions vanish everywhere, or their zeros can't be examined.
+    """
+    for place in problem.places:
+        obstruction = _obstruction(place)
+        if obstruction:
+            factors = irreducible_factors(over_parameters(obstruction))
+            if all(map(_is_eliminated, factors)):
+                return factors
+    return None
+
+
+def _obstruction(place: Place) -> Poly | None:
+    """What n (n - Delta) c_n = s_1 c_(n-1) + s_2 c_(n-2) + ... asks to vanish for n = Delta, S = s_0/t^2 + s_1/t + s_2 + ...
+
+    c_n are the coefficients of the solution with the smaller exponent.  None where Delta isn't a small positive integer.
+    """
+    delta = place.delta
+    if place.order != 2 or place.degree > 1 or delta is None or delta.denominator > 1 or not 0 < delta <= _SERIES:
+        return None
+    field, last = place.factor.field, delta.numerator
+    t = field.poly([0, 1])
+    num, den = (part(t - place.factor[0]) for part in (place.num, place.den))
+    s: list[Poly] = []
+    for k in range(last + 1):
+        s.append((num[k] - sum((den[2 + j] * s[k - j] for j in range(1, k + 1)), field.poly([]))) / den[2])
+    c = [field.poly([1])]
+    for n in range(1, last + 1):
+        check_time()
+        value = sum((s[k] * c[n - k] for k in range(1, n + 1)), field.poly([]))
+        c.append(value / (n * (n - last)) if n < last else value)
+    return c[last]
 
 
 def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
@@ -131,8 +176,7 @@ def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
     found: dict[int, list[Structure]] = {}
     if _has_logarithms(problem):
         return found
-    branch_points = [place.degree for place in problem.places if _may_be_branch_point(place)]
-    if sum(branch_points) >= 2:
+    if _has_two_branch_points(problem):
         found[4] = [Structure.IMPRIMITIVE]
     if riemann.is_fuchsian(problem) and all(map(_is_finite_or_unknown, problem.places)):
         found[12] = [Structure.TETRAHEDRAL]
@@ -142,6 +186,11 @@ def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
 def _is_finite_or_unknown(place: Place) -> bool:
     """Can the denominator of the exponent difference be one of Schwarz's table?"""
     return place.delta is None or place.delta.denominator <= riemann.LARGEST
+
+
+def _has_two_branch_points(problem: Problem) -> bool:
+    """Are there two places that can be branch points of case 2, which the square root of an invariant needs?"""
+    return sum(place.degree for place in problem.places if _may_be_branch_point(place)) >= 2
 
 
 def _may_be_branch_point(place: Place) -> bool:

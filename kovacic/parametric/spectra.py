@@ -18,7 +18,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY
-from kovacic.parametric.formulas import root_written, shortest_length, text_of, written
+from kovacic.parametric.formulas import in_product, root_written, shortest_length, text_of, written
 from kovacic.parametric.functions import (
     constant_term,
     degrees,
@@ -235,7 +235,7 @@ def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
             continue
         zero = zeros[0]
         if len(zeros) > 1:
-            zero = f"({')*('.join(zeros)})"
+            zero = "*".join(map(in_product, zeros))
         notes.append(f"`{zero} = 0` where `{n.letter} = {n.function(root)}`")
     return notes
 
