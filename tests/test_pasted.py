@@ -163,6 +163,9 @@ def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
         ("y'' = -k^2*y", "x", "-k**2"),
         ("y'' + omega^2 y = 0", "x", "-omega**2"),
         ("y'' = (a t + b) y", "t", "a*x + b"),
+        ("y'' + k_xx*y = 0", "x", "-k_xx"),
+        ("u_tt + 4*u = 0", "t", "-4"),
+        (r"y'' + k_{\text{eff}}^2 y = 0", "x", "-k_eff**2"),
         ("α x^2", "x", "α*x**2"),
         ("n(n+1)/x^2 + 1", "x", "(x**2 + n**2 + n)/x**2"),
         ("x(x+1)", "x", "x**2 + x"),
@@ -415,6 +418,8 @@ def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
             "diff(y,x,2) + y == 0",
         ),
         ("dsolve(y(x).diff(x,2)+y(x), hint='best')", "dsolve(y(x).diff(x,2)+y(x), hint='best')", "y(x).diff(x,2)+y(x)"),
+        (r"y'' + y = \operatorname{artanh} x", r"\operatorname{artanh} x", "x"),
+        (r"y'' + \alpha y = 0 \text{whatever}", r"\text{whatever}", ""),
         ("D^2y + 3Dy + 2y = 0", "D^2y + 3Dy", "y'' + 3y'"),
         (r"y'' + a_{n+1} y = \cos x", "_{n+1}", "_{n1}"),
     ],
@@ -438,6 +443,8 @@ def test_command_and_values_are_read_in_one_way_with_values_apart() -> None:
         "dsolve({diff(y(x), x, x) + y(x) = 0, y(0) = 1, D(y)(0) = 2}, y(x));",
         "dsolve(Eq(y(x).diff(x, 2) + y(x), 0), ics={y(0): 1, y(x).diff(x).subs(x, 0): 2})",
         "dsolve('D2y = -y', 'y(0)=1', 'Dy(0)=2', 'x')",
+        r"y''+y=0 \text{ and } y(0)=1, \quad y'(0)=2",
+        "y''(x) + \ny(x) = 0 where y(0) = 1\ny'(0) = 2",
         r"\begin{cases} y''+y=0 \\ y(0)=1 \\ y'(0)=2 \end{cases}",
     ):
         assert kovacic.dsolve(text) == expected

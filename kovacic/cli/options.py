@@ -159,7 +159,12 @@ def _is_expression(argument: str, options: Mapping[str, click.Option | None]) ->
 
 
 equation_command = partial(click.command, cls=EquationCommand)
-VAR = click.option("--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x.")
+VAR = click.option(
+    "--var",
+    metavar="NAME",
+    help="The name of the variable; by default the only symbol of S, or x; in an equation what y is applied to, x, "
+    "or the one of t, z, s, r, ... that occurs.",
+)
 PARAM = click.option(
     "--param",
     "params",

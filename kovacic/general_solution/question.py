@@ -112,7 +112,8 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
 _VALUE = re.compile(r"\w+['’′″]*\s*\([^=]*\)\s*=")
 #: The words that stand between an equation and its values.
 _WORDS = re.compile(
-    r"(?<![\s,])[\s,]+(?:(?:and|with|where|subject to)\s+)?(?=\w+['’′″´`]*\s?[(\[][^()\[\]=]*[)\]]\s?=)"
+    r"(?<![\s,+*/^=(-])[\s,]+(?:(?:and|with|where|subject to)\s+)?"
+    r"(?=\w+['’′″´`]*\s?[(\[](?![^\W\d][)\]])[^()\[\]=]*[)\]]\s?=)"
 )
 
 

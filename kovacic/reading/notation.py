@@ -285,9 +285,9 @@ def _applied(text: str) -> str:
 
 
 def _indexed(text: str) -> str:
-    """y_xx and y_x: derivatives as indices, where one is of second order."""
+    """y_xx and y_x: derivatives as indices, where one is of second order and no derivative is written otherwise."""
     second = re.search(r"\b([a-zA-Z])_([xtzsr])\2\b", text)
-    if second is None:
+    if second is None or "'" in text or "diff(" in text:
         return text
     y, x = second[1], second[2]
     text = re.sub(rf"\b{y}_{x}{x}\b", f"diff({y}, {x}, 2)", text)
@@ -389,8 +389,17 @@ _DERIVATIVE_IN_BRACES = re.compile(
 
 def _in_italics(found: re.Match[str]) -> str:
     name = found[1] or "d"
-    if found[0].startswith("\\operatorname") and name not in FUNCTION_NAMES:
-        raise ParseError(f"{name} isn't a function that is read here", text=found.string, position=found.start())
+    is_index = found.string[: found.start()].rstrip("{ ").endswith("_")
+    is_word = len(name) > 1 and name not in FUNCTION_NAMES and not is_index
+    if is_word and found[0].startswith(("\\operatorname", "\\text")):
+        hint = "leave words out; functions are sin, exp, log, erf and the like"
+        raise ParseError(
+            f"{name} isn't a function that is read here",
+            text=found.string,
+            position=found.start(),
+            length=len(found[0]),
+            hint=hint,
+        )
     return name
 
 

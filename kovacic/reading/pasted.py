@@ -35,7 +35,8 @@ _COMMAND = re.compile(
 )
 #: What programs print before a line that is typed.
 _PROMPT = re.compile(r"(?:>+|In\[\d+\]:=|\(%i\d+\)|sage:)\s*")
-#: What is between an equation and its values in LaTeX.
+#: The words and the space between an equation and its values in LaTeX.
+_TEXT = re.compile(r"\\text\{\s*(and|with|where|subject to)\s*\}")
 _SPACING = re.compile(r"\\(?:quad|qquad|[,;:! ])")
 #: What assigns an equation to a name: ode := ..., eq: ..., eq = Eq(...).
 _ASSIGNED = re.compile(
@@ -78,7 +79,7 @@ def unwrapped(text: str) -> Unwrapped:
 
 def without_spacing(text: str) -> str:
     """Without LaTeX's commands for space, whose commas and semicolons separate nothing."""
-    return _SPACING.sub(" ", text) if "\\" in text else text
+    return _TEXT.sub(r" \1 ", _SPACING.sub(" ", text)) if "\\" in text else text
 
 
 def _without_delimiters(text: str) -> str:

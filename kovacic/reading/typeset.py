@@ -70,7 +70,7 @@ def _without_bars(text: str) -> str:
 
 #: The functions whose parentheses may be left out.
 BARE = "sinh|cosh|tanh|coth|sech|csch|sin|cos|tan|cot|sec|csc|arcsin|arccos|arctan|exp|log|ln"
-_FUNCTION = rf"(?<!\w)({BARE})"
+_FUNCTION = rf"(?<![^\W\d])({BARE})"
 _POWER = r"(\s*\^\s*[2-9]|\s*²)"
 #: A number, a letter, or both, and then no further factor, power or divisor.
 _FACTOR = r"(\s\s*\d*\s*[^\W\d_](?!\w)|(?<=²)\s*\d*\s*[^\W\d_](?!\w))"
