@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import replace
 from fractions import Fraction
@@ -20,7 +21,7 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import checker
-from kovacic.decision import NoInvariant
+from kovacic.decision import CurveFunction, NoInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import Problem, analyse
@@ -245,6 +246,21 @@ def test_a_unit_itself_beside_a_differential_of_the_first_kind() -> None:
     solution = kovacic.solve(pell(1, QQ, 5, Fraction(1)))
     assert (solution.group.name, solution.group.function.multiple) == ("N(T)", 1)
     assert solution.verify()
+
+
+@pytest.mark.parametrize("genus", [1, 2, 3])
+def test_the_differential_of_a_unit_isnt_of_the_first_kind(genus: int) -> None:
+    """It has poles at infinity, da/y for the unit a + y, so that it is no holomorphic rest: the group is finite."""
+    solution = kovacic.solve(pell(genus, QQ, 0, Fraction(1, 5)))
+    assert solution.group.order == 20
+    a = QQ.poly([1, 2, *[0] * (genus - 1), 1])
+    forged = CurveFunction(5, a * a - 3, (), a.derivative())
+    claim = replace(solution.group.claim, family="infinite dihedral", n=None, function=forged)
+    assert not verify(solution.S, solution.decision, claim)
+    data = json.loads(solution.to_json())
+    written = {"multiple": 5, "h": str(forged.h), "pieces": [], "rest": str(forged.rest)}
+    data["group"] = {"name": "N(T)", "order": None, "finite": False, "function": written}
+    assert "the rest is holomorphic" in checker.verdict(json.dumps(data))
 
 
 @pytest.mark.parametrize("multiple", [Fraction(401), Fraction(4001, 1000)], ids=str)

@@ -24,7 +24,7 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, Structure, VerificationFailed
 from kovacic.algebra.modular import rational_function_from_series
-from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant
+from kovacic.decision import NoInvariant, NoRationalOmega, Rule, SemiInvariant
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.places import analyse
 from kovacic.galois import Ground
@@ -36,6 +36,7 @@ from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import is_a_field, is_irreducible
 from kovacic.verify.identity import form_numerators
 from kovacic.verify.normal_form import is_normal_form
+from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.torsion import order_holds
 from kovacic.verify.zeros import largest_natural_sum, zero_counts
@@ -307,6 +308,7 @@ def test_the_root_of_odd_norms_belongs_to_the_function() -> None:
     [
         ("2", None),
         ("3/(4*x^2)", None),
+        ("-3/(16*x^2)", {"degree": 2, "theta": "1/(2*x)", "P": "1"}),  # the square of x^(1/4), a form that isn't rational
         ("x^2 + 3", {"degree": 2, "theta": "0", "P": "1"}),
         ("x^2 + 3", {"degree": 2, "theta": "-2/x", "P": "x^4 + 1"}),
         ("1/x - 3/(16*x^2)", None),
@@ -325,6 +327,24 @@ def test_a_forged_invariant_fails(text: str, invariant: Any) -> None:
         assert not forged.verify()
         with pytest.raises(VerificationFailed):
             _ = forged.group
+
+
+def test_an_irregular_place_has_no_exponent_difference() -> None:
+    """Of such a place the rules say that it is irregular, and nothing of exponents."""
+    data = json.loads(kovacic.solve("x").to_json())
+    item = data["proof"]["excluded"][2]["evidence"][0]
+    assert item["rule"] == "irregular"
+    item |= {"rule": "exponents", "statement": Rule.EXPONENTS.value}
+    with pytest.raises(VerificationFailed):
+        kovacic.Solution.from_json(data)
+
+
+def test_roots_modulo_a_prime_are_simple_ones() -> None:
+    """A double root may be one of a ramified prime, where a square needn't be one in the residue field of p."""
+    h = next(homomorphisms(QQ))
+    assert roots_modulo(QQ.poly([-h.p, 0, 1]), h) == []
+    assert roots_modulo(QQ.poly([0, -4, 0, 1]), h) == [0, 2, h.p - 2]
+    assert roots_modulo(QQ.poly([-2, 1]) * QQ.poly([3, 1]) ** 2, h) == [2]
 
 
 @pytest.mark.parametrize("text", ["3/(4*x^2)", "1/x - 3/(16*x^2)", "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))"])
