@@ -104,6 +104,7 @@ def test_extension_arithmetic_is_a_ring_with_division_and_gcd(field: AlgebraicFi
         assert not common % c.monic()
         assert not (a * c) % common
         assert not (b * c) % common
+        assert common.is_monic
 
 
 @given(over(CUBIC).filter(lambda p: p.degree >= 0))

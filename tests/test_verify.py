@@ -308,7 +308,10 @@ def test_the_root_of_odd_norms_belongs_to_the_function() -> None:
     [
         ("2", None),
         ("3/(4*x^2)", None),
-        ("-3/(16*x^2)", {"degree": 2, "theta": "1/(2*x)", "P": "1"}),  # the square of x^(1/4), a form that isn't rational
+        (
+            "-3/(16*x^2)",
+            {"degree": 2, "theta": "1/(2*x)", "P": "1"},
+        ),  # the square of x^(1/4), a form that isn't rational
         ("x^2 + 3", {"degree": 2, "theta": "0", "P": "1"}),
         ("x^2 + 3", {"degree": 2, "theta": "-2/x", "P": "x^4 + 1"}),
         ("1/x - 3/(16*x^2)", None),
@@ -337,6 +340,21 @@ def test_an_irregular_place_has_no_exponent_difference() -> None:
     item |= {"rule": "exponents", "statement": Rule.EXPONENTS.value}
     with pytest.raises(VerificationFailed):
         kovacic.Solution.from_json(data)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4, 6])
+def test_places_that_are_expanded_together_are_as_each_alone(order: int) -> None:
+    """S = N/(p^k q) modulo p^nu, beside places of other orders."""
+    linear = [QQ.poly([-c, 1]) for c in range(5)]
+    quadratic = [QQ.poly([c, 1, 1]) for c in range(2, 5)]
+    den = QQ.poly([7, 0, 1]) * QQ.poly([8, 0, 1]) ** 5
+    for p in (*linear, *quadratic):
+        den = den * p**order
+    S = RatFunc(QQ.poly([3, 1, 4, 1, 5, 9, 2, 6, 5, 11]), den)
+    for point in Inspector(S, Budget()).points[:-1]:
+        p, k = point.factor, point.order
+        modulus = p ** max(k // 2, 1)
+        assert point.near == (S.num % modulus, S.den // p**k % modulus)
 
 
 def test_roots_modulo_a_prime_are_simple_ones() -> None:

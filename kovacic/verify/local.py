@@ -27,7 +27,7 @@ from kovacic.verify.series import solution_at_singular_point
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    `known` is `near` where it was computed for all points together.
+    `expansions` has `near` for all finite points of its kind.
     """
 
     factor: Poly
@@ -35,7 +35,7 @@ class Point:
     num: Poly
     den: Poly
     budget: Budget
-    known: tuple[Poly, Poly] | None = None
+    expansions: Expansions | None = None
     at_infinity: bool = False
 
     @cached_property
@@ -45,10 +45,9 @@ class Point:
     @cached_property
     def near(self) -> tuple[Poly, Poly]:
         """N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1."""
-        if self.known is not None:
-            return self.known
-        modulus = self.factor ** max(self.order // 2, 1)
-        return self.num % modulus, self.den // self.factor**self.order % modulus
+        if self.expansions is not None:
+            return self.expansions.at(self.factor)
+        return _near(self.num, self.den, self.factor, self.order)
 
     @cached_property
     def at_double_pole(self) -> tuple[Poly, Poly]:
@@ -125,8 +124,9 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     S(1/z)/z^4 is z^(-k) N/M, N and M with the coefficients of num and den in the reversed order, k = deg num - deg den + 4.
     """
     factors = factors_of(S.den)
-    together = _at_regular_points(S, [(p, order) for p, order in factors if order <= 2])
-    found = [Point(p, order, S.num, S.den, budget, together.get(p)) for p, order in factors]
+    regular = Expansions(S, [(p, order) for p, order in factors if order <= 2])
+    irregular = Expansions(S, [(p, order) for p, order in factors if order > 2])
+    found = [Point(p, order, S.num, S.den, budget, regular if order <= 2 else irregular) for p, order in factors]
     order = max(S.num.degree - S.den.degree + 4, 0) if S.num else 0
     num = backwards(S.num, max(S.den.degree - S.num.degree - 4, 0))
     den = backwards(S.den, order)
@@ -134,19 +134,36 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     return [*found, Point(z, order, num, den, budget, at_infinity=True)]
 
 
-def _at_regular_points(S: RatFunc, factors: list[tuple[Poly, int]]) -> dict[Poly, tuple[Poly, Poly]]:
-    """N and q modulo p with S = N/(p^order q), for each factor.
+def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
+    """N and q modulo p^nu with num/den = N/(p^order q), nu = order/2 or 1."""
+    modulus = p ** max(order // 2, 1)
+    return num % modulus, den // p**order % modulus
 
-    At irregular points they have more digits, and are computed one by one where a claim needs them.
+
+@dataclass(frozen=True, eq=False)
+class Expansions:
+    """`_near` of S for some factors with their orders: of the first one alone, which is often enough, of the others together.
+
+    A claim at irregular points, where there are many digits, may need one of them, or all.
     """
-    if not factors:
-        return {}
-    above = _remainders(S.num, [p for p, _ in factors])
-    below = _remainders(S.den, [p ** (order + 1) for p, order in factors])
-    found = {}
-    for (p, order), N, rest in zip(factors, above, below, strict=True):
-        found[p] = (N, rest // p**order)
-    return found
+
+    S: RatFunc
+    factors: list[tuple[Poly, int]]
+
+    def at(self, factor: Poly) -> tuple[Poly, Poly]:
+        p, order = self.factors[0]
+        return _near(self.S.num, self.S.den, p, order) if factor == p else self.together[factor]
+
+    @cached_property
+    def together(self) -> dict[Poly, tuple[Poly, Poly]]:
+        """By the remainders modulo products of the factors."""
+        nus = [max(order // 2, 1) for _, order in self.factors]
+        above = _remainders(self.S.num, [p**nu for (p, _), nu in zip(self.factors, nus, strict=True)])
+        below = _remainders(self.S.den, [p ** (order + nu) for (p, order), nu in zip(self.factors, nus, strict=True)])
+        found = {}
+        for (p, order), N, rest in zip(self.factors, above, below, strict=True):
+            found[p] = (N, rest // p**order)
+        return found
 
 
 def _remainders(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
