@@ -141,10 +141,9 @@ def test_a_named_pipe_is_answered_while_it_is_silent(tmp_path: Path) -> None:
         assert process.wait() == 0
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("jobs", range(1, 9))
+@parametrize("jobs", range(1, 9), ordinary=0, long=3)
 def test_a_hundred_thousand_lines_of_all_kinds(tmp_path: Path, jobs: int) -> None:
-    """12,500 for each number of processes; from a file, from standard input, through `solve_many`."""
+    """12,500 for each number of processes (all are slow tests): a file, standard input, `solve_many`."""
     runs = random_runs(jobs, 12_500)
     path = tmp_path / "lines.jsonl"
     path.write_text("\n".join(lines_of(runs)) + "\n")

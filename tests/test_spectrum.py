@@ -567,7 +567,7 @@ def test_levels_by_degree_are_those_that_the_assumptions_admit(kind: str, degree
     assert tuple(one.degree for one in found.algebraic) == degrees
 
 
-@parametrize("row", [row for row in TABLE + MORE if row.name not in LONG], ordinary=1, ids=lambda row: row.name)
+@parametrize("row", [row for row in TABLE + MORE if row.name not in LONG], ordinary=1, long=4, ids=lambda row: row.name)
 def test_a_norm_has_each_number_once(row: Solvable) -> None:
     """Not 2^A*2^n/2^(3*n), and no quotient of Gamma functions that differ by an integer: gamma(n + 1)/factorial(n)."""
     for levels in spectrum_of(row).levels:
