@@ -448,7 +448,18 @@ def test_potentials_that_are_too_large(potential):
 
 @pytest.mark.parametrize(
     "potential",
-    [sp.Function("f")(U), sp.Function("exit")(U), sp.Abs(sp.cos(U)), sp.Integral(sp.cos(U), U), sp.zoo, sp.oo, sp.nan],
+    [
+        sp.Function("f")(U),
+        sp.Function("exit")(U),
+        sp.Abs(sp.cos(U)),
+        "abs(cos(u))",
+        "sign(cos(u))*cos(u)^2",
+        "Heaviside(u - 1)*u",
+        sp.Integral(sp.cos(U), U),
+        sp.zoo,
+        sp.oo,
+        sp.nan,
+    ],
 )
 def test_potentials_that_are_not_elementary(potential):
     with pytest.raises(InputError, match="the potential can't contain"):

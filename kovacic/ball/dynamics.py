@@ -95,6 +95,9 @@ def potential_of(value: Potential) -> sp.Expr:
     if not isinstance(value, str):  # in text, E isn't Euler's number
         value, names["E"] = str(sp.nsimplify(value, rational=True, rational_conversion="exact")), sp.E
     V = read_expression(value, what="the potential", names=names)
+    corners = sorted(map(str, V.atoms(sp.Abs, sp.sign, sp.Heaviside, sp.DiracDelta)))
+    if corners:
+        raise InputError(f"the potential can't contain {corners[0]}: its force has to be smooth")
     if V.has(sp.I):
         raise InputError(f"the potential is a real function of u, it can't be {value}")
     return V
