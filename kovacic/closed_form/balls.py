@@ -12,13 +12,15 @@ from operator import add, mul
 from typing import Any
 
 import sympy
-from flint import acb, arb, fmpq, fmpz_poly
+from flint import acb, acb_series, arb, ctx, fmpq, fmpz_poly
 
 from kovacic.algebra.embedding import root_near
 from kovacic.errors import InputError
-from kovacic.limits import check_time
+from kovacic.limits import check_duration, check_time
 
 BallValue = Any  # an acb or an acb_series
+#: Of a product or a quotient of power series, for each coefficient and bit: FLINT can't be stopped inside.
+_SERIES_SECONDS = 6e-8
 
 _CONSTANTS = {sympy.pi: arb.pi, sympy.E: arb.const_e, sympy.EulerGamma: arb.const_euler}
 #: Flint's methods of the same names; none of these has a branch cut.
@@ -68,6 +70,8 @@ class BallEvaluator:
         if found is None:
             check_time()
             found = self._known[e] = self._evaluated(e)
+            if isinstance(found, acb_series):
+                _check_series()
         return found
 
     def _evaluated(self, e: Any) -> BallValue:
@@ -98,7 +102,7 @@ class BallEvaluator:
 
     def _power(self, base: Any, exponent: Any) -> BallValue:
         if exponent.is_Integer:
-            return self(base) ** int(exponent)
+            return _whole_power(self(base), int(exponent))
         if base is sympy.E:
             return self(exponent).exp()
         if exponent in (sympy.S.Half, -sympy.S.Half):
@@ -139,3 +143,23 @@ def _exact(number: Any) -> acb:
     """The dyadic number that a float of SymPy is."""
     sign, mantissa, exponent, _ = number._mpf_
     return acb(arb((-int(mantissa) if sign else int(mantissa), int(exponent))))
+
+
+def _check_series() -> None:
+    """Raises `LimitExceeded` where there isn't the time for another operation with such a series."""
+    check_duration(_SERIES_SECONDS * ctx.cap * ctx.prec, f"a product of power series with {ctx.cap} terms")
+
+
+def _whole_power(value: BallValue, exponent: int) -> BallValue:
+    """That of a series by squarings, so that the clock is looked at between them."""
+    if not isinstance(value, acb_series):
+        return value**exponent
+    if exponent < 0:
+        return 1 / _whole_power(value, -exponent)
+    power = acb_series([1])
+    for digit in f"{exponent:b}":
+        power = power * power
+        if digit == "1":
+            power = power * value
+        _check_series()
+    return power
