@@ -149,7 +149,7 @@ def test_operations_with_long_series_are_foreseen(coefficient: str) -> None:
     """FLINT can't be stopped inside of one, which takes seconds where there are ten thousand terms and bits."""
     with (
         controlled(looks_in_time=10**9),
-        pytest.raises(LimitExceeded, match="a product of power series with .* terms takes"),
+        pytest.raises(LimitExceeded, match=r"a product of power series with .* terms takes"),
     ):
         evaluate(
             f"y'' + {coefficient}*y' + tan(x)*y = 0", "2.75", x0="2.25", digits=5000, limits=Limits(seconds=1), **START

@@ -155,7 +155,8 @@ def _whole_power(value: BallValue, exponent: int) -> BallValue:
     if not isinstance(value, acb_series):
         return value**exponent
     if exponent < 0:
-        return 1 / _whole_power(value, -exponent)
+        power = _whole_power(value, -exponent)
+        return power**-1 if power[0] == 0 else 1 / power  # the former isn't finite, as that of a ball
     power = acb_series([1])
     for digit in f"{exponent:b}":
         power = power * power
