@@ -384,13 +384,14 @@ def test_json_of_a_sympy_equation_is_read_in_the_users_variable() -> None:
         assert kovacic.Solution.from_json(answer.to_json()) == answer
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("shifted", "same"),
     [
-        ("exp(x) + exp(x - b)", "(1 + exp(-b))*exp(x)"),
         ("cos(x) + cos(x - b)", "2*cos(b/2)*cos(x - b/2)"),
+        ("exp(x) + exp(x - b)", "(1 + exp(-b))*exp(x)"),
         ("2^x + 2^(x - 1)", "3/2*exp(log(2)*x)"),
     ],
+    ordinary=1,
 )
 def test_constants_that_are_added_in_exponents(shifted: str, same: str) -> None:
     """The answer solves the same equation, written in another way."""

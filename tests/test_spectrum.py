@@ -344,6 +344,7 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["spectrum", "x^2 + 1/(x^2 + 5)"]) == 3
 
 
+@pytest.mark.long
 def test_a_box_has_the_levels_of_its_waves() -> None:
     """V = c between walls at a and b: y(b) = 0, n zeros inside, and the norm; none beside an infinite end."""
     found = kovacic.spectrum("c", domain=("a", "b"), boundary="friedrichs")
@@ -519,6 +520,7 @@ def test_potentials_in_roots_of_x(V: str, domain: tuple[str | int, str | int], k
         assert kovacic.spectrum(V, domain=domain).closed_forms_complete is known
 
 
+@pytest.mark.long
 def test_powers_of_numbers_are_exponentials() -> None:
     """b^x = exp(x log(b)): Morse's potential, whose levels are E_n = -(10 - (n + 1/2) |log(b)|)^2."""
     for base, rate in (("2", sympy.log(2)), ("(1/3)", -sympy.log(3))):
