@@ -82,7 +82,7 @@ def test_bounds_admit_the_numbers_between(what: str) -> None:
         assert not (known.nonzero and expected and not value)
 
 
-@parametrize("what", INEQUALITIES, ordinary=1)
+@parametrize("what", INEQUALITIES, ordinary=1, long=20)
 @pytest.mark.parametrize("S", [BESSEL, "x^6 + n*x^2", "x^4 + n*x", "n*x^5 + x", "(n+2)*x^4 + x^2 + n*x", "x^2 + n"])
 def test_inequalities_leave_out_only_what_cannot_happen(S: str, what: str) -> None:
     general, answer = kovacic.conditions(S, var="x"), kovacic.conditions(S, assume={"n": what}, var="x")

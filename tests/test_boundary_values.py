@@ -321,7 +321,7 @@ EXPANDED = [
 ]
 
 
-@parametrize(("e", "point"), EXPANDED, ordinary=6, ids=str)
+@parametrize(("e", "point"), EXPANDED, ordinary=6, long=15, ids=str)
 def test_expansions(e: Any, point: Any) -> None:
     """Against values by mpmath, near the point."""
     place = Approach(sympy.sympify(point))
@@ -373,7 +373,7 @@ def test_when_a_constant_is_zero() -> None:
     assert not is_zero_by_size(sqrt(2) - Rational(1414213562373095048801688724209, 10**30))
 
 
-@parametrize("seed", range(40), ordinary=5)
+@parametrize("seed", range(40), ordinary=5, long=15)
 def test_ranks(seed: int) -> None:
     """Rows made of a rank and of solutions, with numbers that aren't recognised at sight."""
     random = Random(seed)

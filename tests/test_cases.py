@@ -30,7 +30,7 @@ def test_there_are_enough_of_every_kind() -> None:
     )
 
 
-@parametrize("entry", BY_ID, ordinary=78)
+@parametrize("entry", BY_ID, ordinary=78, long=45)
 def test_case_and_degree_are_as_published(entry: Published) -> None:
     answer = solved(entry.S)
     assert answer.case == entry.case
@@ -67,7 +67,7 @@ def test_published_solution_is_one_of_ours(entry: Published) -> None:
         assert sympy.simplify(omega - sympy.sympify(str(ours.omega))) == 0
 
 
-@parametrize("entry", [e for e in BY_ID if len(e.values[0].S) < 300], ordinary=28)
+@parametrize("entry", [e for e in BY_ID if len(e.values[0].S) < 300], ordinary=28, long=60)
 def test_textbook_search_agrees(entry: Published) -> None:
     answer = solved(entry.S)
     try:

@@ -680,7 +680,7 @@ def test_a_singular_point_between() -> None:
     assert dsolve("x^2*y'' - 2*x*y' + 2*y = 0", ics={"y(-1)": 0, "y(1)": 2}).rhs == x**2 + x
 
 
-@parametrize("seed", range(30), ordinary=1)
+@parametrize("seed", range(30), ordinary=1, long=12)
 def test_constants_keep_the_limit(seed: int) -> None:
     """Initial and boundary values within a second more than the limit; what isn't found in time is an `Integral`, or said."""
     random = Random(seed)
@@ -764,6 +764,7 @@ def test_special_functions_where_nothing_is_proven() -> None:
         (2 * exp(sympy.I * x) / ((exp(2 * sympy.I * x) + 4 * exp(sympy.I * x) + 1) * cos(x)), {sympy.log, sympy.atan}),
     ],
     ordinary=5,
+    long=25,
 )
 def test_integrals_known_at_once(integrand: sympy.Expr, functions: set) -> None:
     found = antiderivative(integrand, x)
@@ -1070,7 +1071,7 @@ FACTORS = """
 """.replace("^", "**").split()
 
 
-@parametrize("seed", range(80), ordinary=2)
+@parametrize("seed", range(80), ordinary=2, long=30)
 def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
     """For sums of products of functions that were drawn by lot: the derivative at three points, in x alone; or None."""
     rng = random.Random(seed)

@@ -60,7 +60,7 @@ def encloses(seed: int) -> None:
                 assert ball_to_flint(wide).overlaps(ball_to_flint(sharp)), (equation, balls, inside)
 
 
-@parametrize("seed", range(60), ordinary=4)
+@parametrize("seed", range(60), ordinary=4, long=24)
 @pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
 def test_every_number_in_the_balls_is_served(seed: int) -> None:
     encloses(seed)

@@ -178,6 +178,7 @@ def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) ->
         ("-1 + 160400/x^2", 402, 800),
     ],
     ordinary=3,
+    long=25,
 )
 @pytest.mark.parametrize("digits", [5, 15, 60, 300])
 def test_flints_functions_and_taylor_steps_agree(equation: str, x0: Any, x: Any, digits: int) -> None:

@@ -200,7 +200,7 @@ def test_an_undecided_answer_says_why() -> None:
     assert "undecided" in answer._repr_latex_()
 
 
-@parametrize("text", EQUATIONS, ordinary=1)
+@parametrize("text", EQUATIONS, ordinary=1, long=15)
 @pytest.mark.parametrize("form", ["text", "markdown", "latex", "html"])
 def test_every_format_of_every_kind(text: str, form: str) -> None:
     explained = kovacic.solve(text).explain(format=form)

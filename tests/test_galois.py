@@ -58,7 +58,7 @@ def published_name(group: str) -> str:
 PUBLISHED = [pytest.param(row.S, published_name(row.group), id=row.id) for row in published.load() if row.group]
 
 
-@parametrize(("S", "name"), PUBLISHED, ordinary=43)
+@parametrize(("S", "name"), PUBLISHED, ordinary=43, long=55)
 def test_published_groups(S: str, name: str) -> None:
     assert kovacic.solve(S).group.name == name
 

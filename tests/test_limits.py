@@ -111,7 +111,7 @@ WHOLE = ("verify", "closed_form", "solutions", "from_json")
 
 
 @pytest.mark.parametrize("looks", [3, 60])
-@parametrize("name", CALLS, ordinary=1)
+@parametrize("name", CALLS, ordinary=1, long=24)
 def test_every_call_ends_once_its_time_is_over(name: str, looks: int) -> None:
     """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason."""
     if not name.startswith(("solve", "dsolve", "decide")):
