@@ -374,9 +374,12 @@ KNOWN = [
 def meant(text: str) -> Any:
     """The expression that a text of SymPy's means; all names are symbols but those of `KNOWN`."""
     text = text.replace("lambda", "lambda_")  # a word of Python's
-    names = {name: sympy.Symbol(GREEK_NAMES.get(name, name)) for name in re.findall(r"[^\W\d]\w*", text)}
+    names = {
+        name: sympy.Symbol(GREEK_NAMES.get(name, name.replace("lambda_", "lambda")))
+        for name in re.findall(r"[^\W\d]\w*", text)
+    }
     symbols = {name: symbol for name, symbol in names.items() if name not in KNOWN}
-    return sympy.sympify(text, locals=symbols).subs("lambda_", sympy.Symbol("lambda"))
+    return sympy.sympify(text, locals=symbols)
 
 
 @parametrize("row", PASTED, ordinary=60, ids=[row["text"] for row in PASTED])

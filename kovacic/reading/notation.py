@@ -505,11 +505,7 @@ class _Latex:
         if closing is not None:
             return f"( {self.until(closing)} )"
         if piece == "^":
-            exponent = self.group()
-            primes = exponent.replace(" ", "")
-            if primes in ("(1)", "(2)", "(3)", "(4)"):  # y^{(2)}
-                return "'" * int(primes[1])
-            return primes if primes and not primes.strip("'") else f"^( {exponent} )"
+            return self.power()
         if piece == "_":
             return f"_{self.group().replace(' ', '')}"
         if piece in ("\\frac", "\\dfrac", "\\tfrac"):
@@ -526,12 +522,24 @@ class _Latex:
         if name in _LATEX_FUNCTIONS and piece != name:
             return self.function(name)
         if piece.startswith("\\"):
-            known = name.removeprefix("var")
-            if known not in GREEK:
-                shown = piece if piece.isprintable() else repr(piece)
-                raise self.error(f"{shown} isn't a command that is read here", piece)
-            return self.indexed(known)
+            return self.letter(piece)
         return self.indexed(piece) if piece.isalpha() else piece
+
+    def power(self) -> str:
+        """What stands behind ^: primes, the order of a derivative as in y^{(2)}, or an exponent."""
+        exponent = self.group()
+        primes = exponent.replace(" ", "")
+        if primes in ("(1)", "(2)", "(3)", "(4)"):
+            return "'" * int(primes[1])
+        return primes if primes and not primes.strip("'") else f"^( {exponent} )"
+
+    def letter(self, command: str) -> str:
+        """The Greek letter of a command, \\alpha or \\varphi, with its index."""
+        known = command.removeprefix("\\").removeprefix("var")
+        if known not in GREEK:
+            shown = command if command.isprintable() else repr(command)
+            raise self.error(f"{shown} isn't a command that is read here", command)
+        return self.indexed(known)
 
     def indexed(self, name: str) -> str:
         """A name with its index, and with the primes and the argument that belong to it."""

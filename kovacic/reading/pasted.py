@@ -115,15 +115,13 @@ def _of_arguments(command: str, call: str, text: str) -> Unwrapped:
     variable = None
     for argument in rest:
         part = _unquoted(argument)
-        if re.match(r"ics\s*=", part) and part.endswith("}"):
-            given += _of_mapping(part)
-        elif _NAMED.fullmatch(part) and (part != argument or _occurs(part, equation)):
-            variable = part if part != argument else variable  # a name in quotation marks is MATLAB's variable
-        elif part[:1] in ("{", "[") and "=" in part and _is_enclosed(part):
-            given += _listed(part[1:-1])
-        elif "=" in part and not _NAME_OF_OPTION.match(part):
-            given.append(part)
-        else:
+        is_quoted = part != argument
+        values = _values_in(part)
+        if values is not None:
+            given += values
+        elif _NAMED.fullmatch(part) and is_quoted:  # MATLAB's variable
+            variable = part
+        elif not (_NAMED.fullmatch(part) and _occurs(part, equation)):
             hint = f"give the equation and its values: {', '.join((equation, *given))}"
             raise ParseError(
                 f"{part} isn't read in {command}(...)",
@@ -135,6 +133,17 @@ def _of_arguments(command: str, call: str, text: str) -> Unwrapped:
     if variable is not None:
         equation = _differentiated_by(variable, equation)
     return Unwrapped(equation, tuple(value for part in given for value in plain_values(part)))
+
+
+def _values_in(part: str) -> list[str] | None:
+    """The values in an argument: in SymPy's ics={...}, in a list, or one alone; None where it is something else."""
+    if re.match(r"ics\s*=", part) and part.endswith("}"):
+        return _of_mapping(part)
+    if "=" not in part:
+        return None
+    if part[:1] in ("{", "[") and _is_enclosed(part):
+        return _listed(part[1:-1])
+    return None if _NAME_OF_OPTION.match(part) else [part]
 
 
 def _occurs(named: str, equation: str) -> bool:

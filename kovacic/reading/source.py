@@ -174,12 +174,8 @@ def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str, *, might_be
     for name, k in tokens.names().items():
         if name in (variable, unknown) or name in NUMBER_NAMES or as_function(name) is not None or name in GREEK:
             continue
-        if unknown and name == f"D{unknown}":
-            hint = f"write {unknown}' for D{unknown}, and {unknown}'' for D^2 {unknown}"
-            raise tokens.error(ParseError, f"{name} is one name, and D isn't read as an operator", k, k + 1, hint=hint)
-        if unknown and name == f"d{variable}":
-            hint = f"write {unknown}'' or d^2{unknown}/d{variable}^2, and operators applied: {unknown}'' - x*{unknown}"
-            raise tokens.error(ParseError, f"{name} belongs to no derivative of {unknown}", k, k + 1, hint=hint)
+        if unknown:
+            _refuse_operator(tokens, name, k, variable, unknown)
         meant = _as_product(name, variable, unknown)
         if meant is None and no_variable and len(name) == _FACTORS and name[-1] == "t":
             meant = _as_product(name, "t", unknown)
@@ -187,6 +183,16 @@ def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str, *, might_be
             if k and tokens.kinds[k - 1] == "CIRCUMFLEX":
                 meant = f"({meant})"
             raise tokens.error(ParseError, f"{name} is one name", k, k + 1, hint=f"did you mean {meant}?")
+
+
+def _refuse_operator(tokens: Tokens, name: str, k: int, variable: str, unknown: str) -> None:
+    """Raises `ParseError` where a name is an operator and what it is applied to: Dy, or the dx that is left of d/dx."""
+    if name == f"D{unknown}":
+        hint = f"write {unknown}' for D{unknown}, and {unknown}'' for D^2 {unknown}"
+        raise tokens.error(ParseError, f"{name} is one name, and D isn't read as an operator", k, k + 1, hint=hint)
+    if name == f"d{variable}":
+        hint = f"write {unknown}'' or d^2{unknown}/d{variable}^2, and operators applied: {unknown}'' - x*{unknown}"
+        raise tokens.error(ParseError, f"{name} belongs to no derivative of {unknown}", k, k + 1, hint=hint)
 
 
 #: Words around an equation; all other words are names.
