@@ -993,3 +993,10 @@ def test_a_needed_exclusion_is_said() -> None:
     assert answer.case_at({"B": 0, "g2": 3, "g3": 1}) == 1
     assert answer.case_at({"B": 0, "g2": 3, "g3": 2}) == 2
     assert answer.case_at({"B": 1, "g2": 12, "g3": 8}) is None
+
+
+def test_two_pairs_of_conjugate_poles_are_used() -> None:
+    """Over a field of degree 4 beside the parameter the exponents leave no polynomial but for a = 0."""
+    found = kovacic.conditions("-3/(4*(x^2+1)^2) + a/((x^2+1)*(x^2+2))")
+    assert found.complete
+    assert [str(region.statement) for region in found.regions] == ["a = 0"]

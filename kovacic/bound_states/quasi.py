@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import prod
 from typing import Any
 
 import sympy
@@ -28,8 +29,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.bound_states.ends import End
 from kovacic.bound_states.families import Ends, possible
 from kovacic.bound_states.frame import Spot, Uncovered
-from kovacic.engine.places import Kind, analyse
-from kovacic.equation import Equation
+from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.equation import Equation, parameters_of
 from kovacic.limits import Budget
 from kovacic.parametric.exponents import Exponents, choices, choices_of_degree
 from kovacic.parametric.functions import irreducible_factors, over_parameters
@@ -38,6 +39,8 @@ from kovacic.parametric.solutions import Given, has_radicals, solution_of_degree
 
 #: Higher degrees aren't proposed.
 _HIGHEST = 50
+#: Conjugate poles that are used beside parameters.
+_CONJUGATES = 2
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ def found_of_degree(
     problem = analyse(S, budget)
     if any(place.kind is Kind.RAMIFIED for place in problem.places):
         raise Uncovered("at a ramified singular point no solution has a polynomial in it")
-    generic = choices(problem)
+    generic = None if _has_many_conjugates(problem, E) else choices(problem)
     if generic is None:
         raise Uncovered("the exponents need too large an extension of the field")
     seen: set[Any] = set()
@@ -79,6 +82,12 @@ def found_of_degree(
                 if found is not None and (found.constraint, found.polynomial, found.wave) not in seen:
                     seen.add((found.constraint, found.polynomial, found.wave))
                     yield found
+
+
+def _has_many_conjugates(problem: Problem, E: str) -> bool:
+    """Are there more poles than one pair outside of a field with parameters beside E, where factoring takes minutes?"""
+    beside = set(parameters_of(problem.field)) - {E}
+    return bool(beside) and prod(place.degree for place in problem.finite_places) > _CONJUGATES
 
 
 def degree_beyond(S: RatFunc, d: int, budget: Budget) -> int | None:

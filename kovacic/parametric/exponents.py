@@ -28,8 +28,6 @@ from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions
 
 #: The degree of the extension that the exponents may need, and singular points up to which all choices are tried.
 _DEGREE, _POINTS = 16, 8
-#: The degree of the extension that the singular points may need over a field with parameters: factoring there is slow.
-_POINTS_DEGREE = 2
 #: The degree of a hypersurface in its parameter up to which roots are looked for in its field: factoring there is slow.
 _SURFACE = 2
 
@@ -245,18 +243,17 @@ def _singular(problem: Problem) -> list[Place]:
 def _with_rational_points(problem: Problem) -> Problem | None:
     """The same problem over an extension over which its singular points are rational; None where that is too large."""
     base = problem.field
-    most = _DEGREE if base.ground == QQ else _POINTS_DEGREE
     while True:
         factor = next((place.factor for place in problem.finite_places if place.degree > 1), None)
         if factor is None:
             return problem
         field = problem.field
-        if factor.degree * _degree_over(field, base) > most:
-            return None
         if factor.degree == 2:
             extension = _square_root(factor[1] * factor[1] - 4 * factor[0], field).field
         else:
             extension = AlgebraicField(field, factor, "point")
+        if _degree_over(extension, base) > _DEGREE:
+            return None
         S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
         problem = analyse(S, problem.budget)
 
