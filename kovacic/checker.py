@@ -110,7 +110,8 @@ def affordable(size: Any, what: str) -> int:
 
 # ------------------------------------------------------------------------------------------- expressions
 
-PLANE, X = fmpq_mpoly_ctx.get(("c", "x"), Ordering.lex), fmpq_poly([0, 1])
+PLANE = fmpq_mpoly_ctx.get(("c", "x"), Ordering.lex)
+X = fmpq_poly([0, 1])
 C, X2 = PLANE.gens()
 
 
@@ -157,7 +158,8 @@ class Value:
     def over_q(self) -> tuple[Any, Any]:
         """Numerator and monic denominator, of a value without c."""
         demand(not self.has_c, "the constants are rational")
-        num, den = in_one_variable(self.num, 1), in_one_variable(self.den, 1)
+        num = in_one_variable(self.num, 1)
+        den = in_one_variable(self.den, 1)
         return num / den.leading_coefficient(), den / den.leading_coefficient()
 
 
@@ -261,7 +263,11 @@ class Place:
     """The roots of an irreducible p, of multiplicity k in den, where S = num/den; infinity as z = 0 for S(1/z)/z^4."""
 
     def __init__(self, p: Any, k: int, num: Any, den: Any, infinite: bool = False) -> None:
-        self.p, self.k, self.num, self.den, self.infinite = p, k, num, den, infinite
+        self.p = p
+        self.k = k
+        self.num = num
+        self.den = den
+        self.infinite = infinite
         self.name = "infinity" if infinite else str(p)
         self.size = int(p.degree())
         self.nu = max(k // 2, 1)  # the order of a pole of omega, for k even or 1
@@ -304,7 +310,8 @@ class Place:
 
     def local(self, root: int, q: int) -> tuple[Any, Any]:
         """E and M with S = M/(t^max(k, 2) E) at a root of p modulo q."""
-        num, den = reduced(self.num, q, root), reduced(self.den, q, root)
+        num = reduced(self.num, q, root)
+        den = reduced(self.den, q, root)
         demand(not any(int(den[i]) for i in range(self.k)) and int(den[self.k]), f"{q} keeps the order of a pole")
         return den.right_shift(self.k), num.left_shift(max(2 - self.k, 0))
 
@@ -402,7 +409,8 @@ class Place:
         if self.is_irregular:
             return [delta, -delta]
         half = pow(2, -1, q)
-        larger, smaller = (1 + delta) * half % q, (1 - delta) * half % q
+        larger = (1 + delta) * half % q
+        smaller = (1 - delta) * half % q
         return [larger] if self.logarithm else [larger, smaller]
 
     def delta_modulo(self, s0: int, q: int) -> int | None:
@@ -513,7 +521,9 @@ class Exclusions:
 
     def __init__(self, num: Any, den: Any, names: dict[str, Value]) -> None:
         affordable(max(num.degree(), den.degree()), "the degree of S")
-        self.num, self.den, self.names = num, den, dict(names)
+        self.num = num
+        self.den = den
+        self.names = dict(names)
         self.places = places_of(num, den)
 
     def hold(self, structure: str, evidence: list[Any]) -> None:
@@ -522,7 +532,9 @@ class Exclusions:
         One necessary condition, or the absence of the rational form; but a reducible group has one only where omega
         isn't unique, and then there must be no unique omega either.
         """
-        conditions, forms, omegas = 0, 0, 0
+        conditions = 0
+        forms = 0
+        omegas = 0
         for item in the_list(evidence, "the evidence"):
             kind = item["kind"]
             if kind == "necessary_condition":
@@ -586,7 +598,8 @@ class Exclusions:
         room = self.room(m)
         if room < 0:
             return 0
-        n, q = affordable(room + m + 6, f"the number of zeros of a form of degree {m}"), prime or PRIMES[0]
+        n = affordable(room + m + 6, f"the number of zeros of a form of degree {m}")
+        q = prime or PRIMES[0]
         demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
         if point is None:
             den = reduced(self.den, q)
@@ -611,7 +624,9 @@ class Exclusions:
     def no_omega(self, item: dict[str, Any]) -> None:
         """No omega in Q(x) is the only one: no solution's is A/(den B) modulo a prime, deg B <= the number of zeros."""
         demand_keys(item, "evidence", "kind degree prime place")
-        degree, prime, name = item["degree"], item["prime"], item["place"]
+        degree = item["degree"]
+        prime = item["prime"]
+        name = item["place"]
         demand(is_whole(degree) and degree >= -1, "the degree is one, or -1")
         if degree < 0:
             demand_equal((prime, name), (None, ""), "prime and place, without a degree,")
@@ -683,7 +698,8 @@ def least_denominator(series: Any, count: int, top: int) -> int:
 
     By Euclid's algorithm for t^count and the series: deg B = count - deg r0 for the remainder r0 before A.
     """
-    r0, r1 = nmod([1], series.modulus()).left_shift(count), series
+    r0 = nmod([1], series.modulus()).left_shift(count)
+    r1 = series
     while r1.degree() > top:
         r0, r1 = r1, r0 % r1
     return int(count - r0.degree())
@@ -791,7 +807,8 @@ def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str
     """Everything that is said of the group follows from its family; the evidence that is given is what was used."""
     demand_keys(group, "the group", "name order finite", "family n function orders")
     order = SIZES[family] * (n or 1) if family in SIZES else None
-    size, degree = as_json(order), as_json(n)
+    size = as_json(order)
+    degree = as_json(n)
     name = NAMES.get(f"{family}{degree}", NAMES[family]).format(n=degree, order=size)
     expected = {"name": name, "order": size, "finite": order is not None, "family": family, "n": degree}
     for key in set(expected) & set(group):
@@ -962,7 +979,8 @@ class Piece(NamedTuple):
 
     def value(self, x: int, y: int, q: int) -> int:
         """At a point modulo q, over the norm to the power of the integral part of exponent/2; 0 where a norm is 0."""
-        even, odd = int(self.a(x)), int(self.b(x)) * y
+        even = int(self.a(x))
+        odd = int(self.b(x)) * y
         norm = (even - odd) * (even + odd) % q
         return pow(even + odd, self.exponent, q) * pow(norm, -(self.exponent // 2), q) % q if norm else 0
 
@@ -982,7 +1000,8 @@ class CurveFunction:
 
     def logarithmic_derivative(self) -> Value:
         """R, where R dx/y is half of d log of f over its conjugate."""
-        h, total = self.h, Value(0)
+        h = self.h
+        total = Value(0)
         for e, a, b in self.pieces:
             odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
             total += Value(from_one_variable(odd * e), from_one_variable(a * a - h * b * b))
@@ -1060,7 +1079,8 @@ class Differential:
 
         poles = [Pole(X if pole.factor is None else flipped(pole.factor), pole.residue) for pole in self.poles]
         shift = self.den.degree() - self.num.degree() - 4  # dx = -dt/t^2
-        num, den = flipped(self.num) * X ** max(shift, 0), flipped(self.den) * X ** max(-shift, 0)
+        num = flipped(self.num) * X ** max(shift, 0)
+        den = flipped(self.den) * X ** max(-shift, 0)
         return Differential(num, den, poles)
 
 
@@ -1133,7 +1153,8 @@ def class_of_poles(q: int, eta: Differential) -> tuple[ClassGroup, Points]:
     D = Points(group.h**0, group.h * 0)
     for pole in eta.poles:
         f = reduced(pole.factor, q)
-        above, below = reduced(eta.den // pole.factor**2, q), reduced(t // pole.factor, q)
+        above = reduced(eta.den // pole.factor**2, q)
+        below = reduced(t // pole.factor, q)
         d = int(pole.residue.p) * pow(int(pole.residue.q), -1, q)
         y = d * f.derivative() * above * (below % f).xgcd(f)[1] % f
         demand((y * y - group.h) % f == 0, "the residues are exponent differences")
@@ -1161,7 +1182,8 @@ class Answer:
 
     def __init__(self, data: dict[str, Any]) -> None:
         demand_keys({key: value for key, value in data.items() if key in REQUIRED.split()}, "the answer", REQUIRED)
-        self.data, self.proof = data, data["proof"]
+        self.data = data
+        self.proof = data["proof"]
         demand_keys(self.proof, "the proof", "structure semi_invariant invariant excluded undecided")
         demand_names(data["variable"])
         self.structure: str | None = self.proof["structure"]
@@ -1175,7 +1197,8 @@ class Answer:
         checked = self.equation()
         self.case()
         checked.append("case")
-        f, F = None, None
+        f = None
+        F = None
         if self.structure is not None:
             f = self.omega(STRUCTURES[self.structure].omega)
             F = self.rational_form(STRUCTURES[self.structure].form)
@@ -1187,7 +1210,8 @@ class Answer:
 
     def heading(self) -> None:
         """What is said in more than one place is the same."""
-        data, structure = self.data, self.structure
+        data = self.data
+        structure = self.structure
         demand_equal(data["verified"], True, "what the answer says of its own check")
         demand_equal(data["case"], None if structure is None else STRUCTURES[structure].case, "the case")
         demand_equal(data["status"], "none" if structure is None else "liouvillian", "the status")
@@ -1264,7 +1288,8 @@ class Answer:
 
     def omega(self, n: int) -> Form:
         """The polynomial of omega is that of a form f of degree n, over Q(c); f, with its polynomials reduced."""
-        riccati, semi_invariant = self.data["riccati"], self.proof["semi_invariant"]
+        riccati = self.data["riccati"]
+        semi_invariant = self.proof["semi_invariant"]
         demand_keys(riccati, "the polynomial of omega", "variable degree coefficients")
         demand_keys(semi_invariant, "the form", "degree theta P D")
         modulus = self.modulus()
@@ -1300,7 +1325,8 @@ class Answer:
 
     def normal_form(self, semi_invariant: dict[str, Any]) -> None:
         """P has its zeros at ordinary points, and D is the product of the factors p^((k + 1)//2) of the places."""
-        P, D = read(semi_invariant["P"], self.names), read(semi_invariant["D"], self.names)
+        P = read(semi_invariant["P"], self.names)
+        D = read(semi_invariant["D"], self.names)
         demand(P.num.gcd(self.S.den).is_constant(), "P has its zeros at ordinary points")
         expected = prod((place.p ** ((place.k + 1) // 2) for place in self.exclusions.places[:-1]), start=X**0)
         found, below = D.over_q()
@@ -1319,7 +1345,8 @@ class Answer:
 
     def group(self, f: Form | None, F: Form | None) -> None:
         """The group is the one that is named: SL2, a finite primitive one, or found by the forms."""
-        group, used = self.data["group"], set[str]()
+        group = self.data["group"]
+        used = set[str]()
         demand_keys(group, "the group", "name order finite", "family n function orders")
         family: Family = self.structure or "SL2", None
         if self.structure == "reducible":

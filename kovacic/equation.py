@@ -241,10 +241,12 @@ def over(function: RatFunc, field: Field) -> RatFunc:
 
 def lowered(function: RatFunc) -> RatFunc:
     """The same function over the field below, where its coefficients lie there."""
-    num, den = function.num, function.den
+    num = function.num
+    den = function.den
     while isinstance(num, ExtensionPoly) and isinstance(den, ExtensionPoly):
         if any(num.parts[1:]) or any(den.parts[1:]):
             break
-        num, den = num.parts[0], den.parts[0]
+        num = num.parts[0]
+        den = den.parts[0]
     below: tuple[Poly, Poly] = (num, den)
     return RatFunc(*below, reduced=True)

@@ -190,7 +190,8 @@ def _real(value: Any, name: str) -> Any:
         raise InputError(f"{name} = {value} has an exponent beyond {_MAX_EXPONENT}")
     try:
         if isinstance(value, Rational):
-            above, below = value.numerator, value.denominator
+            above = value.numerator
+            below = value.denominator
         else:
             above, below = value.as_integer_ratio()
     except (OverflowError, ValueError):

@@ -163,7 +163,8 @@ class Budget:
         self._deadline = CLOCK.now() + self._seconds
         outer = _WATCHED.get()
         if outer is not None and outer._deadline < self._deadline:
-            self._seconds, self._deadline = outer._seconds, outer._deadline
+            self._seconds = outer._seconds
+            self._deadline = outer._deadline
 
     def check(self) -> None:
         if CLOCK.now() > self._deadline:

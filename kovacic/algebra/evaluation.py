@@ -25,7 +25,8 @@ class Evaluation(Homomorphism):
     def __call__(self, polynomial: Poly) -> Any:
         if isinstance(polynomial, RationalPoly):
             return RationalHomomorphism(self.p)(polynomial)
-        num, den = polynomial.num, polynomial.den  # type: ignore[attr-defined]
+        num = polynomial.num  # type: ignore[attr-defined]
+        den = polynomial.den  # type: ignore[attr-defined]
         scale = sum(self._columns(den)) % self.p
         if scale == 0:
             raise BadPrimeError("a parameter takes a forbidden value")

@@ -99,7 +99,8 @@ class AlgebraicField(Field):
     def _factor_squarefree(self, polynomial: Poly) -> list[Poly]:
         if polynomial.degree <= 1:
             return [polynomial] if polynomial.degree == 1 else []
-        x, shift = self.poly([0, 1]), 0
+        x = self.poly([0, 1])
+        shift = 0
         while True:
             shifted = polynomial(x - self.generator * shift)
             image = norm(shifted)
@@ -122,7 +123,8 @@ class AlgebraicField(Field):
         return self.base.coordinates(*splitting.coordinates(bundle, images, self.dimension))
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
-        parts, n = self.base.assemble(coordinates), self.dimension
+        parts = self.base.assemble(coordinates)
+        n = self.dimension
         return [ExtensionPoly(self, tuple(parts[i : i + n])) for i in range(0, len(parts), n)]
 
     def rational_value(self, constant: Poly) -> Fraction | None:
@@ -195,7 +197,8 @@ class ExtensionPoly(Poly):
 
     def _mul(self, other: ExtensionPoly) -> ExtensionPoly:
         check_time()
-        n, modulus = self.field.dimension, self.field.modulus
+        n = self.field.dimension
+        modulus = self.field.modulus
         products: list[Poly] = [self.field.base.poly([])] * (2 * n - 1)
         for i, a in enumerate(self.parts):
             if a:
@@ -272,7 +275,8 @@ class ExtensionPoly(Poly):
         return tuple(result)
 
     def coefficient_strings(self) -> list[str]:
-        base, name = self.field.base, self.field.name
+        base = self.field.base
+        name = self.field.name
         return [base.poly([part[power] for part in self.parts]).integer_str(name) for power in range(self.degree + 1)]
 
 
@@ -280,7 +284,10 @@ def norm(polynomial: Poly) -> Poly:
     """The norm from K(c)[x] to K[x], from the traces of the powers."""
     field = polynomial.field
     assert isinstance(field, AlgebraicField)
-    n, sums, power, traces = field.dimension, power_sums(field.modulus), polynomial, list[Poly]()
+    n = field.dimension
+    sums = power_sums(field.modulus)
+    power = polynomial
+    traces = list[Poly]()
     for _ in range(n):
         traces.append(sum((part * s for part, s in zip(power.parts, sums, strict=True)), field.base.poly([])))
         power = power * polynomial

@@ -14,7 +14,8 @@ from kovacic.algebra.poly import Poly
 from kovacic.limits import check_time
 
 #: From so many factors of a denominator on, leading terms are tried that are short enough for so many primes.
-_MANY_FACTORS, _PRIMES = 50, 6
+_MANY_FACTORS = 50
+_PRIMES = 6
 #: To fewer factors trees are of no use.
 _FEW_FACTORS = 12
 
@@ -28,20 +29,25 @@ def products(factors: Sequence[Any]) -> list[list[Any]]:
     """The factors, the products of two each, of four each, ..., the product of all."""
     levels = [[*factors]]
     while len(levels[-1]) > 1:
-        left, right = levels[-1][::2], levels[-1][1::2]
+        left = levels[-1][::2]
+        right = levels[-1][1::2]
         levels.append([*map(mul, left, right), *left[len(right) :]])
     return levels
 
 
 def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
     """(p, k): the squarefree product p of the factors of multiplicity k, for k in rising order [Yun 1976]."""
-    found, k, rest = [], 0, polynomial.gcd(polynomial.derivative())
+    found = []
+    k = 0
+    rest = polynomial.gcd(polynomial.derivative())
     radical = polynomial // rest
     while radical.degree > 0:
-        k, following = k + 1, radical.gcd(rest)
+        k = k + 1
+        following = radical.gcd(rest)
         if radical.degree > following.degree:
             found.append((radical // following, k))
-        radical, rest = following, rest // following
+        radical = following
+        rest = rest // following
     return found
 
 
@@ -57,11 +63,13 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     if len(factors) < _FEW_FACTORS:
         pairs = zip(factors, moduli, strict=True)
         return [(num % modulus, (den // p**k if k else den) % modulus) for (p, k), modulus in pairs]
-    one, tree = num.field.poly([1]), products([p**k for p, k in factors])
+    one = num.field.poly([1])
+    tree = products([p**k for p, k in factors])
     simple = _leading_terms(num, factors, moduli, tree) if len(factors) >= _MANY_FACTORS else None
     if simple is not None:
         return [(N, one) for N in simple]
-    cofactors, of_moduli = _combined([one] * len(factors), tree), products(moduli)
+    cofactors = _combined([one] * len(factors), tree)
+    of_moduli = products(moduli)
     return list(zip(_remainders(num, of_moduli), _remainders(cofactors, of_moduli), strict=True))
 
 
@@ -73,7 +81,8 @@ def _leading_terms(
     They are found modulo a few primes: the remainders of num itself would be very long numbers.  They are right because num
     and the sum of N den/p^k have the same remainder modulo all p^nu.
     """
-    lifters, found = [Lifter(num.field) for _ in factors], list[Poly | None]([None] * len(factors))
+    lifters = [Lifter(num.field) for _ in factors]
+    found = list[Poly | None]([None] * len(factors))
     for bundle in islice(num.field.bundles(), _PRIMES):
         check_time()
         try:
@@ -98,7 +107,8 @@ def _leading_terms(
 
 def _leading_terms_modulo(num: Any, powers: Sequence[Any], moduli: Sequence[Any]) -> list[Any]:
     """num/(den/p^k) modulo p^nu for all powers p^k, whose product den is, modulo a prime."""
-    tree, terms = products(powers), list[Any]()
+    tree = products(powers)
+    terms = list[Any]()
     cofactors = _combined([powers[0] ** 0] * len(powers), tree)
     for N, q, modulus in zip(_remainders(num, tree), _remainders(cofactors, tree), moduli, strict=True):
         common, inverse, _ = (q % modulus).xgcd(modulus)

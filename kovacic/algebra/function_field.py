@@ -28,7 +28,8 @@ from kovacic.algebra.sparse import by_power, constant_term, factorisation, laure
 from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
-_FIRST_PRIME_RUN, _QUOTA = 3, 32
+_FIRST_PRIME_RUN = 3
+_QUOTA = 32
 
 
 @cache
@@ -60,13 +61,16 @@ class FunctionField(Field):
         check_time()
         common = num.gcd(den)
         if not common.is_one():
-            num, den = num // common, den // common
+            num = num // common
+            den = den // common
         if int(den.leading_coefficient()) < 0:
-            num, den = -num, -den
+            num = -num
+            den = -den
         return FunctionPoly(self, num, den)
 
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> FunctionPoly:
-        total, power = self.make(self.context.constant(0), self.context.constant(1)), self.context.constant(1)
+        total = self.make(self.context.constant(0), self.context.constant(1))
+        power = self.context.constant(1)
         x = self.context.gen(0)
         for coefficient in coefficients:
             if coefficient:
@@ -89,7 +93,9 @@ class FunctionField(Field):
     def embed(self, polynomial: Poly) -> FunctionPoly:
         if not isinstance(polynomial, RationalPoly):
             raise TypeError("a polynomial over Q is expected")
-        num, den, k = polynomial.rep.numer(), polynomial.rep.denom(), len(self.names)
+        num = polynomial.rep.numer()
+        den = polynomial.rep.denom()
+        k = len(self.names)
         terms = {(i, *[0] * k): c for i, c in enumerate(num.coeffs()) if c}
         return FunctionPoly(self, self.context.from_dict(terms), self.context.constant(den))
 
@@ -106,16 +112,21 @@ class FunctionField(Field):
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
         """Random points, most of them modulo the first prime, which is enough for functions with small coefficients."""
         usable = (p for p in primes() if allowed is None or allowed(p))
-        first, other = next(usable), next(usable)
-        left, quota, random = _QUOTA, _QUOTA, Random(20240229)
+        first = next(usable)
+        other = next(usable)
+        left = _QUOTA
+        quota = _QUOTA
+        random = Random(20240229)
         for index in count(1):
             check_time()
             p = first
             if index % (_FIRST_PRIME_RUN + 1) == 0:
-                p, left = other, left - 1
+                p = other
+                left = left - 1
                 if not left:
                     quota += quota // 4
-                    left, other = quota, next(usable)
+                    left = quota
+                    other = next(usable)
             yield (Evaluation(p, tuple(random.randrange(p) for _ in self.names)),)
 
     def collector(self, shape: tuple[int, ...]) -> Collector:
@@ -204,7 +215,8 @@ class FunctionPoly(Poly):
 
     def _columns(self) -> list[Any]:
         """The coefficients of the powers of x in the numerator, as polynomials in the parameters."""
-        columns, zero = by_power(self.num, 0), self.field.context.constant(0)
+        columns = by_power(self.num, 0)
+        zero = self.field.context.constant(0)
         return [columns.get(k, zero) for k in range(self.degree + 1)]
 
     def numerator_content(self) -> Any:
@@ -248,9 +260,11 @@ class FunctionPoly(Poly):
         """(c, d) for a constant other than 0: it is c^2 d, d a polynomial without squares of polynomials or integers."""
         number, factors = (self.num * self.den).factor_squarefree()
         outer, inner = square_part(Fraction(int(number)))
-        c, d = self.field.context.constant(int(outer)), self.field.context.constant(inner)
+        c = self.field.context.constant(int(outer))
+        d = self.field.context.constant(inner)
         for factor, exponent in factors:
-            c, d = c * factor ** (int(exponent) // 2), d * factor ** (int(exponent) % 2)
+            c = c * factor ** (int(exponent) // 2)
+            d = d * factor ** (int(exponent) % 2)
         return self.field.make(c, self.den), self.field.make(d, self.field.context.constant(1))
 
     @property

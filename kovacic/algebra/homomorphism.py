@@ -76,7 +76,8 @@ class Collector(ABC):
 
     def __init__(self, shape: tuple[int, ...]) -> None:
         self.shape = shape
-        self.primes_used, self._next_attempt = 0, 1
+        self.primes_used = 0
+        self._next_attempt = 1
 
     @abstractmethod
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:

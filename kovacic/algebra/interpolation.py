@@ -40,7 +40,8 @@ class Samples(Collector):
         evaluation = homomorphism.ground
         assert isinstance(evaluation, Evaluation)
         p = evaluation.p
-        points, values = self._points.setdefault(p, []), self._values.setdefault(p, [])
+        points = self._points.setdefault(p, [])
+        values = self._values.setdefault(p, [])
         self.primes_used = len(self._points)
         points.append(evaluation.point)
         values.append([int(c) for image in images for c in image.coeffs()])
@@ -113,7 +114,8 @@ class _Unknown:
         vector = reconstruct_vector(self.residues, self.modulus)
         if vector is None:
             return None
-        numerators, split = vector[0], len(self.terms[0])
+        numerators = vector[0]
+        split = len(self.terms[0])
         return (
             dict(zip(self.terms[0], numerators[:split], strict=True)),
             dict(zip(self.terms[1], numerators[split:], strict=True)),

@@ -20,7 +20,8 @@ from kovacic.limits import check_duration, check_time, watched_seconds
 #: Seconds that FLINT takes, over the square of the degree.
 _SECONDS = 4e-6
 #: Bits of coefficients for which it takes no longer, beside so many for each degree.
-_SHORT, _SHORT_PER_DEGREE = 400, 4
+_SHORT = 400
+_SHORT_PER_DEGREE = 4
 
 Zeros = tuple[tuple[Any, int], ...]
 
@@ -83,7 +84,8 @@ def _yield_zeros(coefficients: tuple[int, ...], prec: int) -> Iterator[list[tupl
 def _dyadic(ball: arb) -> tuple[tuple[int, int], tuple[int, int]]:
     """Mantissa and exponent of the midpoint and of the radius."""
     middle, radius = ((int(part) for part in value.man_exp()) for value in (ball.mid(), ball.rad()))
-    first, second = tuple(middle), tuple(radius)
+    first = tuple(middle)
+    second = tuple(radius)
     return (first[0], first[1]), (second[0], second[1])
 
 

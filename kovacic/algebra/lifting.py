@@ -49,7 +49,10 @@ def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int
     Where the modulus is much larger than the bound another pair than the sought one is improbable; whether the numerator
     or the denominator is the long one doesn't matter [Monagan, Proc. ISSAC 2004, 243-249].
     """
-    r0, r1, t0, t1 = modulus, residue % modulus, 0, 1
+    r0 = modulus
+    r1 = residue % modulus
+    t0 = 0
+    t1 = 1
     while r1 and r1 * abs(t1) > bound:
         quotient = r0 // r1
         r0, r1, t0, t1 = r1, r0 - quotient * r1, t1, t0 - quotient * t1

@@ -43,7 +43,9 @@ def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
     p = num.modulus()
     order = max(order, 2)
     coefficient = num.truncate(order).mul_low(den.truncate(order).inverse_series_trunc(order), order)
-    y1, y2, known = nmod_poly([1], p), nmod_poly([0, 1], p), 2
+    y1 = nmod_poly([1], p)
+    y2 = nmod_poly([0, 1], p)
+    known = 2
     while known < order:
         known = min(2 * known - 1, order)
         corrections = []
@@ -53,7 +55,8 @@ def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
             along1 = y1.mul_low(residual, known - 1).integral()
             along2 = y2.mul_low(residual, known - 1).integral()
             corrections.append(y2.mul_low(along1, known) - y1.mul_low(along2, known))
-        y1, y2 = y1 + corrections[0], y2 + corrections[1]
+        y1 = y1 + corrections[0]
+        y2 = y2 + corrections[1]
     return y1, y2
 
 
@@ -99,7 +102,8 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
     top < k < order say that the series satisfies a linear recurrence, the shortest of which is Berlekamp and Massey's.
     Reference: J. von zur Gathen and J. Gerhard, Modern Computer Algebra, sections 5.7 and 12.3.
     """
-    p, size = series.modulus(), order - top - 1
+    p = series.modulus()
+    size = order - top - 1
     check_duration(_RECURRENCE_SECONDS * size, f"a recurrence of {size} terms")
     terms = series.truncate(order).left_shift(max(size - top - 1, 0)).coeffs()[max(top + 1 - size, 0) :]
     recurrence = fmpz_mod_poly_ctx(p).minpoly([int(c) for c in terms] + [0] * (2 * size - len(terms)))
@@ -123,11 +127,14 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
     determine the second half comes from products of polynomials [van der Hoeven, J. Symb. Comp. 34 (2002)].
     Raises `BadPrimeError` if the indicial factor vanishes modulo p for some j below `order`.
     """
-    p, second_1, first_0 = second.modulus(), int(second[1]), int(first[0])
+    p = second.modulus()
+    second_1 = int(second[1])
+    first_0 = int(first[0])
     operators = [second.right_shift(2), first.right_shift(1), zeroth]
     a, b, c = ([int(v) for v in f.coeffs()[:_BLOCK]] for f in operators)
     terms = twice_weighted, weighted, u = [0, 0], [0, 0], [0, 1]  # k (k - 1) u_k, k u_k and u_k, from place 1 on
-    shares, reach = [0] * order, max(map(len, (a, b, c)))
+    shares = [0] * order
+    reach = max(map(len, (a, b, c)))
 
     def extend_one_by_one(start: int, end: int) -> None:
         for j in range(start or 1, end):
@@ -149,7 +156,8 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
         if end - start <= _BLOCK:
             extend_one_by_one(start, end)
             return
-        middle, width = (start + end + 1) // 2, end - start - 1
+        middle = (start + end + 1) // 2
+        width = end - start - 1
         extend(start, middle)
         blocks = [nmod_poly(row[start + 1 : middle + 1], p) for row in terms]
         share = sum((f.mul_low(g, width) for f, g in zip(operators, blocks, strict=True)), nmod_poly([], p))
@@ -170,7 +178,8 @@ def square_root_series(series: Any, order: int, root: int) -> Any:
     """The square root with constant term `root` (not 0) of a series, to `order` terms."""
     p = series.modulus()
     half = pow(2, -1, p)
-    result, known = nmod_poly([root], p), 1
+    result = nmod_poly([root], p)
+    known = 1
     while known < order:
         known = min(2 * known, order)
         result = (result + series.truncate(known).mul_low(result.inverse_series_trunc(known), known)) * half

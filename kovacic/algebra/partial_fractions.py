@@ -99,7 +99,8 @@ def _reduce_at(r: RatFunc, p: Poly, multiplicity: int, slope: RatFunc) -> tuple[
     cofactor = r.den // p**multiplicity
     # r = A/(p^k C) and the derivative of B/p^(k-1) is (B' p C - (k-1) B p' C + B p C slope)/(p^k C).
     C = cofactor * (slope.den // cofactor.gcd(slope.den))
-    A, rate = r.num * (C // cofactor), slope.num * (C // slope.den)
+    A = r.num * (C // cofactor)
+    rate = slope.num * (C // slope.den)
     scale = (p.derivative() * C).inverse_modulo(p)
     total = r.num * 0
     for k in range(multiplicity, 1, -1):

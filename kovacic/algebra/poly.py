@@ -64,7 +64,9 @@ class Poly(Immutable, ABC):
     def _mul(self, other: Self) -> Self: ...
 
     def _divmod(self, other: Self) -> tuple[Self, Self]:
-        inverse, x, remainder = other.lc.inverse(), self.field.poly([0, 1]), self
+        inverse = other.lc.inverse()
+        x = self.field.poly([0, 1])
+        remainder = self
         quotient = [self.field.poly([])] * max(self.degree - other.degree + 1, 0)
         while remainder.degree >= other.degree:
             shift = remainder.degree - other.degree
@@ -349,7 +351,8 @@ class Field(ABC):
         Their coordinates are integers (over Q(t): polynomials in t) without a common factor.
         """
         (p, q), (r, s) = num.content(), den.content()
-        common, multiple = gcd(p * s, r * q), q * s
+        common = gcd(p * s, r * q)
+        multiple = q * s
         if common == multiple:
             return num, den
         factor = Fraction(multiple, common)

@@ -59,10 +59,12 @@ class RatFunc(Immutable):
                 check_time()
                 common = num.gcd(den)
                 if common.degree > 0:
-                    num, den = num // common, den // common
+                    num = num // common
+                    den = den // common
             if not den.is_monic:
                 leading = den.lc.inverse()
-                num, den = num * leading, den * leading
+                num = num * leading
+                den = den * leading
         object.__setattr__(self, "num", num)
         object.__setattr__(self, "den", den)
 
@@ -152,7 +154,8 @@ class RatFunc(Immutable):
 
     def derivative(self) -> RatFunc:
         """The derivative by the variable."""
-        num, den = self.num, self.den
+        num = self.num
+        den = self.den
         if den.degree == 0:
             return RatFunc(num.derivative(), den, reduced=True)
         common = den.gcd(den.derivative())

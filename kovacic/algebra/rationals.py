@@ -25,15 +25,21 @@ _ROOT_DEGREE = 100
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
-_FACTORED_BITS, _SMOOTH_BITS = 160, 15
+_FACTORED_BITS = 160
+_SMOOTH_BITS = 15
 #: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
-_POWER_SECONDS, _GCD_SECONDS = 1.2e-9, 1.2e-11
+_POWER_SECONDS = 1.2e-9
+_GCD_SECONDS = 1.2e-11
 #: Above this degree products and divisions look at the clock; divisions so many times for each degree of the divisor.
-_LOOK_DEGREE, _PIECES, _SHORTEST_PIECE = 100, 8, 64
+_LOOK_DEGREE = 100
+_PIECES = 8
+_SHORTEST_PIECE = 64
 #: FLINT's time for a long product per bit of its coefficients.
-_PRODUCT_SECONDS, _LONG_PRODUCT = 2e-9, 10**7
+_PRODUCT_SECONDS = 2e-9
+_LONG_PRODUCT = 10**7
 #: The time that it takes to write down a polynomial around a rational point, over a power of the bits of all coefficients.
-_MOVE_SECONDS, _MOVE_POWER = 2e-10, 1.21
+_MOVE_SECONDS = 2e-10
+_MOVE_POWER = 1.21
 
 
 def to_fmpq(value: Scalar) -> Any:
@@ -48,7 +54,8 @@ def to_fraction(value: Any) -> Fraction:
 
 def square_part(value: Fraction) -> tuple[Fraction, int]:
     """`(s, d)` with value = s**2 d, d an integer, squarefree where the numbers are small enough to be factored."""
-    d, outer = fmpz(value.numerator * value.denominator), 1
+    d = fmpz(value.numerator * value.denominator)
+    outer = 1
     factors = abs(d).factor() if d.bit_length() <= _FACTORED_BITS else abs(d).factor_smooth(_SMOOTH_BITS)
     for factor, exponent in factors:
         outer *= int(factor) ** (exponent // 2) * (int(factor.isqrt()) if exponent % 2 and factor.is_square() else 1)
@@ -359,7 +366,8 @@ def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
 
 def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
     """Quotient and remainder: the leading coefficients first, so many at a time, each piece behind what is left of the last."""
-    coefficients, ring = dividend.coeffs(), type(dividend)
+    coefficients = dividend.coeffs()
+    ring = type(dividend)
     quotient = rest = ring([])
     for end in range(len(coefficients), 0, -size):
         check_time()
@@ -388,7 +396,8 @@ def _root(power: Any, n: int) -> Any:
     """The monic r with r^n = power, from the leading coefficients by Newton's iteration for 1/r; None without one."""
     size = power.degree() // n + 1
     top = fmpq_poly(power.coeffs()[: -size - 1 : -1])
-    inverse, known = fmpq_poly([1]), 1
+    inverse = fmpq_poly([1])
+    known = 1
     while known < size:
         known = min(2 * known, size)
         inverse += inverse.mul_low(1 - top.mul_low(inverse.pow_trunc(n, known), known), known) / n

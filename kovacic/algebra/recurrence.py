@@ -34,7 +34,8 @@ class RationalSeries:
         """`sum_(n < count) u_n t^n`."""
         if not count:
             return RationalPoly(fmpq_poly([]))
-        numerators, scale = list[Any](), fmpz(1)
+        numerators = list[Any]()
+        scale = fmpz(1)
         for k in range(count - 1, -1, -1):
             if k % 64 == 0:
                 check_time()
@@ -47,13 +48,15 @@ class RationalSeries:
         total = -sum(map(mul, factors, self._window), fmpz(0))
         scale = fmpz(1)
         if not pivot:
-            value, obstruction = fmpz(0), fmpq(-total, self._denominator)
+            value = fmpz(0)
+            obstruction = fmpq(-total, self._denominator)
         else:
             obstruction = fmpq(0)
             common = (total % pivot).gcd(pivot)
             scale = pivot // common
             if scale < 0:
-                common, scale = -common, -scale
+                common = -common
+                scale = -scale
             value = total // common
             if scale != 1:
                 self._window = [scale * w for w in self._window]
@@ -68,7 +71,8 @@ class FieldSeries:
     """The same over any field, in its scalars."""
 
     def __init__(self, field: Field, width: int) -> None:
-        self._field, self._width = field, width
+        self._field = field
+        self._width = width
         self._terms = [field.poly([1])]
         self._zero = field.poly([])
 

@@ -23,7 +23,8 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 #: From this degree on a number field may have too few primes that split completely; so many primes are tried.
-_LARGE_DEGREE, _TRIED_PRIMES = 4, 12
+_LARGE_DEGREE = 4
+_TRIED_PRIMES = 12
 #: Primes that are tried where a number field of such a degree has parameters.
 _MOST_PRIMES = 20000
 #: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
@@ -145,7 +146,9 @@ def coordinates(
     bundle: Sequence[Any], images: Sequence[Sequence[Any]], n: int
 ) -> tuple[list[Homomorphism], list[list[Any]]]:
     """A bundle of the base field, and the images under it of the n coordinates of each element."""
-    base_bundle, base_images, p = list[Homomorphism](), list[list[Any]](), bundle[0].p
+    base_bundle = list[Homomorphism]()
+    base_images = list[list[Any]]()
+    p = bundle[0].p
     for start in range(0, len(bundle), n):
         block = bundle[start : start + n]
         inverse = nmod_mat(n, n, [pow(h.root, k, p) for h in block for k in range(n)], p).inv().tolist()
@@ -166,7 +169,8 @@ class Ideals(Collector):
 
     def __init__(self, dimension: int, shape: tuple[int, ...]) -> None:
         super().__init__(shape)
-        self._dimension, self._modulus = dimension, 1
+        self._dimension = dimension
+        self._modulus = 1
         self._values = [0] * (1 + sum(shape))  # the image of c, and those of all coefficients
 
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:

@@ -24,7 +24,8 @@ def _term(coefficient: str, monomial: str) -> str:
 def quotient_str(num: Any, den: Any, variable: str) -> str:
     """`num/den`, two polynomials, in lowest terms, with integer coefficients."""
     num, den = num.field.ground.cleared(num, den)
-    above, below = num.integer_str(variable), den.integer_str(variable)
+    above = num.integer_str(variable)
+    below = den.integer_str(variable)
     return above if below == "1" else f"{_parenthesised(above, ' ')}/{_parenthesised(below, ' *')}"
 
 

@@ -76,7 +76,8 @@ def _values_at_roots(element: Poly, modulus: Poly) -> Iterator[tuple[int, int]]:
     """The values of an element of K[x]/p at the simple roots of p modulo primes, with the primes; there is no end of them."""
     for h in modulus.field.homomorphisms():
         try:
-            image, factor = h(element), h.keeping_degree(modulus)
+            image = h(element)
+            factor = h.keeping_degree(modulus)
         except BadPrimeError:
             continue
         for root in simple_roots(factor):
@@ -88,8 +89,11 @@ def characteristic_polynomial(element: Poly, modulus: Poly) -> Poly:
 
     From the traces of its powers by Newton's identities.
     """
-    field, n = modulus.field, modulus.degree
-    sums, traces, power = power_sums(modulus), list[Poly](), element % modulus
+    field = modulus.field
+    n = modulus.degree
+    sums = power_sums(modulus)
+    traces = list[Poly]()
+    power = element % modulus
     for _ in range(n):
         traces.append(sum((power[i] * sums[i] for i in range(power.degree + 1)), field.poly([])))
         power = power * element % modulus

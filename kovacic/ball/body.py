@@ -236,7 +236,10 @@ class Rolling:
     @property
     def linear_system(self) -> tuple[sp.Expr, ...]:
         """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        D, half, rho, weight = self.D, self.half, self.ratio, self.weight
+        D = self.D
+        half = self.half
+        rho = self.ratio
+        weight = self.weight
         across = sp.expand(self.leading * D - half**2) / weight
         parts = -rho * half, (1 + rho) * across, rho * weight, (1 + rho) * half
         return tuple(sp.factor(part / D) for part in parts)
@@ -253,7 +256,8 @@ class Rolling:
     @property
     def S(self) -> sp.Expr:
         """S of (13), y'' = S(x) y."""
-        D, half = self.D, self.half
+        D = self.D
+        half = self.half
         return sp.factor((2 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * half**2) / (4 * D**2))
 
 

@@ -112,7 +112,9 @@ def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
     forms = PRINTED["8"]
     r = _surface()
     c = _cosines()
-    r_u, r_v, e_n = r.diff(u), r.diff(v), c[:, 2]
+    r_u = r.diff(u)
+    r_v = r.diff(v)
+    e_n = c[:, 2]
     centre = sp.Matrix([0, 0, a])
     sphere = (r - centre).dot(r - centre) - R**2
     first = [r_u.dot(r_u) - forms["E"], r_u.dot(r_v), r_v.dot(r_v) - forms["G"]]
@@ -124,7 +126,8 @@ def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
 
 def _kinematics() -> Iterator[tuple[str, list[Any]]]:
     """(2), (4) and (5)."""
-    five, c = PRINTED["5"], _cosines()
+    five = PRINTED["5"]
+    c = _cosines()
     in_space = _space()
     rolling = _rolling()
     contact_on_sphere = R1 * _axes(u1, v1)[2]

@@ -93,7 +93,8 @@ def potential_of(value: Potential) -> sp.Expr:
         raise InputError(f"the potential is text, a number or a SymPy expression, it can't be {value!r}")
     names = {"u": U}
     if not isinstance(value, str):  # in text, E isn't Euler's number
-        value, names["E"] = str(sp.nsimplify(value, rational=True, rational_conversion="exact")), sp.E
+        value = str(sp.nsimplify(value, rational=True, rational_conversion="exact"))
+        names["E"] = sp.E
     V = read_expression(value, what="the potential", names=names)
     corners = sorted(map(str, V.atoms(sp.Abs, sp.sign, sp.Heaviside, sp.DiracDelta)))
     if corners:
@@ -130,15 +131,18 @@ class Dynamics:
 
     def acceleration(self, s: Vector, omega: Vector) -> tuple[Any, Any, Any]:
         """b."""
-        drift, k = cross(omega, s), self.R / (1 + self.rho)
+        drift = cross(omega, s)
+        k = self.R / (1 + self.rho)
         turn = cross(omega, (self.R * s[0], self.R * s[1], self.R * s[2] + self.a))
         return cross(omega, [p - k * q for p, q in zip(turn, drift, strict=True)])
 
     def rates(self, slope: Callable[[Any], Any], y: Vector) -> list[Any]:
         """The derivatives of omega, s, the rows of B, and the contact point's way on a plane; floats or arrays of them."""
-        omega, s = y[:3], y[3:6]
+        omega = y[:3]
+        s = y[3:6]
         r = (self.R * s[0], self.R * s[1], self.R * s[2] + self.a)
-        ds, moved = cross(s, omega), [cross(y[k : k + 3], omega) for k in (6, 9, 12)]
+        ds = cross(s, omega)
+        moved = [cross(y[k : k + 3], omega) for k in (6, 9, 12)]
         J = (self.A1, self.A1, self.A3)
         spin = cross([p * q for p, q in zip(J, omega, strict=True)], omega)
         lever = cross(self.acceleration(s, omega), r)
@@ -161,11 +165,15 @@ class Dynamics:
         def half(x: Any) -> Any:  # D'/2
             return self.m * self.R * ((self.A3 - self.A1) * self.R * x + self.A3 * self.a)
 
-        weight, root0, root = self.m * self.R**2 * self.A1, np.sqrt(self.D(x0)), np.sqrt(self.D(x))
-        eta0, zeta0 = omega_3 * root0, weight * n + half(x0) * omega_3
+        weight = self.m * self.R**2 * self.A1
+        root0 = np.sqrt(self.D(x0))
+        root = np.sqrt(self.D(x))
+        eta0 = omega_3 * root0
+        zeta0 = weight * n + half(x0) * omega_3
         scale = np.sqrt(complex(self.m * self.R**2 * (self.A3 - self.A1))) or 1e-30 * root0  # the limit of l -> 0
         angle = 2 * self.rho * np.arctanh(scale * (x - x0) / (root + root0))
-        even, odd = np.cosh(angle).real, np.sinh(angle)
+        even = np.cosh(angle).real
+        odd = np.sinh(angle)
         eta = eta0 * even - zeta0 * (odd / scale).real
         zeta = zeta0 * even - eta0 * (odd * scale).real
         return eta / root, (zeta - half(x) * eta / root) / weight

@@ -36,12 +36,15 @@ from kovacic.ball.dynamics import (
 from kovacic.errors import InputError, LimitExceeded
 
 #: Evaluations of the equations for one oscillation (some 20 seconds), and the oscillations that a motion is followed for.
-MAX_EVALUATIONS, LONGEST = 300_000, 100_000
+MAX_EVALUATIONS = 300_000
+LONGEST = 100_000
 #: Below the first a motion is steady; one that comes below the second, of its largest distance, is asymptotic to a steady one.
-_STEADY, _ASYMPTOTIC = 1e-12, 1e-6
+_STEADY = 1e-12
+_ASYMPTOTIC = 1e-6
 #: An asymptotic motion is given for as long as two integrations, of tolerances apart by a factor of ten, agree to this, at so
 #: many times.
-_AGREEMENT, _COMPARED = 1e-6, 4000
+_AGREEMENT = 1e-6
+_COMPARED = 4000
 #: The integrator's relative tolerance, the least that SciPy takes.
 _TOLERANCE = 2.3e-14
 _AXIS = np.array([0.0, 0.0, 1.0])
@@ -133,7 +136,8 @@ class Motion:
 
     def energy(self, times: Any) -> Array:
         """Kinetic and potential energy, from the integrated angular velocity: constant up to its errors."""
-        ball, (_, y) = self.ball, self._at(times)
+        ball = self.ball
+        (_, y) = self._at(times)
         velocity = cross(y[:3], (ball.R * y[3], ball.R * y[4], ball.R * y[5] + ball.a))
         twice = ball.m * dot(velocity, velocity) + ball.A1 * (y[0] ** 2 + y[1] ** 2) + ball.A3 * y[2] ** 2
         return np.asarray(twice / 2 + self.force.value(colatitude(y[3:6])), dtype=float)
@@ -145,8 +149,10 @@ class Motion:
         """
         if self.force.g is None:
             return None
-        ball, (_, y) = self.ball, self._at(times)
-        omega, s = y[:3], y[3:6]
+        ball = self.ball
+        (_, y) = self._at(times)
+        omega = y[:3]
+        s = y[3:6]
         turn = cross(ball.rates(self.force.slope, y)[:3], (ball.R * s[0], ball.R * s[1], ball.R * s[2] + ball.a))
         lever = ball.a * ball.kappa / (1 + ball.rho)  # of the centre of mass, by the distance of the two centres
         weight = self.force.g * (1 + lever * s[2]) / np.sqrt(1 + lever**2 + 2 * lever * s[2])

@@ -18,7 +18,8 @@ from kovacic.ball.body import A1, A3, InRoots, Rolling, U, X
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, say
 from kovacic.writing.formula import Math
 
-u, x = U, X
+u = U
+x = X
 m, R, a, R1, D = sp.symbols("m R a R1 D")
 v, theta, u1, v1, n, w3 = sp.symbols("v theta u1 v1 n omega_3")
 du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'' n'")
@@ -122,7 +123,8 @@ PRINTED: dict[str, dict[str, sp.Expr]] = {
 
 def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> Math:
     """omega_3'' + d1 omega_3' + d2 omega_3 = 0."""
-    text, tex = f"omega_3''({variable})", r"\omega_{3}''"
+    text = f"omega_3''({variable})"
+    tex = r"\omega_{3}''"
     for coefficient, prime in ((d1, "'"), (d2, "")):
         if coefficient != 0:
             text += f" + ({coefficient})*omega_3{prime}({variable})"

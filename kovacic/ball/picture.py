@@ -15,7 +15,10 @@ from scipy.spatial.transform import Rotation
 from kovacic.ball.dynamics import Array
 from kovacic.ball.motion import Motion
 
-_BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
+_BLUE = "#1f5f99"
+_ORANGE = "#d9731a"
+_GREY = "#8a8a8a"
+_GREEN = "#2f7d4f"
 
 
 def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> None:
@@ -25,7 +28,8 @@ def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> 
     """
     from matplotlib.figure import Figure
 
-    reaction, errors = motion.reaction(times), motion.defects(times)
+    reaction = motion.reaction(times)
+    errors = motion.defects(times)
     errors = {"energy": motion.energy(times) - motion.energy(0.0), r"$\omega_3$": errors["omega_3"], "n": errors["n"]}
     errors = {name: np.maximum(np.abs(error), 1e-17) for name, error in errors.items()}
     panels: list[tuple[dict[str, Any], str, str, tuple[float, ...]]] = [
@@ -65,10 +69,12 @@ def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> 
 
 def _draw_path(axes: Any, points: Array, kappa: float) -> None:
     """On the plane; or on the sphere, seen from far away above the middle of the path, with circles every 30 degrees."""
-    front, shown = np.full(len(points), True), points.T[: 3 if kappa else 2]
+    front = np.full(len(points), True)
+    shown = points.T[: 3 if kappa else 2]
     if kappa:
         X, Y, Z = points.mean(axis=0)
-        azimuth, elevation = np.arctan2(Y, X), np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
+        azimuth = np.arctan2(Y, X)
+        elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
         axes.view_init(elev=np.degrees(elevation), azim=np.degrees(azimuth))
         axes.set_proj_type("ortho")
         v, u = np.mgrid[0 : 2 * np.pi : 73j, 0 : np.pi : 37j]

@@ -74,7 +74,9 @@ class BallSolution:
             What it was found for.
         """
         (a1, a2, b1, b2), S = place.linear_system, place.S
-        n, w, y = self.n, self.omega_3, self.y
+        n = self.n
+        w = self.omega_3
+        y = self.y
         residuals = [sp.diff(n, X) + a1 * n + a2 * w, sp.diff(w, X) + b1 * n + b2 * w, sp.diff(y, X, 2) - S * y]
         residuals += [sp.diff(omega, X) + omega**2 - S for omega in self.omega]
         values = {} if isinstance(place, InRoots) else dict(zip((x1, x2), place.roots, strict=False))
@@ -112,14 +114,23 @@ def closed_form(place: Rolling) -> BallSolution:
     >>> print(closed_form(InRoots(sp.Rational(3, 2))).omega_3)
     c1*(4*x - x1 - 3*x2)/sqrt(x - x2) + c2*(4*x - 3*x1 - x2)/sqrt(x - x1)
     """
-    D, lead, rho, half, square = place.D, place.leading, place.ratio, place.half, place.discriminant / 4
+    D = place.D
+    lead = place.leading
+    rho = place.ratio
+    half = place.half
+    square = place.discriminant / 4
     if isinstance(place, InRoots):
         return _in_roots(place)
-    quarter, scale, share = D ** sp.Rational(1, 4), sp.sqrt(lead), sp.factor(half / (2 * D))
-    root, E = quarter**2, None
+    quarter = D ** sp.Rational(1, 4)
+    scale = sp.sqrt(lead)
+    share = sp.factor(half / (2 * D))
+    root = quarter**2
+    E = None
     omega: tuple[sp.Expr, ...] = (share + rho * scale / root, share - rho * scale / root)
     if rho == 0:
-        eta, n, omega = C1, C2 - half * C1 / root, (share,)
+        eta = C1
+        n = C2 - half * C1 / root
+        omega = (share,)
     elif lead == 0 and half == 0:
         # D is constant, and its powers go into c1 and c2, of y too.
         n = -C2 * D / rho / place.weight
@@ -133,10 +144,12 @@ def closed_form(place: Rolling) -> BallSolution:
         # D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); here l > 0, since a double root needs A3 > A1.
         linear = X + half.subs(X, 0) / lead
         quarter = sp.sqrt(scale * linear)
-        eta, n = C1 * linear**rho + C2 * linear ** (-rho), -2 * scale * C1 * linear**rho
+        eta = C1 * linear**rho + C2 * linear ** (-rho)
+        n = -2 * scale * C1 * linear**rho
         omega = tuple((sp.Rational(1, 2) + power) / linear for power in (rho, -rho))
     elif rho == 1:
-        eta, n = C1 * root + C2 * half, -2 * C1 * half - C2 * sp.expand(lead * D + half**2) / root
+        eta = C1 * root + C2 * half
+        n = -2 * C1 * half - C2 * sp.expand(lead * D + half**2) / root
     elif sign(lead) == -1:
         # E = sqrt(d) exp(i phi)
         phi = sp.acos(half / sp.sqrt(square))
@@ -159,18 +172,24 @@ def _in_roots(place: InRoots) -> BallSolution:
 
     Beyond, the polynomials are longer than a page: omega is written as a quotient, and the solutions as powers.
     """
-    alpha, beta, rho, N = X - x1, X - x2, place.ratio, sp.Abs(2 * place.ratio)
+    alpha = X - x1
+    beta = X - x2
+    rho = place.ratio
+    N = sp.Abs(2 * place.ratio)
     fourth = sp.Rational(1, 4)
     quarter = alpha**fourth * beta**fourth
     root = quarter**2
     if N.is_Integer and N <= _EXPANDED:
         # The parts of (sqrt(alpha) + sqrt(beta))^N with an even and with an odd power of sqrt(beta), over sqrt(alpha beta).
-        omega, omega_3, spin = [], sp.Integer(0), sp.Integer(0)
+        omega = []
+        omega_3 = sp.Integer(0)
+        spin = sp.Integer(0)
         constants = (C2, C1) if N == 1 else (C1, C2)  # the paper names them in this way
         for i, c in enumerate(constants):
             k = (N - i) // 2
             P = sp.expand(sum(sp.binomial(N, 2 * j + i) * alpha ** (k - j) * beta**j for j in range(k + 1)))
-            e1, e2 = (-sp.Rational(i == N % 2, 2), -sp.Rational(i == 0, 2))
+            e1 = -sp.Rational(i == N % 2, 2)
+            e2 = -sp.Rational(i == 0, 2)
             power = alpha**e1 * beta**e2
             rate = e1 * beta + e2 * alpha + (1 + rho) * (alpha + beta) / 2
             omega.append((e1 + 3 * fourth) / alpha + (e2 + 3 * fourth) / beta + sp.diff(P, X) / P)
@@ -180,7 +199,9 @@ def _in_roots(place: InRoots) -> BallSolution:
         if N == 1:
             omega.reverse()
         return BallSolution(tuple(omega), y, omega_3, spin / -place.weight)
-    r, s, steps = sp.sqrt(alpha) + sp.sqrt(beta), sp.sqrt(alpha) - sp.sqrt(beta), (rho / root, -rho / root)
+    r = sp.sqrt(alpha) + sp.sqrt(beta)
+    s = sp.sqrt(alpha) - sp.sqrt(beta)
+    steps = (rho / root, -rho / root)
     if N.is_Integer:  # r' = r/(2 root), s' = -s/(2 root): these two are rational
         quotient = (r ** (2 * rho) - s ** (2 * rho)) / (r ** (2 * rho) + s ** (2 * rho))
         steps = (rho / root * quotient, rho / root / quotient)

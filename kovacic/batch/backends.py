@@ -58,7 +58,8 @@ def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
     engine = _ENGINES.get(job.backend or "")
     if engine is None:
         raise InputError(f"{job.backend!r} isn't a backend", hint=f"one of {', '.join(_ENGINES)}")
-    iterator, pending = iter(items), deque[Future[list[Record]]]()
+    iterator = iter(items)
+    pending = deque[Future[list[Record]]]()
     with engine(job.scheduler) as (send, room):
         most = job.jobs or 2 * room
         try:

@@ -162,9 +162,12 @@ def _csv_items(lines: Iterable[Item], var: str | None) -> Iterator[Item]:
             wrong.extend([line.error] if line.error else [])
             yield line.text
 
-    reader, header, first = csv.reader(texts()), None, True
+    reader = csv.reader(texts())
+    header = None
+    first = True
     while True:
-        number, row = reader.line_num + 1, [""]
+        number = reader.line_num + 1
+        row = [""]
         wrong.clear()
         try:
             row = next(reader)
@@ -234,7 +237,9 @@ def take_up(path: Path) -> Done:
     The file is replaced by the repaired one in a single step, and not touched if there is nothing to repair.  Raises
     `InputError` for a file with whole lines, none of which is an answer: somebody needs it for something else.
     """
-    done, broken, foreign = Done(), False, False
+    done = Done()
+    broken = False
+    foreign = False
     if not path.is_file():
         return done
     repaired = tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False)  # noqa: SIM115 - below

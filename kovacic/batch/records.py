@@ -22,7 +22,10 @@ from kovacic.views.json import group_dict
 from kovacic.writing.document import FORMATS, Table
 
 # What a record says about its equation in one word; the degree of omega is added in case 3.
-NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
+NONE = "none"
+UNDECIDED = "undecided"
+ERROR = "bad input"
+FAILED = "failed"
 # By the structure of the group: label, case, degree of omega.
 _LABELS: dict[str | None, tuple[str, int | None, int]] = {
     "reducible": ("case 1", 1, 1),

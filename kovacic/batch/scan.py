@@ -78,7 +78,8 @@ def parse_grid(text: str) -> Grid:
     if count > _LARGEST_GRID:
         raise LimitExceeded(f"{text!r} has {count} values, above the limit of {_LARGEST_GRID}", limit="text_length")
     denominator = lcm(start.denominator, step.denominator)
-    first, difference = int(start * denominator), int(step * denominator)
+    first = int(start * denominator)
+    difference = int(step * denominator)
     return Grid(name, range(first, first + count * difference, difference), denominator)
 
 
@@ -138,7 +139,8 @@ def row(record: Record) -> tuple[str, ...]:
     the error.
     """
     data = record.data
-    riccati, group = data.get("riccati") or {}, data.get("group") or {}
+    riccati = data.get("riccati") or {}
+    group = data.get("group") or {}
     remark = data["error"]["message"] if "error" in data else data["proof"]["undecided"]
     cells = (data["status"], data.get("case"), riccati.get("degree"), group.get("name"), group.get("order"),
              data.get("seconds"), remark)  # fmt: skip

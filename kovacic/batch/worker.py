@@ -51,5 +51,6 @@ def _limit_memory(mebibytes: int) -> None:
     resource: Any = __import__("resource")  # not on every system; `Job` with `memory` needs it
     with open("/proc/self/statm", "rb") as statm:
         size = int(statm.readline().split()[0]) * resource.getpagesize()
-    wanted, (_, hard) = size + (mebibytes << 20), resource.getrlimit(resource.RLIMIT_AS)
+    wanted = size + (mebibytes << 20)
+    (_, hard) = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))

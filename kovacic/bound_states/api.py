@@ -388,7 +388,8 @@ def _one_by_one(
     question: SpectralProblem, ends: list[End], excluded: list[Any], max_degree: int, why: str, budget: Budget
 ) -> Spectrum:
     """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
-    parsed, found = question.parsed, list[Algebraic]()
+    parsed = question.parsed
+    found = list[Algebraic]()
     demands = Ends(question.signs, question.friedrichs)
     try:
         for d in range(max_degree + 1):
@@ -418,7 +419,8 @@ def _one_by_one(
 
 def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:
     """With the energies, and which levels they are, where there are no parameters."""
-    E, t = sympy.Symbol(question.energy), sympy.Symbol(question.parsed.variable)
+    E = sympy.Symbol(question.energy)
+    t = sympy.Symbol(question.parsed.variable)
     states: list[BoundState] = []
     original = Original.of(question.parsed.equation, question.x, question.signs)
     if not question.parameters and not original.turning_points(question.domain, question.signs):
@@ -433,7 +435,8 @@ def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:
 
 def _in_real_variable(question: SpectralProblem) -> tuple[Any, Original, Any]:
     """V as a function of a real t, what t is, and t."""
-    parsed, signs = question.parsed, question.signs
+    parsed = question.parsed
+    signs = question.signs
     _check_branch_point(question)
     original = Original.of(parsed.equation, question.x, signs)
     t = sympy.Symbol(parsed.variable)
@@ -487,7 +490,8 @@ def _is_circular(question: SpectralProblem) -> bool:
 
 def _families(question: SpectralProblem, budget: Budget) -> tuple[list[LevelFamily], str]:
     """Those of the first coordinate and standard equation that fit."""
-    parsed, reasons = question.parsed, []
+    parsed = question.parsed
+    reasons = []
     if _is_circular(question):
         raise Uncovered(
             "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
@@ -532,7 +536,8 @@ def _merged(levels: list[Levels]) -> list[Levels]:
             energy = even.energy.subs(n, n / 2)
             if sympy.simplify(energy.subs(n, 2 * n + 1) - odd.energy) != 0:
                 continue
-            half, lower = n / 2, (n - 1) / 2
+            half = n / 2
+            lower = (n - 1) / 2
             is_even = sympy.Eq(sympy.Mod(n, 2), 0)
             wave = sympy.Piecewise((even.wave.subs(n, half), is_even), (odd.wave.subs(n, lower), True))
             norm = None

@@ -164,7 +164,8 @@ def _leading(function: Any, u: Any) -> tuple[int, Any]:
     num, den = (sympy.Poly(part, u) for part in sympy.fraction(sympy.together(function)))
     if num.is_zero:
         return 0, sympy.Integer(0)
-    above, below = num.terms()[-1], den.terms()[-1]
+    above = num.terms()[-1]
+    below = den.terms()[-1]
     return above[0][0] - below[0][0], sympy.factor(above[1] / below[1])
 
 

@@ -40,7 +40,8 @@ class Root:
         re, im = (sympy.factor(part(sympy.expand(square))) for part in (sympy.re, sympy.im))
         size = sympy.sqrt(sympy.factor(re**2 + im**2))
         real = sympy.sqrt(2) * sympy.sqrt(size + re) / 2
-        p, q = sympy.Dummy("p", positive=True), sympy.Dummy("q", real=True)
+        p = sympy.Dummy("p", positive=True)
+        q = sympy.Dummy("q", real=True)
         return cls(square, p + sympy.I * q, radicals=((p, real), (q, im / (2 * real))))
 
 

@@ -200,7 +200,8 @@ def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
     ):
         equation = -r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
         for found in solved(equation, roots, E):
-            rate, difference = kappa.xreplace(found.values), delta.xreplace(found.values)
+            rate = kappa.xreplace(found.values)
+            difference = delta.xreplace(found.values)
             conditions = [
                 *_are_real(roots[:1], positive=True),
                 *_are_real(roots[1:]),
@@ -266,7 +267,8 @@ def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
     first, last = frame.domain
     if first.is_infinite or last.is_infinite:
         return
-    n, width = ends.signs.n, last - first
+    n = ends.signs.n
+    width = last - first
     number = sympy.pi * (n + 1) / width
     wave = sympy.sin(number * (frame.x - first))
     yield LevelFamily(sympy.expand(frame.S + E) + number**2, wave, (sympy.Gt(width, 0),), n, width / 2)
@@ -285,7 +287,8 @@ def hermite_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Level
         raise Uncovered("the equation isn't that of the oscillator on the whole line")
     alpha, beta, gamma = (sympy.Poly(frame.S, z).coeff_monomial(z**k) for k in (2, 1, 0))
     root = Root.of(sympy.factor(alpha), E)
-    n, x = ends.signs.n, frame.x
+    n = ends.signs.n
+    x = frame.x
     for kappa in (root.value, -root.value):
         for found in solved(gamma - beta**2 / (4 * alpha) + kappa * (2 * n + 1), [root], E):
             conditions = [*_are_real([root], positive=True), _above(kappa, 0, strict=True)]

@@ -292,7 +292,8 @@ def range_of(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[A
 
 def _powers(slope: Any, s: Any, m: int) -> tuple[Any, dict[Any, Any]]:
     """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
-    constant, found = sympy.Integer(1), dict[Any, Any]()
+    constant = sympy.Integer(1)
+    found = dict[Any, Any]()
     for factor in sympy.Mul.make_args(slope):
         base, exponent = factor.as_base_exp()
         if not base.has(s):
@@ -361,7 +362,8 @@ def _points(place: Place, signs: Signs) -> Iterator[tuple[Any, Any]]:
         return
     if place.degree > 2:
         raise Uncovered(f"the roots of {place.factor} aren't used")
-    half, rest = place.factor[1], place.factor[0]
+    half = place.factor[1]
+    rest = place.factor[0]
     if place.degree == 1:
         points = [signs.real((-place.factor[0]).to_sympy(x))]
     else:

@@ -142,7 +142,8 @@ def _of_degree(
 
 def _decay(choice: Exponents, end: End, demands: Ends) -> list[Any]:
     """When the exponent at an end is that of a square integrable solution."""
-    x, signs = sympy.Dummy("x"), demands.signs
+    x = sympy.Dummy("x")
+    signs = demands.signs
     for part in choice.parts:
         point = sympy.oo if part.factor is None else signs.real(sympy.simplify((-part.factor[0]).to_sympy(x)))
         if point != end.point:

@@ -40,7 +40,8 @@ class WaveProduct:
 
 def factor_at(frame: SingularFrame, c: Any, t: Any) -> WaveProduct:
     """|t - c| on the domain."""
-    original, half = frame.original, frame.original.theta / 2
+    original = frame.original
+    half = frame.original.theta / 2
     is_above = _is_above(frame, c)
     kind = original.kind
     if kind == "exp" and c == 0:
@@ -105,7 +106,9 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
 def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> tuple[Any, Any]:
     """The solution, and the integral of its square where it is known."""
     order = _ordered(frame, roots)
-    t, z, n = sympy.Symbol(frame.problem_variable), frame.z, signs.n
+    t = sympy.Symbol(frame.problem_variable)
+    z = frame.z
+    n = signs.n
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     if _is_negative_line(w_of_z, z):
         order[0], order[1] = order[1], order[0]
@@ -119,7 +122,8 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     e2 = (1 + b) / 2 - second.mu / 4
     if w.has(sympy.I):
         return _complex_pair(frame, w, t, (a, b), e1, (first, second), scale, n)
-    minus, plus = as_product(frame, 1 - w, t), as_product(frame, 1 + w, t)
+    minus = as_product(frame, 1 - w, t)
+    plus = as_product(frame, 1 + w, t)
     whole = WaveProduct().times(minus, e1).times(plus, e2)
     argument = _argument(frame, w, t)
     wave = whole.shown() * jacobi(n, shortest(a), shortest(b), argument)
@@ -138,7 +142,8 @@ def _is_negative_line(w: Any, z: Any) -> bool:
 
 def _argument(frame: SingularFrame, w: Any, t: Any) -> Any:
     """w in the user's variable."""
-    original, half = frame.original, frame.original.theta / 2
+    original = frame.original
+    half = frame.original.theta / 2
     if original.kind == "exp":
         known = {(t - 1) / (t + 1): sympy.tanh(half), (t + 1) / (t - 1): sympy.coth(half)}
         for form, written in known.items():
@@ -192,7 +197,8 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
     """
     common = 2 ** (a + b) * middle / sympy.factorial(n)
     plain = 2 * common / (2 * n + a + b + 1)
-    left, right = common / a, common / b
+    left = common / a
+    right = common / b
     mean = (b**2 - a**2) / ((2 * n + a + b) * (2 * n + a + b + 2))
     known = {
         (0, 0): plain,
@@ -235,7 +241,9 @@ def _norm(
 
 def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> tuple[Any, Any]:
     """The solution, and the integral of its square where it is known."""
-    t, n, z = sympy.Symbol(frame.problem_variable), signs.n, frame.z
+    t = sympy.Symbol(frame.problem_variable)
+    n = signs.n
+    z = frame.z
     power = (1 + delta) / 2 - origin.mu / 4
     whole = WaveProduct().times(as_product(frame, frame.base, t), frame.m * power)
     in_x = _argument(frame, frame.base, t) ** frame.m

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from kovacic.ball.body import Rolling
 
 #: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
-_SAMPLES, _PER_OSCILLATION, _MOST = 1200, 60, 60_000
+_SAMPLES = 1200
+_PER_OSCILLATION = 60
+_MOST = 60_000
 #: Of `Motion.approach`: below it, errors above 1e-9 are likely.
 _SENSITIVE = 1e-3
 #: What is said of a motion, with the value in it.
@@ -158,8 +160,10 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
     from kovacic.writing.breaking import breakable
 
     # In the roots, the case and the group don't change when x1 and x2 are carried to 1 and -1.
-    solution, form = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x"), closed_form(place)
-    equations, (said, case) = equations_of(place), theorem(place)
+    solution = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x")
+    form = closed_form(place)
+    equations = equations_of(place)
+    (said, case) = theorem(place)
     generic = "{} for generic values" if place.ratio.free_symbols else "{}"
 
     def short(value: Any) -> str:
@@ -171,7 +175,8 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
     N = "{}, not an integer" if case == 2 else "{}"
     rows: list[Row] = [("ratio", place.ratio, "R/R1"), ("N", 2 * place.ratio, "N = 2R/R1", N)]
     if isinstance(place, BallOnSphere):
-        note, roots = "x = cos u; units are those of the input", ", ".join(map(str, place.roots))
+        note = "x = cos u; units are those of the input"
+        roots = ", ".join(map(str, place.roots))
         rows += [("ball", place.kind, "ball"), ("D", place.D, "D(x)"), ("roots", roots, "x1, x2")]
     else:
         D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"

@@ -19,7 +19,13 @@ import click
 import kovacic
 from kovacic.shown import visible
 
-DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, NOT_WRITTEN, INTERRUPTED, PIPE_CLOSED = 0, 2, 3, 4, 5, 130, 141
+DECIDED = 0
+BAD_INPUT = 2
+UNDECIDED = 3
+CHECK_FAILED = 4
+NOT_WRITTEN = 5
+INTERRUPTED = 130
+PIPE_CLOSED = 141
 
 #: Name: the module kovacic.cli.<module> that has the click command of this name, and what it does.
 COMMANDS = {

@@ -196,7 +196,8 @@ def _answer_all(
     job = Job(**run)
     if job.backend == "dask":
         _hush_dask()
-    summary, start = Summary(), time.monotonic()
+    summary = Summary()
+    start = time.monotonic()
     with ExitStack() as stack:
         if not quiet:
             stack.callback(lambda: _print_summary(summary, len(done), time.monotonic() - start))

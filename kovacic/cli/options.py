@@ -85,7 +85,9 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
         match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
         if match is None:
             raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3, n>=0 or 0<n<20")
-        name, relation, what = match[1], match[2], match[3].strip()
+        name = match[1]
+        relation = match[2]
+        what = match[3].strip()
         found[name] = f"{found.get(name, '')} {relation if relation != '=' else ''}{what}".strip()
     return found or None
 
@@ -318,7 +320,8 @@ def fitted(text: str) -> str:
         return text
     from shutil import get_terminal_size
 
-    width, lines = get_terminal_size().columns, []
+    width = get_terminal_size().columns
+    lines = []
     for line in text.splitlines():
         indent = " " * (len(line) - len(line.lstrip()) + 2)
         while len(_CODE.sub("", line)) > width and not _COLUMNS.search(line):

@@ -104,7 +104,8 @@ class Atoms:
         modulus = field.modulus
         if modulus.degree == 2:
             middle = modulus[1] * Fraction(1, 2)
-            half, root = self.constant(middle), self.sqrt(middle * middle - modulus[0])
+            half = self.constant(middle)
+            root = self.sqrt(middle * middle - modulus[0])
             return -half - root if _is_the_smaller_root(field) else -half + root
         pure = modulus.field.rational_value(-modulus[0])
         principal = field.approximation is None or (field.approximation[0] > 0 and not field.approximation[1])
@@ -162,22 +163,22 @@ class Atoms:
         square = discriminant(p)
         if square is None or square <= 0:
             return ()
-        centre, half = -self.constant(p[1]) / 2, radical(rational(square)) / 2
+        centre = -self.constant(p[1]) / 2
+        half = radical(rational(square)) / 2
         return centre - half, centre + half
 
     def log_sum(self, residue: Residue) -> Expr:
         """sum over the roots a of p of residue(a) log(x - a) up to a constant; real for quadratic p over Q."""
-        p, value = residue.factor, residue.value
+        p = residue.factor
+        value = residue.value
         if residue.is_constant:
             return self.constant(value) * log(self.primitive(p)[1], evaluate=False)
         if roots := self.real_roots(p):
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
         if p.degree == 2 and discriminant(p) is not None:
-            centre, slope, root = (
-                -self.constant(p[1]) / 2,
-                self.constant(value[1]),
-                radical(-rational(discriminant(p) or 0)),
-            )
+            centre = -self.constant(p[1]) / 2
+            slope = self.constant(value[1])
+            root = radical(-rational(discriminant(p) or 0))
             mean = self.constant(value[0]) + slope * centre
             angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
             return angle + (mean * log(self.primitive(p)[1]) if mean else 0)
@@ -192,7 +193,8 @@ class Atoms:
         For negative 4 c - b^2 it is -k u log((2 x + b - u)/(2 x + b + u)) with u^2 = b^2 - 4 c, up to its sign.
         """
         c, b = (self.constant(p[i]) for i in (0, 1))
-        slope, mean = self.constant(value[1]), sympy.cancel(self.constant(value[0]) - self.constant(value[1]) * b / 2)
+        slope = self.constant(value[1])
+        mean = sympy.cancel(self.constant(value[0]) - self.constant(value[1]) * b / 2)
         square = sympy.factor(4 * c - b**2)
         twice = 2 * self.x + b
         total = mean * log(self.primitive(p)[1]) if mean else Integer(0)
@@ -271,7 +273,8 @@ def _powers(found: list[Factor], atoms: Atoms, around_zero: bool) -> tuple[Expr,
         for base in group:
             shown = atoms.primitive(base)[1]
             if around_zero and atoms.is_real_beyond_zero(base) and not index.is_Integer:
-                shown, scale = -shown, scale * Integer(-1) ** index
+                shown = -shown
+                scale = scale * Integer(-1) ** index
             bases.append(shown)
         powers.append(Mul(*bases) ** index)
     return scale, powers

@@ -118,7 +118,8 @@ class BallEvaluator:
     def _applied(self, e: Any) -> BallValue:
         if self.analytic and e.func in _CUT:
             return self(e.rewrite(sympy.log))
-        value, name = self(e.args[0]), _NAMES[e.func]
+        value = self(e.args[0])
+        name = _NAMES[e.func]
         if hasattr(value, name):
             return getattr(value, name)()
         if name in _QUOTIENTS:

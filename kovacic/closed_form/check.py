@@ -34,7 +34,8 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
     Only for cases 1 and 2.
     """
     if isinstance(form, Diagonal):
-        first, second = _without(gauge, form.first), _without(gauge, form.second)
+        first = _without(gauge, form.first)
+        second = _without(gauge, form.second)
         return first != second and _is_riccati_solution(first, S) and _is_riccati_solution(second, S)
     if isinstance(form, Triangular):
         omega = _without(gauge, form.first)
@@ -55,7 +56,8 @@ def _without(gauge: RatFunc, y: Product) -> RatFunc:
 
 def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:
     """omega' + omega^2 = S, multiplied by the denominators."""
-    n, d = omega.num, omega.den
+    n = omega.num
+    d = omega.den
     return (n.derivative() * d - n * d.derivative() + n * n) * S.den == S.num * (d * d)
 
 
@@ -63,11 +65,14 @@ def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
     """u and w^2: those of the common factor and of sqrt(delta) V' or kappa r/sqrt(g), and of the zeros A +- ...."""
     u = form.common.logarithmic_derivative
     if isinstance(form, Conjugate):
-        A, B, delta = form.A, form.B, form.delta
+        A = form.A
+        B = form.B
+        delta = form.delta
         norm = A * A - B * B * delta
         v = form.phase.derivative + RatFunc(A * B.derivative() - A.derivative() * B, norm)
         return u + logarithmic_derivative(norm) / 2, v * v * delta
-    r, g = form.integral.integrand, form.integral.g
+    r = form.integral.integrand
+    g = form.integral.g
     if form.zeros is not None:
         u = u + logarithmic_derivative(form.zeros.norm(g)) / 2
         r = r + form.zeros.integrand(g)
@@ -76,7 +81,8 @@ def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
 
 def _is_complete(integral: CurveIntegral) -> bool:
     """If a unit stands for the residues and the rest: is its derivative theirs?"""
-    u, g = integral.unit, integral.g
+    u = integral.unit
+    g = integral.g
     return u is None or (u.is_unit(g) and u.integrand(g) == integral.without_exact)
 
 
@@ -86,8 +92,11 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
         return True  # the integral is left as it is
     if isinstance(primitive, CurveIntegral) and not _is_complete(primitive):
         return False
-    r, rate = primitive.integrand, bare.logarithmic_derivative * -2 - primitive.kernel_derivative
-    n, d = r.num, r.den  # r'/r = rate, multiplied by the denominators
+    r = primitive.integrand
+    rate = bare.logarithmic_derivative * -2 - primitive.kernel_derivative
+    # r'/r = rate, multiplied by the denominators
+    n = r.num
+    d = r.den
     return bool(r) and (n.derivative() * d - n * d.derivative()) * rate.den == rate.num * (n * d)
 
 
@@ -96,7 +105,8 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
     from kovacic.closed_form.jets import jet  # SymPy, which the exact check does without
 
     y, first, second = jet(expression, variable, point)
-    coefficient, g0 = -value_at(S, point), acb(0)
+    coefficient = -value_at(S, point)
+    g0 = acb(0)
     if gauge:
         g0 = value_at(gauge, point)
         coefficient += g0 * g0 - value_at(gauge.derivative(), point)
@@ -115,7 +125,8 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
         check_time()
         with ctx.workdps(digits):
             point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
-            value, bound = residual(expression, variable, S, gauge, point), arb(10) ** -DIGITS
+            value = residual(expression, variable, S, gauge, point)
+            bound = arb(10) ** -DIGITS
             if value < bound or value > bound:  # neither holds for a ball that contains the bound
                 return bool(value < bound)
     said = f"the check of a written-out solution needs more than {digits} digits"

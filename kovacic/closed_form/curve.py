@@ -51,7 +51,8 @@ class Unit:
 
     def integrand(self, g: Poly) -> RatFunc:
         """r with r dx/s the derivative of the contribution, for a norm that is a constant times p^2."""
-        A, B = self.A, self.B
+        A = self.A
+        B = self.B
         top = (B.derivative() * g + B * g.derivative() * Fraction(1, 2)) * A - A.derivative() * B * g
         return RatFunc(top, self.norm(g)) * self.factor
 
@@ -77,7 +78,8 @@ class CurveIntegral:
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by equation (1)."""
-        g, C = self.g, self.exact
+        g = self.g
+        C = self.exact
         total = C.derivative() * g + C * g.derivative() * Fraction(1, 2) + self.rest
         return sum((residue.logarithmic for residue in self.residues), total)
 
@@ -132,28 +134,33 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
             leading = r.num * cofactor.inverse_modulo(p) % p
             scale = Fraction(1, 2) - j if branch else Fraction(-j)
             C = RatFunc(leading * inverse % p * (1 / scale), p**j)
-            exact, r = exact + C, reduce(r, C)
+            exact = exact + C
+            r = reduce(r, C)
         if not branch and not r.den % p:
             residues.append(Residue(p, residue(r, p)))
             r = r - residues[-1].logarithmic
     rest = r.num
-    x, d = field.poly([0, 1]), g.degree
+    x = field.poly([0, 1])
+    d = g.degree
     while rest.degree >= d - 1 and rest:
         j = rest.degree - d + 1
         C = RatFunc(x**j * rest.lc * (1 / (j + Fraction(d, 2))))
-        exact, rest = exact + C, reduce(RatFunc(rest), C).num
+        exact = exact + C
+        rest = reduce(RatFunc(rest), C).num
     return CurveIntegral(g, exact, tuple(residues), rest)
 
 
 def unit(g: Poly, residue: Residue) -> Unit | None:
     """The unit of one residue on a curve of genus 0, None if rho(a)^2/g(a) isn't constant."""
-    p, rho = residue.factor, residue.value
+    p = residue.factor
+    rho = residue.value
     gamma = g % p
     inverse = rho.inverse_modulo(p)
     tau_squared = gamma * inverse * inverse % p
     if tau_squared.degree > 0:
         return None
-    T, square = -gamma * inverse % p, p * p
+    T = -gamma * inverse % p
+    square = p * p
     T = (T + (g * tau_squared[0] - T * T) * (T * 2).inverse_modulo(square)) % square  # Newton's step from p to p^2
     return Unit(*_euclid(T, square), p, tau_squared[0])
 
@@ -172,7 +179,8 @@ def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | 
     T = r.num * kappa_squared * 2 * (r.den // P * P.derivative()).inverse_modulo(P) % P
     p = P
     if branch:
-        T, p = T * branch[0].inverse_modulo(P) % P * branch[0], P * branch[0]
+        T = T * branch[0].inverse_modulo(P) % P * branch[0]
+        p = P * branch[0]
     found = Unit(*_euclid(T, p), p, kappa_squared, Fraction(1))
     return found if found.norm(g).monic() == p.monic() else None
 
@@ -180,10 +188,14 @@ def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | 
 def _euclid(T: Poly, p: Poly) -> tuple[Poly, Poly]:
     """A and B of (3)."""
     field = p.field
-    A, rest, B, other = T % p, p, field.poly([-1]), field.poly([])
+    A = T % p
+    rest = p
+    B = field.poly([-1])
+    other = field.poly([])
     while 2 * A.degree > p.degree:
         scale = A.lc.inverse()  # else the coefficients become long
-        A, B = A * scale, B * scale
+        A = A * scale
+        B = B * scale
         quotient, remainder = divmod(rest, A)
         A, rest, B, other = remainder, A, other - quotient * B, B
     return -A, -B

@@ -31,7 +31,8 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
     """
     scale: Expr = Integer(1)
     if atoms.is_real_beyond_zero(integral.g):
-        integral, scale = _turned(integral), -sympy.I
+        integral = _turned(integral)
+        scale = -sympy.I
     logarithms, others, notes = _terms(integral, atoms, alone=False, exponents=False)
     return scale, Add(*others, *(c * log(base) for c, base in logarithms)), notes
 
@@ -44,20 +45,24 @@ def _turned(integral: CurveIntegral) -> CurveIntegral:
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """The two solutions, with cos and sin where kappa is imaginary, and notes."""
     form = _oriented(form)
-    zeros, oscillates = form.zeros, atoms.is_negative(form.kappa_squared)
+    zeros = form.zeros
+    oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     logarithms, others, notes = _terms(form.integral, atoms, alone=zeros is None, exponents=True)
     common = display(form.common, atoms)
-    A, B = Integer(1), Integer(0)
+    A = Integer(1)
+    B = Integer(0)
     if zeros is not None:  # up to a common factor, without denominators
         (a, A), (b, B) = atoms.primitive(zeros.A), atoms.primitive(zeros.B)
         numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
-        A, B = numbers.q * A, numbers.p * B * roots
+        A = numbers.q * A
+        B = numbers.p * B * roots
     if not others and not logarithms:
         return common * A, common * B, notes
     if oscillates:
         angle = Add(*(_times(kappa, t) for t in others), *(_times(kappa, c) * log(b) for c, b in logarithms))
-        c, s = cos(angle), sin(angle)
+        c = cos(angle)
+        s = sin(angle)
         return common * (A * c - B * s), common * (A * s + B * c), notes
     powers = [(base, _times(kappa, c)) for c, base in logarithms]
     inner = Add(*(_times(kappa, t) for t in others))
@@ -113,9 +118,11 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: boo
     elif integral.rest:
         # x - (x1 + x2)/2 + sqrt(g); alone, for real roots that aren't symmetric to 0, its square root, which has another sign
         # of sqrt(g) in some regions.
-        c, base = atoms.constant(integral.rest), atoms.poly(g.derivative() * Fraction(1, 2)) + root
+        c = atoms.constant(integral.rest)
+        base = atoms.poly(g.derivative() * Fraction(1, 2)) + root
         if alone and not integral.exact and not integral.residues and g[1] and (roots := atoms.real_roots(g)):
-            c, base = 2 * c, Add(*(sqrt(atoms.x - a) for a in roots))
+            c = 2 * c
+            base = Add(*(sqrt(atoms.x - a) for a in roots))
         logarithms.append((c, base))
     for residue in integral.residues:
         found = unit(integral.g, residue)
@@ -128,7 +135,8 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: boo
 
 def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
     """int dx/sqrt(g) for g = k^2 - (x - h)^2 or g = (x - h)^2 + k^2 with a number k > 0; None for others."""
-    h, d = g[1] * g.lc * Fraction(-1, 2), g[0] - g[1] * g[1] * g.lc * Fraction(1, 4)
+    h = g[1] * g.lc * Fraction(-1, 2)
+    d = g[0] - g[1] * g[1] * g.lc * Fraction(1, 4)
     if not atoms.constant(d).is_positive:
         return None
     z = (atoms.x - atoms.constant(h)) / atoms.sqrt(d)
@@ -138,10 +146,13 @@ def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:
     """factor * log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
     factor = rational(u.factor)
-    A, B, p = u.A, u.B, u.p
+    A = u.A
+    B = u.B
+    p = u.p
     content, _ = atoms.primitive(A)
     if content:
-        A, B = A * (1 / content), B * (1 / content)
+        A = A * (1 / content)
+        B = B * (1 / content)
     if atoms.is_negative(u.tau_squared):
         eta = atoms.sqrt(-u.tau_squared)
         (a, top), (b, bottom) = atoms.primitive(A), atoms.primitive(B)
@@ -154,7 +165,8 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr,
 
 def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:
     """The sum over the roots a of p of -(rho/sqrt(gamma)) log((L_a + sqrt(gamma) s)/(x - a))."""
-    p, a = residue.factor, atoms.root
+    p = residue.factor
+    a = atoms.root
     gamma = atoms.poly(integral.radicand(residue), a)
     slope = atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a)
     tangent = gamma + slope * (atoms.x - a)

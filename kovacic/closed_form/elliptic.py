@@ -48,7 +48,8 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
 
     None if the genus isn't 1, or for what the module doesn't cover.
     """
-    r, g = integral.integrand, integral.g
+    r = integral.integrand
+    g = integral.g
     if g.degree not in (3, 4):
         return None
     r, g, inner = _in_square(r, g)
@@ -67,7 +68,8 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
 
 def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
     """r, g, and t where these are in u = t^2, t = x - c; None where there is no such t."""
-    x, centre = RatFunc(g.field.poly([0, 1])), -g[g.degree - 1] / g.degree
+    x = RatFunc(g.field.poly([0, 1]))
+    centre = -g[g.degree - 1] / g.degree
     moved, curve = _moved(r, RatFunc(g), x + centre)
     if g.degree == 3 or curve[1] or moved(-x) != moved:
         return r, g, None
@@ -83,19 +85,23 @@ def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[t
     """By (1), from all branch points."""
     start, one, last = _ordered(_roots(g), inner is not None, atoms)
     x = RatFunc(g.field.poly([0, 1]))
-    t, back = x - start, x + start
+    t = x - start
+    back = x + start
     if last is not None:
-        t, back = (x - start) / (x - last), (x * last - start) / (x - 1)
+        t = (x - start) / (x - last)
+        back = (x * last - start) / (x - 1)
     if one is not None:
         scale = (t.num(one) / t.den(one)).inverse()
-        t, back = t * scale, back(x / scale)
+        t = t * scale
+        back = back(x / scale)
     r, g = _moved(r, RatFunc(g), back)
     m = -(g[2] + 1).inverse()
     done = integrate_on_curve(r, g)
     if any(residue.factor.degree > 1 for residue in done.residues):
         return []
     shown, root = _square_root(t, inner, atoms)
-    phi, modulus = asin(root), atoms.constant(m)
+    phi = asin(root)
+    modulus = atoms.constant(m)
     terms: list[tuple[Poly, Expr]] = []
     if done.exact:
         W = root * sqrt(atoms.factored(1 - shown)) * sqrt(atoms.factored(1 - shown * m))

@@ -96,12 +96,16 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
     >>> print(done.W, [(str(term.coefficient), str(term.q), term.power) for term in done.terms])
     0 [('1', '(x**2 - 1)/x', -1)]
     """
-    x, one, rate = RatFunc(r.field.poly([0, 1])), r.field.poly([1]), _rate(E, alpha)
+    x = RatFunc(r.field.poly([0, 1]))
+    one = r.field.poly([1])
+    rate = _rate(E, alpha)
     apart = E.den * x.num if alpha else E.den
     W, rest, residues = reduce_poles(r, rate, apart)
-    terms, poles = [], []
+    terms = []
+    poles = []
     for found in residues:
-        p, rho = found.factor, found.value
+        p = found.factor
+        rho = found.value
         if rest.den % p:  # dealt with at another zero of E - e
             continue
         e = E.num * E.den.inverse_modulo(p) % p
@@ -128,7 +132,8 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
 
 def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
     """The terms (1) that no pole tells of, with the coefficient 1."""
-    x, one = RatFunc(E.field.poly([0, 1])), E.field.poly([1])
+    x = RatFunc(E.field.poly([0, 1]))
+    one = E.field.poly([1])
     if not alpha:
         for e in _limit(E):
             if (E - e).num.degree == 0:
@@ -168,9 +173,11 @@ def _with_rational_part(
     r: RatFunc, E: RatFunc, alpha: Fraction, candidates: list[RatFunc]
 ) -> tuple[RatFunc, list[Poly]] | None:
     """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates; None where there are none."""
-    field, rate = r.field, _rate(E, alpha)
+    field = r.field
+    rate = _rate(E, alpha)
     functions = [f for f in (r, *candidates) if f]
-    den, x = field.poly([1]), field.poly([0, 1])
+    den = field.poly([1])
+    x = field.poly([0, 1])
     poles = field.factor(E.den) if E.den.degree > 0 else []
     for p, m in [*poles, (x, 0)] if alpha and E.den[0] else poles:
         order = max((f.den.remove(p)[1] for f in functions), default=0)

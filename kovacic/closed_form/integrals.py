@@ -33,7 +33,8 @@ Factors = tuple[Expr, list[Expr]]  # a constant and factors: y1 as `Atoms.factor
 
 def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """y1, and y1 int y1^-2 up to a constant factor and a multiple of y1; and notes about what was left as an integral."""
-    primitive, parts = form.primitive, factors(form.first, atoms)
+    primitive = form.primitive
+    parts = factors(form.first, atoms)
     first = Mul(*parts[1])
     if isinstance(primitive, OpenPrimitive):
         integral = sympy.Integral(display(form.bare.to_power(-2), atoms, around_zero=True), atoms.x)
@@ -51,7 +52,8 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
 
 def integral(h: Product, atoms: Atoms) -> Expr | None:
     """int h dx with its constant factor, None where it would be left.  The branches of roots may not agree."""
-    primitive, one = integrate(h), Product((), (), h.exponential * 0)
+    primitive = integrate(h)
+    one = Product((), (), h.exponential * 0)
     if isinstance(primitive, OpenPrimitive):
         return None
     if isinstance(primitive, CurveIntegral):
@@ -87,7 +89,8 @@ def _scaled(scale: Expr, parts: list[Expr]) -> Scaled:
 
 
 def _rational(y: Product, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
-    exact, residues = primitive.parts.exact, primitive.parts.residues
+    exact = primitive.parts.exact
+    residues = primitive.parts.residues
     if not residues:
         exact = normalised_constant(exact)
     terms = []
@@ -100,7 +103,8 @@ def _rational(y: Product, primitive: RationalPrimitive, first: Factors, atoms: A
 
 def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
     """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
-    pending, terms = list(residues), []
+    pending = list(residues)
+    terms = []
     while pending:
         first = pending.pop()
         partner = None
@@ -111,7 +115,8 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
             terms.append(atoms.log_sum(first))
             continue
         pending.remove(partner)
-        top, bottom = atoms.primitive(first.factor)[1], atoms.primitive(partner.factor)[1]
+        top = atoms.primitive(first.factor)[1]
+        bottom = atoms.primitive(partner.factor)[1]
         at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
         if at_zero is not None and at_zero < 0:
             bottom = -bottom
@@ -131,7 +136,8 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
         c, function = _gamma(term.b, term.n, atoms.sum(term.q(t)), alpha + term.power, atoms)
         shift = exp(atoms.constant(term.e))
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
-    n, a = alpha.denominator, atoms.root
+    n = alpha.denominator
+    a = atoms.root
     v = Mul(*(atoms.poly(p) ** rational(Fraction(k, n)) for p, k in ((t.num, 1), (t.den, -1))))
     for residue in primitive.poles:
         body = atoms.poly(residue.value, a**n)
@@ -154,7 +160,8 @@ def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scal
         root = atoms.sqrt(factor if positive else -factor)
         u = root * t ** sympy.Rational(n, 2)
         return 1 / (root * n), sqrt(pi) * (erfi if positive else erf)(u)
-    order, z = rational(s), -beta * t**n
+    order = rational(s)
+    z = -beta * t**n
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.

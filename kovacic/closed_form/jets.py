@@ -107,7 +107,8 @@ class _Evaluator(BallEvaluator):
         c, dc, s, ds = (parameter_value(str(function(*e.args))) for function in MATHIEU)
         at_zero = (*e.args[:2], sympy.S.Zero)
         if e.args == at_zero:
-            dc, s = acb(0), acb(0)
+            dc = acb(0)
+            s = acb(0)
         else:
             W = parameter_value(str(sympy.mathieuc(*at_zero))) * parameter_value(str(sympy.mathieusprime(*at_zero)))
             ds = (W + dc * s) / c
@@ -181,7 +182,8 @@ def _bessel(name: str, parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     """C, C' = +-C_(nu-1) - (nu/z) C, with - for K, and C'' by Bessel's equation, modified for I and K."""
     (nu,) = parameters
     function = getattr(acb, name)
-    C, below = function(z, nu), function(z, nu - 1)
+    C = function(z, nu)
+    below = function(z, nu - 1)
     slope = (-below if name == "bessel_k" else below) - nu / z * C
     sign = 1 if name in ("bessel_i", "bessel_k") else -1
     return [C, slope, (sign + (nu / z) ** 2) * C - slope / z]
@@ -223,7 +225,8 @@ _REWRITTEN: dict[Any, Any] = {
 
 def rewritten(e: Any) -> Any:
     """By functions that are known here: those above, spherical Bessel functions, and polynomials by 2F1, 1F1; or None."""
-    half, gamma = sympy.S.Half, sympy.gamma
+    half = sympy.S.Half
+    gamma = sympy.gamma
     if e.func in _REWRITTEN and (e.func is not sympy.elliptic_e or len(e.args) == 1):
         return e.rewrite(_REWRITTEN[e.func])
     if isinstance(e, sympy.jn | sympy.yn):
@@ -253,13 +256,16 @@ def _hypergeometric(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
 
     Differences of parameters that are integers are taken from the expression, for balls don't show that they are.
     """
-    top, bottom = [value(a) for a in e.ap], [value(b) for b in e.bq]
+    top = [value(a) for a in e.ap]
+    bottom = [value(b) for b in e.bq]
     gauss = len(top) == 2 and len(bottom) == 1
     (a, b, c) = (*e.ap, *e.bq) if gauss else (0, 0, 0)
     exact = [sympy.expand(d).is_integer is True for d in (a - b, a - c, b - c, a + b - c)] if gauss else []
-    found, factor = [], acb(1)
+    found = []
+    factor = acb(1)
     for k in range(3):
-        above, below = [a + k for a in top], [b + k for b in bottom]
+        above = [a + k for a in top]
+        below = [b + k for b in bottom]
         if gauss:
             found.append(factor * z.hypgeom_2f1(*above, *below, False, *exact))
         elif len(above) == 2 and not below:

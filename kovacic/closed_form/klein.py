@@ -85,8 +85,10 @@ def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Co
     T = jacobian(F, H, problem)
     check_time()
     ratio = RATIOS[structure]
-    cube, square = H.P**3, T.P**2
-    vertices, edges = F, normalised(T, problem)
+    cube = H.P**3
+    square = T.P**2
+    vertices = F
+    edges = normalised(T, problem)
     if structure is Structure.OCTAHEDRAL:
         J = RatFunc(cube * -ratio, square)
         vertices = root(H, 2, problem)
@@ -101,7 +103,9 @@ def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge
     forms = covariants(S, structure, invariant)
     nu, n = (Fraction(1, 5), 30) if structure is Structure.ICOSAHEDRAL else (Fraction(1, 4), 12)
     a = (Fraction(1, 6) - nu) / 2
-    half, v, t = Fraction(1, 2), forms.vertices, forms.edges
+    half = Fraction(1, 2)
+    v = forms.vertices
+    t = forms.edges
     b = a + half
 
     def solution(a: Fraction, b: Fraction, c: Fraction, *powers: tuple[Form, Fraction]) -> Hypergeometric:

@@ -107,7 +107,8 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
     if linear and len(fractional) == 2 and sum(exponent for _, exponent in fractional).denominator == 1:
         (p, alpha), (q, beta) = fractional
         # x = (d t - c)/(t - 1), x - d = (d - c)/(t - 1), dx = (c - d) dt/(t - 1)^2.
-        c, d = -p[0], -q[0]
+        c = -p[0]
+        d = -q[0]
         below = RatFunc(p.field.poly([-1, 1]))
         x = RatFunc(p.field.poly([-c, d])) / below
         r = rational(x) * (RatFunc(d - c) / below) ** int(alpha + beta) * (c - d) / (below * below)

@@ -86,7 +86,8 @@ def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Produ
     powers = [Power(residue.factor, residue.value) for residue in parts.residues if residue.is_constant]
     roots = tuple(residue for residue in parts.residues if not residue.is_constant)
     if zeros is not None and zeros.degree > 0:
-        rest, one = zeros.over(field).monic(), field.poly([1])
+        rest = zeros.over(field).monic()
+        one = field.poly([1])
         for index, power in enumerate(powers):
             rest, count = rest.remove(power.base)
             powers[index] = Power(power.base, power.exponent + count)
@@ -156,7 +157,8 @@ def _is_integer(exponent: Poly) -> bool:
 
 def _joined(bases: list[Poly]) -> list[Poly]:
     """With every pair x - a, x + a multiplied out."""
-    pending, result = list(bases), []
+    pending = list(bases)
+    result = []
     while pending:
         base = pending.pop(0)
         partner = next((other for other in pending if _are_opposite(base, other)), None)

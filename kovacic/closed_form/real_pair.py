@@ -69,11 +69,14 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             pair = turned
     common = display(replace(form.common, powers=gathered(pair.powers)), atoms)
     content = atoms.primitive(pair.A or pair.B)[0]
-    A, B = pair.A * (1 / content), pair.B * (1 / content)
-    first, second = atoms.poly(A), s * atoms.poly(B)
+    A = pair.A * (1 / content)
+    B = pair.B * (1 / content)
+    first = atoms.poly(A)
+    second = s * atoms.poly(B)
     for p, sign in pair.halves:
         # exp(+-i phi/2) is a multiple of plus +- i minus, plus * minus = t.
-        distance, (scale, radical) = atoms.poly(p.derivative() * Fraction(1, 2)), atoms.primitive(p)
+        distance = atoms.poly(p.derivative() * Fraction(1, 2))
+        (scale, radical) = atoms.primitive(p)
         root = sqrt(radical) * sqrt(rational(scale))
         plus = sqrt(root + distance)
         minus = sign * sqrt(-atoms.constant(p[1] * p[1] - 4 * p[0])) / (2 * plus)
@@ -81,9 +84,11 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     angle = Add(*phase)
     if angle != 0:
         if angle.could_extract_minus_sign():  # the complex conjugates: y- instead of y+
-            angle, second = -angle, -second
+            angle = -angle
+            second = -second
         evaluate = angle.has(sympy.atan)  # everything else stays as it is
-        c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
+        c = cos(angle, evaluate=evaluate)
+        t = sin(angle, evaluate=evaluate)
         first, second = (first * c, first * t) if second == 0 else (first * c - second * t, first * t + second * c)
     return _without_content(first) * common, _without_content(second) * common
 
@@ -100,7 +105,8 @@ def _half_turns(
     pair: _SurdPair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr
 ) -> _SurdPair | None:
     """The pair turned by exp(i q phi) of equation (1) if 2q is an integer; the logarithm, if any, joins the phase."""
-    p, value = residue.factor, residue.value
+    p = residue.factor
+    value = residue.value
     if p.degree != 2 or residue.is_constant or p.field != QQ:
         return None
     discriminant = p[1] * p[1] - 4 * p[0]
@@ -117,10 +123,12 @@ def _half_turns(
     sign = 1 if q > 0 else -1
     half = abs(2 * q) % 2 == 1
     turns = int(abs(q) - Fraction(int(half), 2))
-    re, im = p.derivative() * Fraction(1, 2), p.field.poly([sign * ratio / 2])
+    re = p.derivative() * Fraction(1, 2)
+    im = p.field.poly([sign * ratio / 2])
     for _ in range(turns):
         pair = pair.rotated(delta, re, im)
-    powers, halves = (*pair.powers, Power(p, p.field.poly([-abs(q) / 2]))), ((p, sign),) if half else ()
+    powers = (*pair.powers, Power(p, p.field.poly([-abs(q) / 2])))
+    halves = ((p, sign),) if half else ()
     return replace(pair, powers=powers, halves=(*pair.halves, *halves))
 
 

@@ -70,7 +70,8 @@ ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | KleinForm
 
 def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
     """The closed forms that belong to a decision with Liouvillian solutions."""
-    semi, structure = decision.semi_invariant, decision.structure
+    semi = decision.semi_invariant
+    structure = decision.structure
     if semi is None or structure is None:
         raise ValueError("there is no Liouvillian solution")
     if structure is Structure.REDUCIBLE:
@@ -111,7 +112,8 @@ def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
 
     (a, b), (c, d) = split(semi.theta.num), split(semi.theta.den)
     norm = c * c - d * d * delta
-    u, v = RatFunc(a * c - b * d * delta, norm), RatFunc(b * c - a * d, norm)
+    u = RatFunc(a * c - b * d * delta, norm)
+    v = RatFunc(b * c - a * d, norm)
     return Conjugate(product(u + gauge), delta, decompose(v), *split(semi.P))
 
 
@@ -133,7 +135,8 @@ def curve_of(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:
     field = phi.field
     square = (4 * S - 2 * phi.derivative() - phi * phi) * Fraction(1, 4)
     # (y1 y2)^2 is rational: a constant times h^2 g with known factors.
-    g, h = field.poly([1]), RatFunc(semi.P)
+    g = field.poly([1])
+    h = RatFunc(semi.P)
     for residue in decompose(semi.theta * 2).residues:
         exponent = residue.rational
         if exponent is None or exponent.denominator != 1:

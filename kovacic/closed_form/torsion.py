@@ -54,7 +54,8 @@ def completed(integral: CurveIntegral) -> CurveIntegral:
 
 
 def _decide(integral: CurveIntegral) -> Unit | str:
-    g, field = integral.g, integral.g.field
+    g = integral.g
+    field = integral.g.field
     middle = Fraction(g.degree, 2) - 1
     at_infinity = integral.rest[int(middle)] if middle.denominator == 1 else field.poly([])
     if integral.rest.degree > middle:
@@ -86,7 +87,8 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     """tau^2 if every residue is a rational multiple of 1/tau, else None."""
     values = []
     for pole in integral.residues:
-        p, rho = pole.factor, pole.value
+        p = pole.factor
+        rho = pole.value
         inverse = rho.inverse_modulo(p)
         square = integral.radicand(pole) * inverse * inverse % p
         if square.degree > 0:
@@ -101,7 +103,8 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
 
 def _unit(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> Unit | str:
     """U as A + B kappa s, from its pieces a + b y: y = c kappa s, c a constant."""
-    g, r = integral.g, integral.integrand
+    g = integral.g
+    r = integral.integrand
     if _degree(f) > _LARGEST_DEGREE:
         return UNDECIDED
     c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)

@@ -42,7 +42,9 @@ from kovacic.limits import check_time
 _SAME = 2.0**-60
 """Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
 
-_FEW_ZEROS, _MAX_ZEROS, _SHORT = 60, 200, 2000.0
+_FEW_ZEROS = 60
+_MAX_ZEROS = 200
+_SHORT = 2000.0
 """Zeros take degree^4 time, and may be lost.  Of a polynomial of a degree between these the solution is tabulated on an
 interval where it grows and oscillates by less than exp(2000), and the polynomial where the interval ends in a singular point;
 of a higher degree always."""
@@ -70,7 +72,9 @@ def product_form(
 def _exponential(
     problem: NumericProblem, branch: Exponential, region: Region, base: ExactPoint, careful: bool
 ) -> ProductForm | None:
-    c, degree, table = branch.constant(), branch.P.degree, None
+    c = branch.constant()
+    degree = branch.P.degree
+    table = None
     if degree > _FEW_ZEROS and region.is_real and any(region.singular):
         table = polynomial_table(_Expansion.of(problem, branch, base), region, careful)
     elif degree > _FEW_ZEROS and region.is_real:
@@ -79,7 +83,8 @@ def _exponential(
             return None
     if table is None and degree > _MAX_ZEROS:
         return None
-    theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
+    theta = LogDerivative.make(branch.theta, c)
+    P = embed(branch.P, c)
     roots = zeros(branch.P, c) if table is None else []
     if table is None and sum(k for _, k in roots) < degree:
         return None  # not all were found
@@ -222,10 +227,12 @@ def conic_of(g: acb_poly, middle: arb) -> Conic | None:
 
 def _on_curve(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
     """Equation (1), or None."""
-    decision, S = certified(problem), problem.S
+    decision = certified(problem)
+    S = problem.S
     assert decision.semi_invariant is not None
     assert S is not None
-    theta, P = decision.semi_invariant.theta, decision.semi_invariant.P
+    theta = decision.semi_invariant.theta
+    P = decision.semi_invariant.P
     if decision.case != 2 or P.degree > _MAX_ZEROS:
         return None
     g, r, kappa_squared = curve_of(S, decision.semi_invariant)
@@ -244,7 +251,8 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: ExactPo
     odd = kappa * value(integral.integrand, c, z) / root
     target = omega(problem, which, base, 200)
     if not (average + odd).overlaps(target):
-        kappa, odd = -kappa, -odd
+        kappa = -kappa
+        odd = -odd
     if not (average + odd).overlaps(target) or (average - odd).overlaps(target):
         raise ArithmeticError("the closed form doesn't belong to the polynomial of omega")
     smooth = LogDerivative.make(even, c)
@@ -277,7 +285,8 @@ def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | N
 
 def _powers(places: list[list[acb]], conic: Conic, kappa: acb, rest: acb) -> Powers:
     """The exponents in t of (1)."""
-    total, i = sum((mu for _, mu, _ in places), acb(0)), acb(0, 1)
+    total = sum((mu for _, mu, _ in places), acb(0))
+    i = acb(0, 1)
     found: Powers = []
     for a, mu, rho in places:
         s, parameters = _parameters(conic, a)

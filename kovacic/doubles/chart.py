@@ -41,7 +41,8 @@ _NOISE = 2.0**-40
 """Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
 #: So many coefficients around a point are found by derivatives: two, or one for so many degrees.
-_FEW_TERMS, _DEGREES_A_TERM = 2, 40
+_FEW_TERMS = 2
+_DEGREES_A_TERM = 40
 
 
 @dataclass(frozen=True)
@@ -78,12 +79,17 @@ class RationalChart:
     def _closed(self, branch: Exponential, points: Sequence[ExactPoint], digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
         equation, in which the dominant solution would grow."""
-        goal, prec, found = start_bits(digits) - 24, 2 * start_bits(digits) + branch.P.degree, dict[ExactPoint, State]()
+        goal = start_bits(digits) - 24
+        prec = 2 * start_bits(digits) + branch.P.degree
+        found = dict[ExactPoint, State]()
         while True:
             with working_precision(prec):
-                c, z = branch.constant(), to_acb(self.given["x0"])
-                theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
-                slope, factor = P.derivative(), 1 / P(z)
+                c = branch.constant()
+                z = to_acb(self.given["x0"])
+                theta = LogDerivative.make(branch.theta, c)
+                P = embed(branch.P, c)
+                slope = P.derivative()
+                factor = 1 / P(z)
                 for point in (point for point in points if point not in found):
                     check_time()
                     count_work(prec)

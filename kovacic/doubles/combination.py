@@ -26,7 +26,8 @@ from kovacic.enclosure.closed_form import closed_form_of, decided, omega
 from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.limits import Limits
 
-_PREC, _DIGITS = 400, 60
+_PREC = 400
+_DIGITS = 60
 _DEGREE = 40
 """Of S, up to which an equation is decided for this."""
 _UNKNOWN = 400

@@ -36,11 +36,13 @@ _FINEST = 1 / 125
 #: A stretch with fewer periods than this is drawn, however short they are.
 _FEWEST = 10
 #: Points of an envelope across the whole width, and of the grid on which S is looked at.
-_ENVELOPE, _GRID = 300, 800
+_ENVELOPE = 300
+_GRID = 800
 #: The cubic between two samples may be off by this share of the size of the solution nearby.
 _TOLERANCE = 2e-3
 #: How often an interval is halved, and how many samples a curve has at the most.
-_HALVINGS, _MOST = 14, 400_000
+_HALVINGS = 14
+_MOST = 400_000
 #: Points that are drawn for one interval between samples.
 _DRAWN = 6
 
@@ -191,7 +193,10 @@ def _halved(
     h = arc.x[right] - arc.x[left]
     middles = arc.x[left] + h / 2
     inside = (middles > arc.x[left]) & (middles < arc.x[right])
-    left, right, h, middles = left[inside], right[inside], h[inside], middles[inside]
+    left = left[inside]
+    right = right[inside]
+    h = h[inside]
+    middles = middles[inside]
     _check(len(arc.x) + len(middles))
     new = _sampled(middles, states)
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
@@ -213,7 +218,8 @@ def _halved(
 def _envelope(
     chart: PieceChart, part: CurveCoefficients, width: Fraction, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
 ) -> Envelope:
-    low, high = part.x[0], part.x[-1]
+    low = part.x[0]
+    high = part.x[-1]
     count = max(8, int(_ENVELOPE * (high - low) / float(width)))
     x = np.linspace(low, high, count + 1)
     here = coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])

@@ -40,9 +40,12 @@ def two_sum(a: Any, b: Any) -> Pair:
 def two_product(a: Any, b: Any) -> Pair:
     """a b exactly, unless it over- or underflows."""
     p = a * b
-    x, y = _SPLIT * a, _SPLIT * b
-    ah, bh = x - (x - a), y - (y - b)
-    al, bl = a - ah, b - bh
+    x = _SPLIT * a
+    y = _SPLIT * b
+    ah = x - (x - a)
+    bh = y - (y - b)
+    al = a - ah
+    bl = b - bh
     return Pair(p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
 
 
@@ -66,7 +69,9 @@ class Pair:
     def __add__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):
             return other + self.hi
-        s, t = two_sum(self.hi, other.hi), two_sum(self.lo, other.lo)  # both halves exactly first
+        # both halves exactly first
+        s = two_sum(self.hi, other.hi)
+        t = two_sum(self.lo, other.lo)
         s = two_sum(s.hi, s.lo + t.hi)
         return two_sum(s.hi, s.lo + t.lo)
 
@@ -85,7 +90,8 @@ class Pair:
         p = two_product(self.hi, other.hi)
         return two_sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
 
-    __radd__, __rmul__ = __add__, __mul__
+    __radd__ = __add__
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):
@@ -218,10 +224,13 @@ def log(a: Any) -> Any:
     zero = a.hi == 0
     m, e = np.frexp(np.where(zero, 1.0, a.hi))
     low = m < 0.7071067811865476
-    m, e = np.where(low, 2 * m, m), np.where(low, e - 1, e)
+    m = np.where(low, 2 * m, m)
+    e = np.where(low, e - 1, e)
     rest = np.ldexp(np.where(zero, 0.0, a.lo), -e)
     k = np.rint(64 * m)
-    t, index, nothing = k / 64, k.astype(np.int64), 0.0 * m
+    t = k / 64
+    index = k.astype(np.int64)
+    nothing = 0.0 * m
     table = Pair(_LOGARITHMS.hi[index], _LOGARITHMS.lo[index])
     s = (Pair(m - t, nothing) + Pair(rest, nothing)) / (two_sum(m, t) + Pair(rest, nothing))
     series = Pair(2 * s.hi, 2 * s.lo) * horner(_RECIPROCALS, s * s)

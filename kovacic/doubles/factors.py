@@ -45,7 +45,8 @@ class Conic:
             s = square_root(X if self.sigma > 0 else -X)
             return s, s
         if self.shape is Shape.ELLIPSE:
-            left, right = x - self.ends[0], self.ends[1] - x
+            left = x - self.ends[0]
+            right = self.ends[1] - x
             return square_root(right / left), square_root(left * right)
         # The differences are exact near a branch point, unlike X^2 + m; for X < 0, X + s would cancel, and m/(s - X) doesn't.
         s = square_root((x - self.ends[0]) * (x - self.ends[1]) if self.ends else X * X + self.m)

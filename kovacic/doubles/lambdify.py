@@ -39,7 +39,8 @@ from kovacic.errors import InputError, LimitExceeded, check_keywords, warn_user
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 
-TINY, HUGE = 2.0**-960, 2.0**1020
+TINY = 2.0**-960
+HUGE = 2.0**1020
 """Where values count."""
 
 _DIGITS = 50
@@ -50,10 +51,14 @@ _BITS = 166
 _MOST_WORK = 1_500_000
 """Steps of Taylor's method, or values of closed forms, times their bits: for the reference values of one measurement."""
 
-_SAMPLES, _ZEROS, _WORST = 24, 3, 4
+_SAMPLES = 24
+_ZEROS = 3
+_WORST = 4
 """Points at which a function is measured, zeros that are looked at from both sides, and points that are suspected."""
 
-_MANY, _EACH, _BESIDE = 400, 8, 0.01
+_MANY = 400
+_EACH = 8
+_BESIDE = 0.01
 """Parts of a region, points of each that suspects are chosen from, and the distance from a zero over that to the next one."""
 
 Function = ProductForm | TabulatedFunction | Combination
@@ -344,7 +349,8 @@ def _median(quotients: list[acb]) -> acb:
 def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:
     """The points at which a function is measured, wherever its errors are: see `lambdify`."""
     region: Region = function.region
-    low, size = region.low, region.high - region.low
+    low = region.low
+    size = region.high - region.low
     if not region.is_real:
         share = (np.arange(_SAMPLES) + 0.5) / (_SAMPLES + 0.13)
         return low + size.real * share + 1j * size.imag * ((share * 7.3) % 1)
@@ -362,7 +368,8 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
     nearer to a zero than a hundredth of the distance to the next one."""
     if not isinstance(function, Function) or function.careful:
         return np.empty(0)
-    exact, points = replace(function, careful=True), _grid(function)
+    exact = replace(function, careful=True)
+    points = _grid(function)
     if isinstance(exact, ProductForm) and exact.polynomial is not None:
         exact = replace(exact, polynomial=replace(exact.polynomial, careful=True))
     if len(zeros):
@@ -370,17 +377,21 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
         beside = [zeros + way * _BESIDE * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
         points = np.concatenate([points[starts == stops], *beside])
     with np.errstate(all="ignore"):
-        sizes, quotients = np.abs(y := exact(points)), function(points) / y
+        sizes = np.abs(y := exact(points))
+        quotients = function(points) / y
         within = np.flatnonzero((sizes > TINY) & (sizes < HUGE) & np.isfinite(quotients))
-        sizes, quotients = sizes[within], quotients[within]
+        sizes = sizes[within]
+        quotients = quotients[within]
         errors = np.abs(quotients - (np.median(quotients) if within.size else 1)) * sizes / np.spacing(sizes)
     return points[within[np.argsort(errors)[-_WORST:]]]
 
 
 def _grid(function: Function) -> Any:
     """Thousands of points all over the region, and on each piece of a table."""
-    region, table = function.region, getattr(function, "polynomial", function)
-    low, size = region.low.real, region.high - region.low
+    region = function.region
+    table = getattr(function, "polynomial", function)
+    low = region.low.real
+    size = region.high - region.low
     knots = np.append(getattr(table, "edges", ()), low + size.real * np.linspace(0, 1, _MANY + 1))
     knots = np.unique(np.clip(knots, low, region.high.real))
     x = (knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(_EACH) + 0.53) / (_EACH + 0.07)).reshape(-1)

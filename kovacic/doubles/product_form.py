@@ -311,7 +311,8 @@ class ProductDerivative:
             first, second = form.conic.slopes(point.re, parameter, s)
             place = Complex(point.re)
             terms += [form.sheet.derivative(place, Complex(s)), form.sheet(place, Complex(second))]
-            t, dt = Complex(parameter), Complex(first)
+            t = Complex(parameter)
+            dt = Complex(first)
         terms += [factor.slope(t) * dt for factor in form.factors]
         total = sum_of([term for term in terms if term is not None]) or Complex(0.0 * x.real)
         slope = double(total.re)
@@ -390,7 +391,8 @@ class _Product:
             return
         if self.careful or self.bits > _ROOM:  # the binary exponent, before the product may leave the range of doubles
             self.value, shift = split(self.value)
-            self.binary, self.bits = self.binary + shift, degree * self.degree_bits
+            self.binary = self.binary + shift
+            self.bits = degree * self.degree_bits
         self.value *= piece
 
 
@@ -399,7 +401,8 @@ def _turn(growth: Complex) -> Complex:
     if growth.im is None:
         return Complex(1.0)
     t, rest = (growth.im.hi, growth.im.lo) if isinstance(growth.im, Pair) else (growth.im, 0.0)
-    c, s = np.cos(t), np.sin(t)
+    c = np.cos(t)
+    s = np.sin(t)
     return Complex(c - rest * s, s + rest * c)
 
 
@@ -407,5 +410,6 @@ def _complex_array(z: Complex) -> Any:
     if z.im is None:
         return double(z.re)
     result = np.empty(np.broadcast_shapes(np.shape(z.re), np.shape(z.im)), dtype=complex)
-    result.real, result.imag = double(z.re), double(z.im)
+    result.real = double(z.re)
+    result.imag = double(z.im)
     return result

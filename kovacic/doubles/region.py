@@ -18,7 +18,8 @@ from kovacic.writing.document import FORMATS, Table
 
 _PREC = 240
 
-MEDIAN, WORST = 8.0, 1000.0
+MEDIAN = 8.0
+WORST = 1000.0
 """What is promised, in units in the last place."""
 
 BLOCK = 16384
@@ -107,7 +108,8 @@ class Region:
 
 def _between(low: float, values: Any, high: float) -> bool:
     """Do all of these that are numbers lie there?"""
-    least, largest = np.fmin.reduce(values, axis=None), np.fmax.reduce(values, axis=None)
+    least = np.fmin.reduce(values, axis=None)
+    largest = np.fmax.reduce(values, axis=None)
     return not (least < low or largest > high)
 
 
@@ -135,7 +137,8 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     except (TypeError, ValueError):
         raise InputError("the interval must be a pair of numbers") from None
     a, b = (as_point(v, "an end of the interval") for v in (first, second))
-    low, high = ExactPoint(min(a.re, b.re), min(a.im, b.im)), ExactPoint(max(a.re, b.re), max(a.im, b.im))
+    low = ExactPoint(min(a.re, b.re), min(a.im, b.im))
+    high = ExactPoint(max(a.re, b.re), max(a.im, b.im))
     if a == b or (a.is_real() and b.is_real() and a != low):
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
     singular = (False, False)
@@ -154,12 +157,18 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
 
 
 def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
-    at_low, at_high, a, b = False, False, to_acb(low), to_acb(high)
+    at_low = False
+    at_high = False
+    a = to_acb(low)
+    b = to_acb(high)
     for system in (problem.system, problem.gauge_poles):
         for root, _ in system.roots("den", _PREC):
-            here, there = root.overlaps(a), root.overlaps(b)
-            at_low, at_high = at_low or here, at_high or there
-            x, y = root.real, root.imag
+            here = root.overlaps(a)
+            there = root.overlaps(b)
+            at_low = at_low or here
+            at_high = at_high or there
+            x = root.real
+            y = root.imag
             outside = x < a.real or x > b.real or y < a.imag or y > b.imag
             if not (here or there or outside):
                 raise InputError(f"the interval contains the singular point {name_of(system, root)}")
@@ -169,7 +178,8 @@ def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -
 def _doubles(low: Fraction, high: Fraction, singular: tuple[bool, bool]) -> tuple[float, float]:
     """The nearest doubles, so that "0.3" and 0.3 are one end; inside of the interval where an end is a singular point."""
     try:
-        a, b = float(low), float(high)
+        a = float(low)
+        b = float(high)
     except OverflowError:
         raise InputError("an end of the interval is beyond the range of doubles") from None
     if singular[0] and Fraction(a) < low:

@@ -47,12 +47,16 @@ GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
 _STEEP = 4.0
 """Characteristic roots above this make the sums larger."""
-_LIMIT_OF_A_PIECE, _SMALLEST = 4, -1000
+_LIMIT_OF_A_PIECE = 4
+_SMALLEST = -1000
 """So much of the limit `unknown_degree` a piece takes."""
-_STRIDE, _ROUGH, _LOST = 24, 2.0**-88, 2.0**-58
+_STRIDE = 24
+_ROUGH = 2.0**-88
+_LOST = 2.0**-58
 """Of so many states one is an enclosure; relative errors of a transfer, and of a state, at most."""
 _SIGNS = np.array([[[1.0], [-1.0]], [[-1.0], [1.0]]])
-_ROOM, _CROWD = 900, 1000
+_ROOM = 900
+_CROWD = 1000
 """Binary exponents up to here stay in the coefficients; fewer points to a piece are treated together (measured)."""
 
 
@@ -70,7 +74,8 @@ class Variant(NamedTuple):
 _FIXED = 112
 """Bits after the binary point, where a single number is the argument."""
 
-_CAREFUL, _PLAIN = Variant(48, 48, 34, 60, 96), Variant(48, 32, 22, 32, 60)
+_CAREFUL = Variant(48, 48, 34, 60, 96)
+_PLAIN = Variant(48, 32, 22, 32, 60)
 Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 
@@ -257,7 +262,8 @@ class TabulatedFunction:
 
         Piece by piece, so that the coefficients are numbers, where many points lie on each.
         """
-        index, runs = np.searchsorted(self.edges, flat, side="right"), list[Any]()
+        index = np.searchsorted(self.edges, flat, side="right")
+        runs = list[Any]()
         if flat.size < _CROWD * self.centres.size:
             runs.append((slice(None), index))
         else:
@@ -377,7 +383,8 @@ def _assembled(
     """The table with the highest terms lowered, from an array of terms, parts and pieces."""
     lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
     coefficients = coefficients[: variant.kept] + Pair(lowered)
-    edges, exponents = np.array([float(c + power_of_two(e)) for c, e in cells[:-1]]), np.array([e for _, e in cells])
+    edges = np.array([float(c + power_of_two(e)) for c, e in cells[:-1]])
+    exponents = np.array([e for _, e in cells])
     table = np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3)
     arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, table
     for array in arrays:
@@ -387,7 +394,8 @@ def _assembled(
 
 def _root(region: Region) -> Cell:
     """A piece that contains the interval."""
-    low, high = Fraction(region.low.real), Fraction(region.high.real)
+    low = Fraction(region.low.real)
+    high = Fraction(region.high.real)
     e = math.frexp(float(high - low))[1]
     # Off the round numbers, at which solutions may be zero: that couldn't be told from other small values.
     grain = max(Fraction(2) ** (e - 24), Fraction(math.ulp(max(-low, high))))
@@ -436,7 +444,8 @@ def _pieces(
 
 def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
     """Those that meet the interval.  Raises `LimitExceeded` where they are too small."""
-    c, e = cell[0], cell[1] - 1
+    c = cell[0]
+    e = cell[1] - 1
     if e < _SMALLEST:
         raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
     half = power_of_two(e)
@@ -445,7 +454,9 @@ def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
 
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
-    terms, count, size = variant.terms, 2 if not chart.is_forced else 3, len(cells)
+    terms = variant.terms
+    count = 2 if not chart.is_forced else 3
+    size = len(cells)
     found = []
     for k, (centre, e) in enumerate(cells):
         if k % 32 == 0:
@@ -465,7 +476,8 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
     with np.errstate(all="ignore"):
         for n in range(2, terms):
             j = np.arange(1, min(length, n + 1))
-            m, weights = (n - j)[:, None] + 0.0, c[j]
+            m = (n - j)[:, None] + 0.0
+            weights = c[j]
             for function, factor in ((b, m), (a, m * (m - 1))):
                 if function.hi[1:].any():
                     weights += function[j] * Pair(factor)
@@ -510,8 +522,11 @@ def _states(
     Enclosures, rounded; in the plain variant, without a right-hand side, of every 24th centre: the series carry the state on to
     the next ones, from the side on which less is lost by an estimate, and where too much is, enclosures serve again.
     """
-    size, exponents = len(cells), np.array([e for _, e in cells])
-    v, powers, lost = np.zeros((2, 2, 2, size)), np.zeros(size, dtype=int), np.full(size, np.inf)
+    size = len(cells)
+    exponents = np.array([e for _, e in cells])
+    v = np.zeros((2, 2, 2, size))
+    powers = np.zeros(size, dtype=int)
+    lost = np.full(size, np.inf)
 
     def enclose(which: Any) -> None:
         balls = chart.states([ExactPoint(cells[k][0]) for k in which], variant.digits, limits)
@@ -532,7 +547,9 @@ def _states(
             with np.errstate(all="ignore"):
                 less = (lost[k] + _ROUGH) * np.linalg.norm(carry.hi, axis=(0, 1))[0] / length
             better = less < lost[k + sign]
-            shift, k, new = np.frexp(length[better])[1], k[better] + sign, new[..., better]
+            shift = np.frexp(length[better])[1]
+            k = k[better] + sign
+            new = new[..., better]
             v[..., k], powers[k], lost[k] = np.ldexp([new.hi, new.lo], -shift), powers[k - sign] + shift, less[better]
     if (rest := np.flatnonzero(~(lost <= _LOST))).size:
         enclose(rest)
@@ -542,7 +559,8 @@ def _states(
 
 def _rounded(rows: Sequence[Sequence[Any]], variant: Variant) -> tuple[Any, Any]:
     """Rows of balls over powers of two: halves, entries, real and imaginary parts (0 if they may be), rows; and the powers."""
-    numbers, powers = list[arb](), list[int]()
+    numbers = list[arb]()
+    powers = list[int]()
     for row in rows:
         size = max(abs(v).mid() for v in row)
         if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):

@@ -105,7 +105,8 @@ def agrees_with_group(
 
 def is_fuchsian(problem: NumericProblem) -> bool:
     """Are all singular points, with infinity, regular?"""
-    num, den = problem.system.num, problem.system.den
+    num = problem.system.num
+    den = problem.system.den
     return all(multiplicity <= 2 for _, multiplicity in problem.poles(64)) and (not num or len(num) - len(den) <= -2)
 
 

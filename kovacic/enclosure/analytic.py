@@ -30,7 +30,8 @@ from kovacic.enclosure.way import Local, Way, by_rays
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, count_work, limits_of
 
-_STEEPEST, _SHARE = 40.0, 0.15
+_STEEPEST = 40.0
+_SHARE = 0.15
 """The growth exp(lambda) in one disc: lambda is at most so large, or that share of the bits."""
 _LEAST = 60
 _MAX_DISCS = 200_000
@@ -75,7 +76,8 @@ def walk(functions: CoefficientField, a: ExactPoint, b: ExactPoint, prec: int) -
     _check_regular(functions, b, "end", prec)
     length = b - a
     square = length.norm_squared()
-    t, steepest = fmpq(0), max(_STEEPEST, _SHARE * prec)
+    t = fmpq(0)
+    steepest = max(_STEEPEST, _SHARE * prec)
     e = _exponent(square)
     for number in range(_MAX_DISCS):
         check_time()

@@ -258,7 +258,8 @@ class Ball:
         """
         if isinstance(number, Ball):
             return _reaches(self, number, -1)
-        point, (re, im) = as_point(number, "the number"), self.midpoint
+        point = as_point(number, "the number")
+        (re, im) = self.midpoint
         return bool((point - ExactPoint(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
     def overlaps(self, other: object) -> bool:
@@ -411,9 +412,11 @@ class Ball:
         return self._combined(0, lambda z, _: acb(abs(z)))
 
     __add__ = __radd__ = _operator(lambda x, y: x + y)
-    __sub__, __rsub__ = _operator(lambda x, y: x - y), _operator(lambda x, y: y - x)
+    __sub__ = _operator(lambda x, y: x - y)
+    __rsub__ = _operator(lambda x, y: y - x)
     __mul__ = __rmul__ = _operator(lambda x, y: x * y)
-    __truediv__, __rtruediv__ = _operator(lambda x, y: x / y), _operator(lambda x, y: y / x)
+    __truediv__ = _operator(lambda x, y: x / y)
+    __rtruediv__ = _operator(lambda x, y: y / x)
 
     def __pow__(self, other: object) -> Ball:
         """Principal powers; whole ones of anything."""
@@ -521,7 +524,8 @@ def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
     e = min(middle[1], rad[1])
     if max(middle[1], rad[1]) - e > _FRACTION_BITS:
         raise OverflowError("midpoint and radius are too far apart to be added")
-    m, r = middle[0] << (middle[1] - e), rad[0] << (rad[1] - e)
+    m = middle[0] << (middle[1] - e)
+    r = rad[0] << (rad[1] - e)
     return dyadic(m - r, e), dyadic(m + r, e)
 
 
@@ -559,7 +563,8 @@ def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None
     if im is None or im.is_zero():
         return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True, route)
     with working_precision(60):
-        a, b = re.rad(), im.rad()
+        a = re.rad()
+        b = im.rad()
         rad = (a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()).upper()
     return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False, route)
 

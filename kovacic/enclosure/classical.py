@@ -159,7 +159,8 @@ def _frobenius(classical: Classical, point: Singular, gauge: RatFunc | None, nee
     if not point.is_rational or point.inverted:
         raise NotServed
     with working_precision(_sharper(ctx.prec)):
-        x0, (lower, upper) = point.near.x, point.exponents()
+        x0 = point.near.x
+        (lower, upper) = point.exponents()
         form = _form(classical, classical.coordinate(point.near))
     if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
         raise NotServed
@@ -210,7 +211,9 @@ class Solutions:
         needed: tuple[bool, bool] = (True, True),
     ) -> Solutions:
         """The solutions that are needed (in the order of the exponents)."""
-        n, d, factors = form.n, form.d, []
+        n = form.n
+        d = form.d
+        factors = []
         for poly, powers in zip((n.derivative() * d - n * d.derivative(), n, d - n, d), form.exponents, strict=True):
             if exponents is not None:
                 t = fmpq_poly([-point.x, 1])
@@ -242,7 +245,8 @@ class Solutions:
         logs = [_followed(poly, self.point, x) for poly, *_ in self.factors]
         if x != self.point:
             _avoids(form, self.point, x, needed[::-1])
-        n, d = value_at(form.n, x), value_at(form.d, x)
+        n = value_at(form.n, x)
+        d = value_at(form.d, x)
         dn, dd = (value_at(poly, x) for poly in form.derivatives)
         slope = acb((dn - n / d * dd) / d)
         rates = [acb(value_at(derivative, x) / value_at(poly, x)) for poly, derivative, _ in self.factors]
@@ -258,16 +262,21 @@ class Solutions:
         return found
 
     def _frobenius(self, x: ExactPoint, exponents: tuple[Any, Any]) -> list[State]:
-        t, growth, rate, columns = to_acb(x - self.point), acb(1), acb(0), []
+        t = to_acb(x - self.point)
+        growth = acb(1)
+        rate = acb(0)
+        columns = []
         if self.gauge is not None:
             check_segment(System.of(self.gauge), self.point, x)
             theta = log_derivative(self.gauge)
-            growth, rate = theta.growth(to_acb(self.point), to_acb(x)), theta.value(to_acb(x))
+            growth = theta.growth(to_acb(self.point), to_acb(x))
+            rate = theta.value(to_acb(x))
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):
             y, dy = y * growth, (dy + (exponent / t + rate) * y) * growth
             if x.is_real():
-                y, dy = acb(y.real), acb(dy.real)
+                y = acb(y.real)
+                dy = acb(dy.real)
             power = t ** int(exponent.p) if is_integer(exponent) else (exponent * t.log()).exp()
             columns.append((y * power, dy * power))
         return columns
@@ -299,7 +308,9 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
             raise NotServed
         return ratio.log()
     with working_precision(_BITS):
-        x, y, zeros = to_acb(a), to_acb(b), System((), tuple(map(int, poly.numer().coeffs()))).roots("den", _BITS)
+        x = to_acb(a)
+        y = to_acb(b)
+        zeros = System((), tuple(map(int, poly.numer().coeffs()))).roots("den", _BITS)
         quotients = [((y - zeta) / (x - zeta), k) for zeta, k in zeros]
         if not all(_off(quotient) for quotient, _ in quotients):
             raise NotServed
@@ -314,11 +325,9 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
 
 def _check_pieces(a: ExactPoint, b: ExactPoint, allowed: Callable[[acb], bool]) -> None:
     """Raise NotServed unless the condition holds on the balls of a bounded number of pieces of the segment."""
-    start, step, waiting = (
-        to_acb(a),
-        to_acb(b - a),
-        [(0, 0)],
-    )  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
+    start = to_acb(a)
+    step = to_acb(b - a)
+    waiting = [(0, 0)]  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
     for _ in range(_PIECES):
         k, depth = waiting.pop()
         if not allowed(start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))):
@@ -347,7 +356,8 @@ def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool
             if top(a.x) / form.d(a.x) <= 0:
                 raise NotServed
             continue
-        over, under = acb_poly(top), acb_poly(form.d)
+        over = acb_poly(top)
+        under = acb_poly(form.d)
         with working_precision(_BITS):
             _check_pieces(a, b, partial(_misses, over, under, acb(c)))
 

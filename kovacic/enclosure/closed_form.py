@@ -95,7 +95,8 @@ class CaseOneForm:
     @cached_property
     def branches(self) -> tuple[Exponential, ...]:
         """The solutions with conjugate omegas, or with the two rational ones that the certificate has."""
-        theta, P = self.first.theta, self.first.P
+        theta = self.first.theta
+        P = self.first.P
         count = len(self.first.constants())
         if count > 1:
             return tuple(Exponential(theta, P, k) for k in range(count))
@@ -110,7 +111,8 @@ class CaseOneForm:
     @cached_property
     def reduction(self) -> tuple[Poly, RatFunc]:
         """A and B of equation (1)."""
-        theta, P = self.first.theta, self.first.P
+        theta = self.first.theta
+        P = self.first.P
         slope = P.derivative()
         A = -(slope.inverse_modulo(P)) if P.degree > 0 else P.field.poly([])
         # theta.den (1 + A P' - A' P) + 2 theta.num A P, divided by P^2
@@ -162,7 +164,8 @@ class CaseOneForm:
     @cached_property
     def companion(self) -> Exponential | None:
         """y2 = y1 int y1^-2 where y1^2 is rational, of small degree, and the integral is rational too."""
-        theta, P = self.first.theta, self.first.P
+        theta = self.first.theta
+        P = self.first.P
         if self.square_size is None or self.square_size // 2 + P.degree > _SMALL:
             return None
         assert self.rational_square is not None
@@ -190,7 +193,9 @@ class CaseOneForm:
         theta, P, E = self.first.embedded(a, b)
         exact_A, exact_B = self.reduction
         assert self.rational_square is not None
-        A, first, second = embed(exact_A, None), self.first.states(a, b), []
+        A = embed(exact_A, None)
+        first = self.first.states(a, b)
+        second = []
         area = _integrand(self).exponent(a, b) * value(self.rational_square, None, a)
         for x, growth, I, (y, dy) in zip((a, b), (acb(1), E), (acb(0), area), first, strict=True):  # noqa: E741
             slope = A.derivative()(x) - theta.value(x) * A(x) + value(exact_B, None, x) * P(x)

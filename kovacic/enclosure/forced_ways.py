@@ -31,9 +31,11 @@ from kovacic.errors import InputError
 
 _FEW = 2
 """So many targets are integrated, one by one, if they are near."""
-_FAR, _STEEP = 60.0, 1e6
+_FAR = 60.0
+_STEEP = 1e6
 """int |S|^(1/2) to a target beyond which even one is worth a way, and beyond which a way would have too many discs."""
-_POINTS, _BITS = 12, 53
+_POINTS = 12
+_BITS = 53
 
 
 @dataclass
@@ -93,7 +95,8 @@ class ForcedWays:
 @lru_cache(maxsize=32)
 def ways_of(journey: Journey) -> ForcedWays | None:
     """The ways of a journey; None where constants aren't rational."""
-    problem, start = journey.problem, journey.start
+    problem = journey.problem
+    start = journey.start
     if problem.right is None or problem.embedded is not None:
         return None
     if start.decaying or isinstance(start.place, Singular):

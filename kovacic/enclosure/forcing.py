@@ -93,19 +93,24 @@ class Forcing:
 
     def step(self, leg: Leg, growth: Callable[[acb, bool], acb]) -> State:
         """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball."""
-        frame, expansion = leg.disc.frame, leg.expansion
+        frame = leg.disc.frame
+        expansion = leg.expansion
         assert expansion is not None
-        centre, h, unit = to_acb(frame.centre), acb(arb((1, frame.e))), acb(arb((1, -expansion.w)))
+        centre = to_acb(frame.centre)
+        h = acb(arb((1, frame.e)))
+        unit = acb(arb((1, -expansion.w)))
         polys = [
             acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im) for re, im in expansion.columns
         ]
-        start, stop = to_acb(leg.disc.enter), to_acb(leg.disc.leave)
+        start = to_acb(leg.disc.enter)
+        stop = to_acb(leg.disc.leave)
         real = self.real and start.imag.is_zero() and stop.imag.is_zero()
 
         def source(x: acb, analytic: bool) -> acb:
             return self.value(x, analytic) * growth(x, analytic)
 
-        step, half = (stop - start) / _PIECES, arb(0, 0.5)
+        step = (stop - start) / _PIECES
+        half = arb(0, 0.5)
         pieces = (start + step * acb(arb(2 * k + 1) / 2 + half) for k in range(_PIECES))
         size = sum((abs(source(x, False)) for x in pieces), arb(0)) * abs(step)
         found = []

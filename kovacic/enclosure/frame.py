@@ -31,7 +31,10 @@ _BITS = 64
 _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
-_LONG, _HALVINGS, _FEW_HALVINGS = 100, 60, 6  # of the way, for a lower bound of the growth; few for degrees above 100
+# Halvings of the way, for a lower bound of the growth; few for degrees above 100.
+_LONG = 100
+_HALVINGS = 60
+_FEW_HALVINGS = 6
 _PIECE_SECONDS = (
     1e-8  # that it takes to move a long polynomial to the middle of a piece of the way, over its degree squared
 )
@@ -40,8 +43,10 @@ _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[GaussianParts, GaussianParts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
-    q, p = system.along("den", centre, scale), system.along("num", centre, scale)
-    re, im = q[0][0], q[1][0]
+    q = system.along("den", centre, scale)
+    p = system.along("num", centre, scale)
+    re = q[0][0]
+    im = q[1][0]
     turn = ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
     if im != 0:
         turn = ExactPoint(re, -im)
@@ -141,13 +146,18 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]], blur: arb |
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
     delta = arb(REACH) / rings
     error = slope = arb(0)
-    growth, slope_growth = arb(1), arb(1)
+    growth = arb(1)
+    slope_growth = arb(1)
     for j in range(rings):
         _, sigma = bounds(delta * (j + 1))
         t = sigma.sqrt() * delta
-        c, s, h = arb(1), arb(1), arb(1) / 2
+        c = arb(1)
+        s = arb(1)
+        h = arb(1) / 2
         if t > 0:  # cosh t, sinh(t)/t and (cosh t - 1)/t^2
-            c, s, h = t.cosh(), t.sinh() / t, 2 * ((t / 2).sinh() / t) ** 2
+            c = t.cosh()
+            s = t.sinh() / t
+            h = 2 * ((t / 2).sinh() / t) ** 2
         rise = delta * s
         error, slope = error * c + slope * rise + delta * delta * h, error * sigma * rise + slope * c + rise
         growth, slope_growth = growth * c + slope_growth * rise, growth * sigma * rise + slope_growth * c
@@ -168,7 +178,8 @@ def _blur(system: System, centre: ExactPoint, e: int, poles: list[tuple[arb, int
     here = ExactPoint(
         *(part[0] for part in system.along("den", centre, ExactPoint(0)))
     )  # exact: balls would cancel near poles
-    reach, least = abs(to_acb(centre)).upper() + unit, to_acb(here).abs_lower()
+    reach = abs(to_acb(centre)).upper() + unit
+    least = to_acb(here).abs_lower()
     for size, k in poles:
         least *= (1 - 1 / size) ** k
     numerator = system.polynomial("num").coeffs()
@@ -220,13 +231,16 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     # 1/2, 31/64, ..., 17/64, and four points in each half of what is left
     towards = [i / 64 * 2.0**-k for k in range(halvings) for i in range(32, 16, -1 if k == 0 else -4)]
     with working_precision(_BITS + 4 * min(degree, _LONG)):
-        start, step, both = to_acb(a), to_acb(b - a), [system.polynomial("num"), system.polynomial("den")]
+        start = to_acb(a)
+        step = to_acb(b - a)
+        both = [system.polynomial("num"), system.polynomial("den")]
         length = abs(step).upper()
         marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
         for first, last in itertools.pairwise(marks):
             if degree > _LONG:
                 check_duration(_PIECE_SECONDS * degree**2, f"a bound for a polynomial of degree {degree}")
-            middle, half = step * (first + last) / 2, length * (last - first) / 2
+            middle = step * (first + last) / 2
+            half = length * (last - first) / 2
             p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
             total += _growth_near(p, q, half)
     return total

@@ -94,13 +94,15 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
     At most half the distance to the next singular point; there A is at least half of A_0 even with absolute values, so that the
     recurrence loses no digits, and the majorant grows by a share of the precision only.
     """
-    op, neighbours = point.operator().in_balls(), point.neighbours()
+    op = point.operator().in_balls()
+    neighbours = point.neighbours()
     near = min((d.abs_lower() for d, _ in neighbours), default=None)
     e = math.ceil(log2(distance))
     if near is not None:
         e = min(e, math.floor(log2(near)) - 1)
     lower, upper = (acb(v) for v in point.exponents())
-    delta, size = abs(upper - lower).upper(), max(abs(lower).upper(), abs(upper).upper())
+    delta = abs(upper - lower).upper()
+    size = max(abs(lower).upper(), abs(upper).upper())
     for _ in range(20_000):
         r = arb((1, e))
         if sum((abs(v) * r**j for j, v in enumerate(op.A) if j), arb(0)) <= abs(op.A[0]):
@@ -149,10 +151,12 @@ def basis(
     """
     with working_precision(int(prec * (1 + _GROWTH)) + 100):
         _LOG.debug("Frobenius series at %s, up to %s, %d bits", point, last, prec)
-        t, end = point.offset(last), point.offset(towards)
+        t = point.offset(last)
+        end = point.offset(towards)
         if not (t / end).real > 0:
             raise LimitExceeded(f"{last} can't be told from the singular point {point}", limit="digits")
-        log, zero = end.log() + (t / end).log(), (acb(0), acb(0))  # continued along the segment
+        log = end.log() + (t / end).log()  # continued along the segment
+        zero = (acb(0), acb(0))
         found = _expansions(point, last, bound, prec, needed)
         first, second = (zero if solution is None else solution.at(t, log) for solution in found)
         # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
@@ -165,13 +169,18 @@ def _expansions(
 ) -> list[FrobeniusSeries | None]:
     """Both solutions in the disc up to `last`; None for one that isn't needed."""
     lower, upper = point.exponents()
-    op, N, length = point.operator(), point.difference, abs(point.offset(last)).upper()
-    start, resonance = (1, 0), N
+    op = point.operator()
+    N = point.difference
+    length = abs(point.offset(last)).upper()
+    start = (1, 0)
+    resonance = N
     if N == 0:
-        start, resonance = (0, 1), None
+        start = (0, 1)
+        resonance = None
     elif N is not None and point.is_rational and N <= _SOUGHT and not _has_logarithm(op, lower, N):
         resonance = -N
-    balls, delta = op.in_balls(), abs(acb(upper) - lower).upper()
+    balls = op.in_balls()
+    delta = abs(acb(upper) - lower).upper()
     cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
     return [
         _expand(balls, case, length, bound, prec) if wanted else None
@@ -184,7 +193,8 @@ def limit(point: Singular, start: State) -> State:
     beside = point.near + ExactPoint(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
-    total, found = (acb(0), acb(0)), _expansions(point, last, bound, max(64, ctx.prec), needed)
+    total = (acb(0), acb(0))
+    found = _expansions(point, last, bound, max(64, ctx.prec), needed)
     for coordinate, solution in zip(start, found, strict=True):
         if solution is None:
             continue
@@ -197,7 +207,10 @@ def limit(point: Singular, start: State) -> State:
 
 def _apply(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
     """P_j(nu + eps) a."""
-    A, B, C, (u, v) = op.A[j], op.B[j], op.C[j], a
+    A = op.A[j]
+    B = op.B[j]
+    C = op.C[j]
+    (u, v) = a
     value = (A * nu + B) * nu + C
     return value * u + (2 * A * nu + B) * v, value * v
 
@@ -208,7 +221,8 @@ def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: int | None) ->
     f0 = f1 = op.A[0] * 0
     for j in range(1, min(n, len(op.A) - 1) + 1):
         p, q = _apply(op, j, nu - j, terms[n - j])
-        f0, f1 = f0 - p, f1 - q
+        f0 = f0 - p
+        f1 = f1 - q
     slope = 2 * op.A[0] * nu + op.B[0]
     if resonance is not None and n == abs(resonance):
         return f0 * 0, f0 * 0 if resonance < 0 else f0 / slope
@@ -246,11 +260,16 @@ class FrobeniusSeries:
 
     def at(self, t: acb, log: acb) -> tuple[acb, acb]:
         """y and theta y at t, with the logarithm of t."""
-        U, V, lam = self.U, self.V, acb(self.lam)
-        value, slope = U(t), lam * U(t) + t * U.derivative()(t)
+        U = self.U
+        V = self.V
+        lam = acb(self.lam)
+        value = U(t)
+        slope = lam * U(t) + t * U.derivative()(t)
         if V.length():
-            value, slope = value + V(t) * log, slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
-        real, size = value.imag.is_zero() and slope.imag.is_zero(), max(arb(1), abs(log).upper())
+            value = value + V(t) * log
+            slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
+        real = value.imag.is_zero() and slope.imag.is_zero()
+        size = max(arb(1), abs(log).upper())
         balls = [arb(0, (error * size).upper()) for error in self.errors]
         tails = [acb(ball) if real else acb(ball, ball) for ball in balls]
         whole = isinstance(self.exponent, fmpq) and self.exponent.q == 1
@@ -270,7 +289,8 @@ def _expand(
     exponent, delta, resonance, start = case
     with working_precision(64):
         size = abs(acb(exponent)).upper()
-    first, order = max(_first(delta), len(op.A), abs(resonance or 0) + 1), len(op.A) - 1
+    first = max(_first(delta), len(op.A), abs(resonance or 0) + 1)
+    order = len(op.A) - 1
     rational = isinstance(exponent, fmpq)
     kind = type(op.A[0]) if rational or exponent.imag.is_zero() else acb
     lam = kind(exponent if rational or kind is acb else exponent.real)

@@ -46,7 +46,9 @@ from kovacic.limits import check_time
 _ROUGH = 64
 """Bits of bounds."""
 _RADII = (2, 3, 4, 6, 8, 12, 16)
-_LEAF, _FIRST, _QUIET = 6, 24, 8
+_LEAF = 6
+_FIRST = 24
+_QUIET = 8
 """Terms of the recurrence that are computed one by one, those of the first block, and so many small ones at its end."""
 _MOST_TERMS = 40
 """Terms for each bit, at most."""
@@ -217,7 +219,8 @@ class JetBasis:
         """From (y, dy/dx) at x to (y, dy/du) at the centre, without the right-hand side: the Wronskian is exp(-int B)/H."""
         m = self.matrix(x)
         u = (x - self.jets.centre).scaled(power_of_two(-self.jets.e))
-        area, rest = self.jets.parts[0].integral(), self.jets.rests[0]
+        area = self.jets.parts[0].integral()
+        rest = self.jets.rests[0]
         if u.is_real() and isinstance(area, arb_poly):
             exponent = acb(area(arb(u.x)) + arb(0, rest))
         else:
@@ -270,7 +273,8 @@ class _Recurrence:
 
     def __init__(self, B: Any, C: Any, F: Any, kind: Any, bits: int) -> None:
         self.kind = kind
-        self.B, self.C = B.coeffs(), C.coeffs()
+        self.B = B.coeffs()
+        self.C = C.coeffs()
         self.sums = [-value for value in F.coeffs()]
         self.least = max(len(self.B), len(self.C), len(self.sums))
         self.small = arb((1, -bits))
@@ -283,7 +287,8 @@ class _Recurrence:
         """The terms from these two on, until some are small."""
         self.values = [*start]
         self.slopes = [start[1]]
-        known, size = 0, _FIRST
+        known = 0
+        size = _FIRST
         while not self.ended:
             self._give(0, known, known + size)
             self._continue(known, known + size)

@@ -119,7 +119,8 @@ class Journey:
 
     def _begin(self, closed: Closed | None, prec: int) -> tuple[Traveller, State]:
         """At the end of the polygon, and the start's coordinates."""
-        problem, place = self.problem.at(prec), self.start.place
+        problem = self.problem.at(prec)
+        place = self.start.place
         start = self.start.state(problem, prec)
         traveller = Traveller.at(problem, place if isinstance(place, Singular) else middle(place), closed, prec)
         for vertex in self.vertices:
@@ -245,7 +246,8 @@ class Traveller:
 
     def _by_discs(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
-        system, origin = self.problem.system, to_double(here)
+        system = self.problem.system
+        origin = to_double(here)
         places = [to_double(stop) for stop in stops]
         found = {i: self.state(start) for i, stop in enumerate(stops) if stop == here}
         waiting = sorted((i for i in range(len(stops)) if i not in found), key=lambda i: abs(places[i] - origin))
@@ -321,11 +323,9 @@ class Traveller:
         """
         result: list[State] = []
         for sign, cut, place, unit in self._cuts(stops[-1]):
-            first, top, last = (
-                ExactPoint(cut - sign * unit),
-                ExactPoint(cut, unit if side == "above" else -unit),
-                cut + sign * unit,
-            )
+            first = ExactPoint(cut - sign * unit)
+            top = ExactPoint(cut, unit if side == "above" else -unit)
+            last = cut + sign * unit
             far, near, behind = (
                 [stop for stop in stops[len(result) :] if sign * (stop.x - mark) <= 0]
                 for mark in (first.x, place, last)
@@ -340,7 +340,8 @@ class Traveller:
 
     def _cuts(self, last: ExactPoint) -> Iterator[tuple[int, Any, Any, Any]]:
         """The detours on the way to `last`: direction, a short number beside the singular point, the point, and radius."""
-        here, singular = self.here, self.problem.singular_points(256)
+        here = self.here
+        singular = self.problem.singular_points(256)
         if isinstance(here, Singular) and here.inverted:
             far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
             here = ExactPoint(far if last.x > 0 else -far)

@@ -49,7 +49,8 @@ def _roots(poly: Poly) -> tuple[tuple[acb, int], ...]:
 
 def embed(poly: Poly, c: acb | None) -> acb_poly:
     """The polynomial with ball coefficients."""
-    total, power = acb_poly([]), acb_poly([1])
+    total = acb_poly([])
+    power = acb_poly([1])
     parts: tuple[Any, ...] = poly.parts if isinstance(poly, ExtensionPoly) else (poly,)
     for part in parts:
         total += acb_poly(part.rep) * power
@@ -110,7 +111,8 @@ class LogDerivative:
     def of(cls, theta: RatFunc, embed: Callable[[Poly], acb_poly], poles: list[tuple[acb, int]]) -> LogDerivative:
         """The same with another embedding of the constants; the poles with their multiplicities."""
         quotient, rest = divmod(theta.num, theta.den)
-        num, den = embed(rest), embed(theta.den)
+        num = embed(rest)
+        den = embed(theta.den)
         parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in poles)
         return cls(embed(quotient).integral(), parts, embed(theta.num), den)
 
@@ -122,7 +124,8 @@ class LogDerivative:
         """int_a^b theta along the straight segment."""
         total = self.primitive(b) - self.primitive(a)
         for pole in self.poles:
-            u, v = b - pole.zeta, a - pole.zeta
+            u = b - pole.zeta
+            v = a - pole.zeta
             residue = pole.coefficients[0]
             if not residue.is_zero():
                 total += residue * (u / v).log(analytic=analytic)
@@ -148,7 +151,8 @@ def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
     line = acb_poly([zeta, 1])
-    top, bottom = num(line), den(line).coeffs()[k:]  # the first k coefficients are exactly zero
+    top = num(line)
+    bottom = den(line).coeffs()[k:]  # the first k coefficients are exactly zero
     found: list[acb] = []
     for n in range(k):  # not by FLINT's series, which end after `flint.ctx.cap` terms
         rest = sum((c * found[n - j] for j, c in enumerate(bottom[1 : n + 1], start=1)), acb(0))

@@ -58,9 +58,12 @@ class MatrixProduct:
 
     def after(self, matrix: Matrix) -> MatrixProduct:
         """With one more factor on the left."""
-        parts, size = self._parts, 1
+        parts = self._parts
+        size = 1
         while parts and parts[-1][0] == size:
-            matrix, size, parts = multiply(matrix, parts[-1][1]), 2 * size, parts[:-1]
+            matrix = multiply(matrix, parts[-1][1])
+            size = 2 * size
+            parts = parts[:-1]
         return MatrixProduct(*parts, (size, matrix))
 
     def apply(self, state: State) -> State:

@@ -123,9 +123,12 @@ class LocalMonodromy:
         (True, False)
         """
         with working_precision(1000):
-            m, one = self.acb_mat(), acb_mat([[1, 0], [0, 1]])
+            m = self.acb_mat()
+            one = acb_mat([[1, 0], [0, 1]])
             t = m.trace() if self.trace is None else ball_to_flint(self.trace)
-            before, now = acb(0), acb(1)  # M^n = U_n M - U_(n-1), U_(n+1) = t U_n - U_(n-1) (Cayley and Hamilton)
+            # M^n = U_n M - U_(n-1), U_(n+1) = t U_n - U_(n-1) (Cayley and Hamilton)
+            before = acb(0)
+            now = acb(1)
             for _ in range(order - 1):
                 before, now = now, t * now - before
             return bool((m * now - one * before).contains(one))
@@ -229,15 +232,18 @@ def _connection(
     problem: NumericProblem, a: ExactPoint | Singular, middle: list[ExactPoint], b: ExactPoint | Singular, prec: int
 ) -> Matrix:
     """The matrix at about so many bits."""
-    traveller, both = Traveller.at(problem, a, None, prec), (acb(1), acb(1))
+    traveller = Traveller.at(problem, a, None, prec)
+    both = (acb(1), acb(1))
     for vertex in middle:
         traveller.go(vertex, both)
-    there, end = None, b
+    there = None
+    end = b
     if isinstance(end, Singular):
         here = traveller.here
         assert isinstance(here, ExactPoint)
         last, bound = junction(end, here, prec)
-        there, end = basis(end, last, here, bound, prec), last
+        there = basis(end, last, here, bound, prec)
+        end = last
     traveller.go(end, both)
     found = fundamental(traveller.state((acb(1), acb(0))), traveller.state((acb(0), acb(1))))
     return found if there is None else multiply(inverse(there), found)
@@ -302,7 +308,8 @@ def monodromy(
 
 def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
-    points, places = [midpoint(root) for root, _ in problem.poles(64)], []
+    points = [midpoint(root) for root, _ in problem.poles(64)]
+    places = []
     for i, p in enumerate(points):
         check_time()
         gap = min([fmpq(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
@@ -320,7 +327,8 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
         return []
     centres = [z for z, _ in places]
     spread = max(abs(p.x - q.x) + abs(p.y - q.y) for p in centres for q in centres)
-    top, middle = max(z.y for z in centres) + max(fmpq(1), spread), sum((z.x for z in centres), fmpq(0)) / len(centres)
+    top = max(z.y for z in centres) + max(fmpq(1), spread)
+    middle = sum((z.x for z in centres), fmpq(0)) / len(centres)
     found = []
     for shift in (1, -3, 10, -17, 29, -41):
         base = ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(
@@ -331,7 +339,8 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
     narrowest, base, radii = max(found, key=lambda item: item[0])
     if narrowest == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
-    quarter, loops = ExactPoint(0, 1), []
+    quarter = ExactPoint(0, 1)
+    loops = []
     for z, radius in zip(centres, radii, strict=True):
         offset = base - z
         corner = offset.scaled(_root_below(radius * radius / offset.norm_squared()))
@@ -356,7 +365,8 @@ def _root_below(square: Any) -> Any:
 
 def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
     """A rational number not above the distance of the point from the segment, and above a third of it."""
-    step, offset = b - a, point - a
+    step = b - a
+    offset = point - a
     t = (offset.x * step.x + offset.y * step.y) / step.norm_squared()
     return _root_below((offset - step.scaled(min(max(t, fmpq(0)), fmpq(1)))).norm_squared())
 

@@ -108,7 +108,8 @@ class NumericProblem:
         num, den = (fmpq_poly(list(part)) for part in (self.system.num, self.system.den))
         if self.gauge is None:
             return den, fmpq_poly([]), -num
-        gamma, square = self.gauge, self.gauge * self.gauge - self.gauge.derivative()
+        gamma = self.gauge
+        square = self.gauge * self.gauge - self.gauge.derivative()
         parts = [part for function in (gamma, square) for part in (function.num, function.den)]
         p, q, r, s = (part.rep for part in parts if isinstance(part, RationalPoly))
         common = den

@@ -50,7 +50,8 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     """
     if method == "taylor":
         return None
-    count, known = len(targets), journey.choices.get((method, digits))
+    count = len(targets)
+    known = journey.choices.get((method, digits))
     if known is None:
         known = _chosen(journey, targets, method, digits)
     elif not known.pays(count):
@@ -166,14 +167,16 @@ class Foreseen:
 
 def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[arb]:
     """The radii of the discs of a walk in small balls, about."""
-    problem, growth = journey.problem, growth_of_disc(prec, len(targets)) * _LOG_2
+    problem = journey.problem
+    growth = growth_of_disc(prec, len(targets)) * _LOG_2
     place = journey.start.place
     here = place.near if isinstance(place, Singular) else middle(place)
     stops = [middle(vertex) for vertex in journey.vertices]
     for a, b in (*pairwise([here, *stops]), *_ways([here, *stops][-1], targets, journey.chain)):
         with working_precision(_BITS):
             (num, den), poles = problem.polynomials(), [root for root, _ in problem.poles(_BITS)]
-            start, end = to_acb(a), to_acb(b)
+            start = to_acb(a)
+            end = to_acb(b)
             length = abs(end - start)
             direction = (end - start) / length if a != b else acb(0)
         gone = arb(0)

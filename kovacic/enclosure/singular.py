@@ -152,7 +152,8 @@ class Singular:
 
     def exponents(self) -> tuple[Any, Any]:
         """The exponents in the order of the basis: rational numbers where they are, else balls."""
-        total, delta = self._at(self._indicial[0]), self._delta
+        total = self._at(self._indicial[0])
+        delta = self._delta
         return (total - delta) / 2, (total + delta) / 2
 
     def operator(self) -> Operator:

@@ -55,7 +55,9 @@ from kovacic.limits import check_time
 Gauss = tuple[Any, Any]  # a matrix, or number, over Z[i]: real and imaginary part (None: zero)
 LEAF = 8  # steps whose product is formed once, with polynomials in m as entries
 _BLOCK = 1.5  # length of the integers of a block, by the bits that are still needed (the first block: 1)
-_LOWEST, _ENTIRE, _SINGULAR = 1500, 10, 35
+_LOWEST = 1500
+_ENTIRE = 10
+_SINGULAR = 35
 # Splitting pays above max(1500, factor * order^3) bits; the factor without and with singular points
 _LEAST = 2000  # bits below which a block isn't shortened any more
 # Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before
@@ -89,7 +91,8 @@ def _times(a: Gauss, b: Gauss) -> Gauss:
         return ar * br, None if bi is None else ar * bi
     if bi is None:
         return ar * br, ai * br
-    x, y = ar * br, ai * bi
+    x = ar * br
+    y = ai * bi
     return x + y * -1, (ar + ai) * (br + bi) + (x + y) * -1
 
 
@@ -153,7 +156,9 @@ class Recurrence:
 
     def _step(self, i: int, mirror: bool) -> Run:
         """The step to m + i; rows of R: Y, Y' and with `mirror` their values at -v (m even)."""
-        r, m, zero = self.order, fmpz_poly([i, 1]), fmpz_poly([])
+        r = self.order
+        m = fmpz_poly([i, 1])
+        zero = fmpz_poly([])
         D = self.Q[0][0] * m * (m - 1)
 
         def coefficient(p: list[int], q: list[int], j: int) -> fmpz_poly:  # of b_(m-j)
@@ -189,7 +194,9 @@ def _sum_series(
     """Sums in balls, rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...), and for either column the bounds of |e|
     and |e_v|: blocks until these are about 2^-prec."""
     steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)))
-    leaf, r, m = steps.leaf(mirror), steps.order, 2
+    leaf = steps.leaf(mirror)
+    r = steps.order
+    m = 2
     goal = prec + int(frame.bound.log2_growth) + 20
     full = goal + 64
     matrix, number = (arb_mat, arb) if steps.is_real else (acb_mat, acb)
@@ -213,7 +220,8 @@ def _sum_series(
             m, before = m + leaves * LEAF, (m, needed)
             with working_precision(needed):
                 inverse = number(1) / number(block.D)
-                change, V = _balls(block.R) * V * inverse, _balls(block.C) * V * inverse
+                change = _balls(block.R) * V * inverse
+                V = _balls(block.C) * V * inverse
             sums = sums + change
 
 

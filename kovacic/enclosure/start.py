@@ -50,7 +50,8 @@ class Start:
         y, dy = map(to_ball, self.data)
         if self.decaying:
             assert not isinstance(self.place, Singular)
-            x, gauge = middle(self.place), problem.gauge
+            x = middle(self.place)
+            gauge = problem.gauge
             slope = logarithmic_derivative(problem.system, x, prec)
             dy = y * (slope if gauge is None else slope + value(gauge, None, to_acb(x)))
         return spread(problem, self.place, (y, dy))
@@ -167,13 +168,17 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     if math.isinf(rightmost):
         raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
     first = max(math.ceil(rightmost) + 1, math.ceil(x0.re))
-    step, growth, bits = 1, arb(0), (prec + 20) * math.log(2) / 2
+    step = 1
+    growth = arb(0)
+    bits = (prec + 20) * math.log(2) / 2
     num, den = (acb_poly(list(part)) for part in (system.num, system.den))
     while growth < bits:  # about int S^(1/2) from `first` to `first + step`
-        x, step = acb(first + step), 2 * step
+        x = acb(first + step)
+        step = 2 * step
         growth += (num(x) / den(x)).real.sqrt() * step / 2
         if step > 1 << 200:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
     m, n, _dm, dn = product(piece_matrices(system, ExactPoint(first + step), x0, prec + 20))
-    n, dn = -n, -dn
+    n = -n
+    dn = -dn
     return dn / n + acb(arb(0.5, 0.5)) / (n * (n + acb(arb(0.5, 0.5)) * (m - n)))

@@ -49,7 +49,8 @@ class System:
     @classmethod
     def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
         """The system in lowest terms; raises InputError if den is zero."""
-        p, q = fmpz_poly(list(num)), fmpz_poly(list(den))
+        p = fmpz_poly(list(num))
+        q = fmpz_poly(list(den))
         if q == 0:
             raise InputError("the denominator of S is zero")
         g = p.gcd(q) * (-1 if q.leading_coefficient() < 0 else 1)
@@ -59,12 +60,14 @@ class System:
     @classmethod
     def of(cls, function: RatFunc) -> System:
         """A rational function over Q, as num/den; raises InputError over another field."""
-        num, den = function.num, function.den
+        num = function.num
+        den = function.den
         if not isinstance(num, RationalPoly) or not isinstance(den, RationalPoly):
             raise InputError(
                 "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
             )
-        p, q = num.rep, den.rep
+        p = num.rep
+        q = den.rep
         whole = (p.numer() * q.denom(), q.numer() * p.denom())
         return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
 
@@ -89,7 +92,8 @@ class System:
         prec = max(64, 1 << (prec - 1).bit_length())
         if self.imaginary is None:
             return _isolated(getattr(self, which), prec)
-        re, im = fmpz_poly(list(getattr(self, which))), fmpz_poly(list(self.imaginary[which == "den"]))
+        re = fmpz_poly(list(getattr(self, which)))
+        im = fmpz_poly(list(self.imaginary[which == "den"]))
         found = _isolated(tuple(int(c) for c in (re * re + im * im).coeffs()), prec)
         with working_precision(prec):
             return tuple((z, k) for z, k in found if self.polynomial(which)(z).contains(0))
@@ -117,7 +121,8 @@ def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tu
     lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
     if lines[1] == 0:
         return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
-    real, imag = fmpq_poly([]), fmpq_poly([])
+    real = fmpq_poly([])
+    imag = fmpq_poly([])
     for c in reversed(coefficients):
         check_time()
         real, imag = real * lines[0] - imag * lines[1] + c, real * lines[1] + imag * lines[0]
@@ -177,7 +182,8 @@ def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
     unit = step.scaled(1 / length)
     real, imaginary = system.along("den", a - unit.scaled(first), unit)
-    poly, prec = real.gcd(imaginary).numer(), 128
+    poly = real.gcd(imaginary).numer()
+    prec = 128
     while poly.degree() > 0:
         roots = _isolated(tuple(int(c) for c in poly.coeffs()), prec)
         with working_precision(prec):

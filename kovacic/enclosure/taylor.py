@@ -60,14 +60,18 @@ class TaylorSeries:
 
 def expand(frame: Frame, prec: int) -> TaylorSeries:
     """Both columns so that the error in the disc should be about 2^-prec (what it is, `transition` says)."""
-    p, q, bound = frame.p, frame.q, frame.bound
+    p = frame.p
+    q = frame.q
+    bound = frame.bound
     q_0 = q[0][0]
     loss = max(0.0, log2(arb(norm(q)) / q_0) - bound.log2_least)
     quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
     w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
     excess = max(0, q_0.bit_length() - (w + 40))
-    p, q = _cut(p, excess), _cut(q, excess)
-    columns, defects = [], []
+    p = _cut(p, excess)
+    q = _cut(q, excess)
+    columns = []
+    defects = []
     for start in (0, 1):
         re, im = _recurrence(p, q, w, start, 1 << quiet)
         columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
@@ -98,25 +102,34 @@ def _recurrence(
     p: GaussianParts, q: GaussianParts, w: int, start: int, small: int
 ) -> tuple[list[Any], list[Any] | None]:
     """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`."""
-    real, dp, dq = p[1] is None and q[1] is None, len(p[0]), len(q[0]) - 1
+    real = p[1] is None and q[1] is None
+    dp = len(p[0])
+    dq = len(q[0]) - 1
     pr, pi = (_numbers((part or [0] * dp)[::-1], w) for part in p)
     qr, qi = (_numbers((part or [0] * (dq + 1))[:0:-1], w) for part in q)
     one, zero, q0 = _numbers([1 << w, 0, q[0][0]], w)
     pad = max(dp, dq) + 2
     ar = [zero] * pad + ([one, zero] if start == 0 else [zero, one])  # ar[pad + n] is Re a_n
     br = [zero] * (pad + 2)  # br[pad + n] = n (n - 1) Re a_n
-    ai, bi = [zero] * (pad + 2), [zero] * (pad + 2)
-    n, quiet, cap = 0, 0, 40 * w + 4000
+    ai = [zero] * (pad + 2)
+    bi = [zero] * (pad + 2)
+    n = 0
+    quiet = 0
+    cap = 40 * w + 4000
     while quiet <= pad:
         if n % _CHECKED == 0:
             check_time()
         i = pad + n
-        x, y, k = ar[i - dp + 1 : i + 1], br[i + 2 - dq : i + 2], (n + 1) * (n + 2)
-        total, divisor = sum(map(mul, pr, x)), q0 * k
+        x = ar[i - dp + 1 : i + 1]
+        y = br[i + 2 - dq : i + 2]
+        k = (n + 1) * (n + 2)
+        total = sum(map(mul, pr, x))
+        divisor = q0 * k
         if dq:
             total -= sum(map(mul, qr, y))
         if not real:
-            s, t = ai[i - dp + 1 : i + 1], bi[i + 2 - dq : i + 2]
+            s = ai[i - dp + 1 : i + 1]
+            t = bi[i + 2 - dq : i + 2]
             total += sum(map(mul, qi, t)) - sum(map(mul, pi, s))
             term = (
                 sum(map(mul, pr, s)) + sum(map(mul, pi, x)) - sum(map(mul, qr, t)) - sum(map(mul, qi, y))
@@ -159,12 +172,15 @@ def transition(expansion: TaylorSeries, target: ExactPoint) -> Matrix:
 
 def local_solution(expansion: TaylorSeries, state: State) -> Local:
     """The solution in the disc from its state at the centre."""
-    frame, precision = expansion.frame, expansion.w + 10
+    frame = expansion.frame
+    precision = expansion.w + 10
     with working_precision(precision):
-        unit, h = arb((1, -expansion.w)), arb((1, frame.e))
+        unit = arb((1, -expansion.w))
+        h = arb((1, frame.e))
         real = all(v.imag.is_zero() for v in state) and all(im is None for _, im in expansion.columns)
         kind = arb_poly if real else acb_poly
-        total, radii = kind([]), [arb(0), arb(0)]
+        total = kind([])
+        radii = [arb(0), arb(0)]
         for (re, im), factor, defect in zip(expansion.columns, (state[0], state[1] * h), expansion.defect, strict=True):
             if not factor.is_zero():
                 poly = kind(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im)

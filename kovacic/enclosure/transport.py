@@ -46,7 +46,9 @@ _FEWER_BITS = 12.0
 _MAX_DISCS = 200_000
 _ROUNDED = 1e-15  # more than the relative errors of doubles
 _EDGE = 1 + 2.0**-17  # a target so far from the centre, in scales, is surely within the reach of the bounds
-_TRIED, _WORTH = 32, 0.2  # steps and seconds after which the time of the others is known well enough to be foreseen
+# steps and seconds after which the time of the others is known well enough to be foreseen
+_TRIED = 32
+_WORTH = 0.2
 
 
 @dataclass(frozen=True)
@@ -72,11 +74,13 @@ class Disc:
         """
         if self.begin is None:
             return
-        centre, reach = self.frame.centre, self.frame.scale * REACH
+        centre = self.frame.centre
+        reach = self.frame.scale * REACH
         # the edge of the disc is inside, so that a target where two discs meet is served; beyond the doubles the end alone is
         unit = math.ldexp(_EDGE, self.frame.e) if abs(self.frame.e) < 900 else -1.0
         corners = (centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1))
-        free, near = self.begin == a or is_apart(system, a, *corners), to_double(centre)
+        free = self.begin == a or is_apart(system, a, *corners)
+        near = to_double(centre)
         for number, place, x in targets:
             inside = abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit  # `Frame.seen` checks it exactly
             if (self.stop == 1 and x == self.leave) or (inside and (free or is_apart(system, a, self.begin, x))):
@@ -130,7 +134,8 @@ class Leg:
 
 def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
-    begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
+    begun = watched_seconds(math.inf)
+    split = is_split(system, prec) and not targets
     growth = growth_of_disc(prec, targets)
     foreseen = _is_steep(system, a, b)
     if foreseen:
@@ -190,7 +195,9 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
         return
     check_segment(system, a, b)
     piece = StraightPiece(system, a, b, _allowed_growth(prec) if growth is None else growth)
-    t, enter, guess = fmpq(0), a, None
+    t = fmpq(0)
+    enter = a
+    guess = None
     while t < 1:
         check_time()
         disc = piece.next_disc(t, enter, guess)
@@ -199,7 +206,9 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
             enter = piece.at(t)
         else:
             yield disc
-            guess, t, enter = disc.frame.e, disc.stop, disc.leave
+            guess = disc.frame.e
+            t = disc.stop
+            enter = disc.leave
 
 
 @dataclass(frozen=True)
@@ -245,10 +254,14 @@ class StraightPiece:
     def _disc(self, t: Any, enter: ExactPoint, e: int) -> Disc | None:
         """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
         None if it doesn't fit."""
-        step, unit, grain = self.b - self.a, power_of_two(e), power_of_two(e - 4)
+        step = self.b - self.a
+        unit = power_of_two(e)
+        grain = power_of_two(e - 4)
         size = step.norm_squared()
         if _reaches_end((1 - t) ** 2 * size, e):
-            centre, stop, leave = self.at((1 + t) / 2).rounded(e - 4), fmpq(1), self.b
+            centre = self.at((1 + t) / 2).rounded(e - 4)
+            stop = fmpq(1)
+            leave = self.b
         elif self.a.is_real() and self.b.is_real():
             # rounded towards the junction behind: a nearest point may lie beyond the scale from there
             sign = 1 if step.x > 0 else -1
@@ -259,7 +272,8 @@ class StraightPiece:
             square = unit * unit / size
             k = _exponent(square)
             forward = (square / power_of_two(2 * k - 24)).floor().isqrt() * power_of_two(k - 12) * fmpq(15, 16)
-            centre, grain = self.at(t + forward).rounded(e - 4), power_of_two(k - 8)
+            centre = self.at(t + forward).rounded(e - 4)
+            grain = power_of_two(k - 8)
             stop = t + (forward * fmpq(31, 16) / grain).floor() * grain
             leave = self.at(stop).rounded(e - 4)
         corners = (self.at(t), self.at(stop), enter, leave)

@@ -58,7 +58,8 @@ class Local:
             at = arb(u.x)
             return acb(self.poly(at) + arb(0, self.error)), acb((self.slope(at) + arb(0, self.slope_error)) / h)
         z = to_acb(u)
-        y, dy = acb_poly(self.poly)(z), acb_poly(self.slope)(z)
+        y = acb_poly(self.poly)(z)
+        dy = acb_poly(self.slope)(z)
         return y + _square(self.error), (dy + _square(self.slope_error)) / h
 
 

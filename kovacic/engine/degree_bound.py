@@ -23,7 +23,8 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
     for place in problem.places:
         if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED) and place.delta is None:
             p = place.factor
-            top, bottom = place.near[0], _leading_coefficient(place)
+            top = place.near[0]
+            bottom = _leading_coefficient(place)
             if place.kind is Kind.REGULAR:
                 top = bottom + 4 * top
             if is_provably_not_a_square(top * bottom % p, p):
@@ -33,7 +34,8 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
 
 def _leading_coefficient(place: Place) -> Poly:
     """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
-    p, cofactor = place.factor, place.near[1]
+    p = place.factor
+    cofactor = place.near[1]
     return cofactor % p if p.degree == 1 else p.derivative() ** place.order * cofactor % p
 
 
@@ -68,11 +70,13 @@ def degree_bound(problem: Problem) -> DegreeBound | Evidence:
     trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents], one sign for each factor.  Evidence against omega if no
     choice of signs gives a natural number, or if the exponents at a place aren't rational over K[x]/p.
     """
-    twice, choices = 2, list[tuple[Place, Fraction]]()
+    twice = 2
+    choices = list[tuple[Place, Fraction]]()
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
-        n, delta = place.degree, place.delta
+        n = place.degree
+        delta = place.delta
         twice -= n * place.weight
         if delta is None:
             trace = _trace(place)
@@ -116,20 +120,25 @@ def irregular_difference_squared(place: Place) -> Poly:
     Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.  For s = N/E and v = 1/(N_0 E_0) that is 4 v l^2, l the
     coefficient of t^(nu-1) in N (v N E)^(-1/2), which Newton's iteration gives.
     """
-    p, nu, (num, cofactor) = place.factor, place.order // 2, place.near
+    p = place.factor
+    nu = place.order // 2
+    (num, cofactor) = place.near
     extension = AlgebraicField(p.field, p) if p.degree > 1 else None
     t = (extension or p.field).poly([0, 1])
     end = t**nu
     N, E = (_moved(f, p, extension, nu) for f in (num, cofactor))
     if extension:
-        slope, power = _moved(p, p, extension, nu + 1) // t, extension.poly([1])  # p = t slope
+        slope = _moved(p, p, extension, nu + 1) // t  # p = t slope
+        power = extension.poly([1])
         for digit in f"{place.order:b}":
             power = power * power * (slope if digit == "1" else 1) % end
         E = E * power
     u = N * E % end
     v = u[0].inverse()
     u = u * v
-    root, known = (3 - u) / 2, 2  # Newton's first step, from 1
+    # Newton's first step, from 1
+    root = (3 - u) / 2
+    known = 2
     while known < nu:
         known = min(2 * known, nu)
         ahead = t**known

@@ -44,12 +44,14 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
     D, R, T, point = _coefficients(problem, place, valuations)
     lowest, *others = _recurrence(m, D, R, T)
     solutions: list[tuple[int, RationalSeries]] = []  # with the powers at which they begin
-    conditions, end = [], N + 1
+    conditions = []
+    end = N + 1
     i = 0
     while i < end:
         if i % 16 == 0:
             problem.budget.check()
-        pivot, factors = lowest(i), [factor(i - h) for h, factor in enumerate(others[:i], 1)]
+        pivot = lowest(i)
+        factors = [factor(i - h) for h, factor in enumerate(others[:i], 1)]
         obstructions = [series.extend(pivot, factors) for _, series in solutions]
         if not pivot:
             if any(obstructions):
@@ -73,7 +75,8 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
 
 def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Place | None:
     """The rational regular place with the fewest solutions to carry, if it has fewer than an ordinary point; else None."""
-    fewest, best = m + 1, None
+    fewest = m + 1
+    best = None
     for place, least in zip(problem.places, valuations, strict=True):
         if place.kind is Kind.REGULAR and place.degree == 1:
             exponents = (
@@ -81,7 +84,8 @@ def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Plac
             )
             count = sum(1 for value in exponents if value.denominator == 1 and value >= least)
             if count < fewest:
-                fewest, best = count, place
+                fewest = count
+                best = place
     return best
 
 
@@ -95,12 +99,14 @@ def _coefficients(
     if place is not None and place.at_infinity:
         pairs = [(QQ.poly(list(p.factor)[::-1]), v, p.weight) for p, v in zip(problem.places, valuations, strict=False)]
         pairs[-1] = (t, valuations[-1], place.weight)
-        num, den = place.num, place.den
+        num = place.num
+        den = place.den
     else:
         point = ordinary_point(problem.S.den) if place is None else -place.factor[0].constant()  # type: ignore[attr-defined]
         finite = zip(problem.finite_places, valuations, strict=False)
         pairs = [(p.factor(t + point), v, p.weight) for p, v in finite]
-        num, den = problem.S.num(t + point), problem.S.den(t + point)
+        num = problem.S.num(t + point)
+        den = problem.S.den(t + point)
     D = product([QQ.poly([1]), *(factor**weight for factor, _, weight in pairs)])
     R = sum((v * (D // factor) * factor.derivative() for factor, v, _ in pairs), QQ.poly([]))
     T = num * (D * D // den)
@@ -116,7 +122,9 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> list[Any]:
     ring = fmpz_mpoly_ctx.get(("t", "i"), Ordering.lex)
     t, i = ring.gens()
     D, R, T = (ring.from_dict({(k, 0): c for k, c in enumerate(f.coeffs())}) for f in (D, R, T))
-    slope, previous, current = D.derivative(0), ring.constant(0), ring.constant(1)
+    slope = D.derivative(0)
+    previous = ring.constant(0)
+    current = ring.constant(1)
     for k in range(m + 1):
         following = D * ((i - k) * current + t * current.derivative(0)) + t * (R - k * slope) * current
         previous, current = current, following - k * (m - k + 1) * t * t * T * previous

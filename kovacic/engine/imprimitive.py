@@ -63,7 +63,8 @@ def _coordinates(problem: Problem, H: Form, basis: list[Form]) -> tuple[Poly, Po
     P = H.P.exact_quotient(singular_factor(problem, F1.R, 2))
     if P is None:
         raise AssertionError("the Hessian of an invariant is an invariant")
-    a, b = P[F1.P.degree], P[F2.P.degree]
+    a = P[F1.P.degree]
+    b = P[F2.P.degree]
     if a * F1.P + b * F2.P != P:
         raise AssertionError("the Hessian of an invariant of degree 4 lies in the pencil")
     return a, b

@@ -51,7 +51,8 @@ def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | N
     if place.delta is None:
         return m // 2 if m % 2 == 0 else None
     # With Delta = a/b the valuations are (m b + 2 j a) / (2 b).
-    a, b = place.delta.numerator, place.delta.denominator
+    a = place.delta.numerator
+    b = place.delta.denominator
     multiples = [m * a] if logarithms and place.logarithm else range(-m * a, m * a + 1, 2 * a or 1)
     for k in multiples:
         v, rest = divmod(m * b + k, 2 * b)
@@ -62,7 +63,8 @@ def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | N
 
 def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> tuple[list[int], int] | None:
     """The least valuations of an invariant of degree m, infinity's last, and the largest degree N of P; None if it can't be."""
-    valuations, N = list[int](), m
+    valuations = list[int]()
+    N = m
     for place in problem.places:
         v = least_valuation(place, m, logarithms=logarithms)
         if v is None:
@@ -150,8 +152,10 @@ def invariants_modulo(
     h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, margin: int
 ) -> tuple[list[Any], int]:
     """The echelon basis modulo p of all P whose expansion agrees with a form to N + m + 2 + margin terms; and the point."""
-    num, den = h(problem.S.num), h.keeping_degree(problem.S.den)
-    point, p = ordinary_point(den), h.p
+    num = h(problem.S.num)
+    den = h.keeping_degree(problem.S.den)
+    point = ordinary_point(den)
+    p = h.p
     order = N + m + 2 + margin
     y1, y2 = fundamental_system(translate(num, point), translate(den, point), order)
     factors = [

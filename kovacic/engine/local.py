@@ -55,7 +55,9 @@ def chart(h: Homomorphism, problem: Problem, place: Place) -> ModularChart | Non
         opposite = problem.infinity.weight
     if root is None:
         return None
-    num, den, D = h(place.num), h.keeping_degree(place.den), h.keeping_degree(problem.D)
+    num = h(place.num)
+    den = h.keeping_degree(place.den)
+    D = h.keeping_degree(problem.D)
     if place.at_infinity:
         D = reverse(D, D.degree()).left_shift(place.weight)
     num, den, D = (translate(f, root) for f in (num, den, D))
@@ -71,7 +73,8 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
     At a regular place Q is an exponent: (1 + Delta)/2 alone if there is a logarithm.  At an unramified irregular place
     Q = +-[sqrt S] + (nu +- b/a)/2 t^(nu-1) [Kovacic 1986, sec. 3.2].  Empty if a square root doesn't exist modulo p.
     """
-    p, nu = equation.p, equation.nu
+    p = equation.p
+    nu = equation.nu
     allowed = None if exponents is None else [e.numerator * pow(e.denominator, -1, p) % p for e in exponents]
     half = pow(2, -1, p)
     ratio = equation.N.mul_low(equation.E.inverse_series_trunc(nu), nu)
@@ -126,16 +129,20 @@ def omega_parts(h: Homomorphism, problem: Problem, c: ModularChart, A: Any, P: A
         # omega(x) = 1/x - omega_z(1/x)/x^2 with omega_z = A/B.
         B = c.D * P
         size = max(A.degree(), B.degree())
-        above, below = reverse(A, size), reverse(B, size)
-        A, B = below.left_shift(1) - above, below.left_shift(2)
+        above = reverse(A, size)
+        below = reverse(B, size)
+        A = below.left_shift(1) - above
+        B = below.left_shift(2)
     else:
         A, B = (translate(f, -c.root % h.p) for f in (A, c.D * P))
     D = h(problem.D)
     A = A * D
     common = A.gcd(B)
-    A, P = A // common, B // common
+    A = A // common
+    P = B // common
     leading = pow(int(P.leading_coefficient()), -1, h.p)
-    A, P = A * leading, P * leading
+    A = A * leading
+    P = P * leading
     R, rest = divmod(A - D * P.derivative(), P)
     if rest:
         raise BadPrimeError("zeros of a solution meet modulo this prime")

@@ -45,7 +45,8 @@ _FEW_FAMILIES = 8
 _MOST_POINTS = 24
 _HIGHEST_ORDER = 40
 #: Of the coefficients of r, and of all numbers.
-_HIGHEST_DEGREE, _MOST_ROOTS = 6, 256
+_HIGHEST_DEGREE = 6
+_MOST_ROOTS = 256
 #: Multiplications of coefficients.
 _MOST_WORK = 1_000_000
 #: Coefficients of P whose conditions are written out.
@@ -387,7 +388,9 @@ class _Trial:
 
     def outcome(self, family: Family) -> Family:
         """The family with theta, and P or what has to vanish for one."""
-        m, X, d = self.m, self.field.poly([0, 1]), self.degree(family)
+        m = self.m
+        X = self.field.poly([0, 1])
+        d = self.degree(family)
         R = self._theta_numerator(family)
         images = [
             numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)
@@ -401,7 +404,8 @@ class _Trial:
 
     def _theta_numerator(self, family: Family) -> Poly:
         """D theta."""
-        D, R = self.D, self.field.poly([])
+        D = self.D
+        R = self.field.poly([])
         at_infinity, *at_poles = family.choices
         for choice, f in zip(at_poles, self.factors, strict=True):
             R += D // f * f.derivative() * (SCALE[self.m] * choice.value)
@@ -413,7 +417,8 @@ class _Trial:
 
     def _theta(self, family: Family) -> Any:
         """theta, a sum over the poles as it stands in the paper."""
-        x, terms = self.x, []
+        x = self.x
+        terms = []
         at_infinity, *at_poles = family.choices
         for choice, f in zip(at_poles, self.factors, strict=True):
             base = in_sympy(f, x)
@@ -425,13 +430,16 @@ class _Trial:
 
 def _null_vector(images: Sequence[Poly]) -> Poly | None:
     """The monic polynomial P of the highest degree whose image is zero, those of 1, x, x^2, ... being given."""
-    found, reduced, x = None, dict[int, tuple[Poly, Poly]](), images[0].field.poly([0, 1])
+    found = None
+    reduced = dict[int, tuple[Poly, Poly]]()
+    x = images[0].field.poly([0, 1])
     for k, image in enumerate(images):
         P = x**k
         while image and image.degree in reduced:
             other, Q = reduced[image.degree]
             factor = image.lc / other.lc
-            image, P = image - other * factor, P - Q * factor
+            image = image - other * factor
+            P = P - Q * factor
         if image:
             reduced[image.degree] = image, P
         else:
@@ -443,7 +451,8 @@ def _conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tupl
     """The lower coefficients of P, of a low degree, and what would have to vanish."""
     letter = next(c for c in ascii_letters if not any(name[0] == c for name in parameters))
     unknowns = symbols(f"{letter}:{len(images) - 1}")
-    x, rows = Symbol("x"), range(1 + max(image.degree for image in images))
+    x = Symbol("x")
+    rows = range(1 + max(image.degree for image in images))
     terms = (zip((image[i] for image in images), (*unknowns, Integer(1)), strict=True) for i in rows)
     found = [expand(Add(*(in_sympy(c, x) * a for c, a in row))) for row in terms]
     return unknowns, tuple(dict.fromkeys(e.primitive()[1] if e.is_Add else e for e in found if e))

@@ -63,7 +63,8 @@ class Place:
 
         For a double pole Delta^2 = 1 + 4b, b = N/(p'^2 q) in K[x]/p.  None elsewhere; then Delta is irrational.
         """
-        p, (top, bottom) = self.factor, self.near
+        p = self.factor
+        (top, bottom) = self.near
         if self.order != 2:
             return p.field.poly([1]) if self.order == 1 else None
         if p.degree > 1:
@@ -95,7 +96,8 @@ class Place:
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
-                    num, den = translate(h(self.num), root), translate(h.keeping_degree(self.den), root)
+                    num = translate(h(self.num), root)
+                    den = translate(h.keeping_degree(self.den), root)
                     return logarithm_obstruction(local_equation(num, den, 2), n) != 0
             except BadPrimeError:
                 pass
@@ -195,7 +197,8 @@ def rational_square_root(constant: Poly) -> Fraction | None:
     value = constant.field.rational_value(constant)
     if value is None or value.numerator < 0:
         return None
-    p, q = isqrt(value.numerator), isqrt(value.denominator)
+    p = isqrt(value.numerator)
+    q = isqrt(value.denominator)
     return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
 
 
@@ -231,7 +234,8 @@ def reduced_equation(equation: LocalEquation, Q: Any) -> tuple[Any, Any, Any]:
 
     t^nu E u'' + 2 E Q u' + V u = 0 with t^nu V = E (t^(2 nu) (Q/t^nu)' + Q^2) - N.
     """
-    nu, E = equation.nu, equation.E
+    nu = equation.nu
+    E = equation.E
     derivative = Q.derivative().left_shift(nu) - (Q * nu).left_shift(nu - 1)
     rest = E * (derivative + Q * Q) - equation.N
     if any(int(rest[i]) for i in range(nu)):

@@ -38,7 +38,9 @@ def _tetrahedral(problem: Problem, F: Form) -> Form:
     H = hessian(F, problem)
     T = jacobian(F, H, problem)
     G = singular_factor(problem, F.R, 3) * F.P**2
-    left, first, second = T.P**2, H.P**3, G**2
+    left = T.P**2
+    first = H.P**3
+    second = G**2
     # Two unknown constants: eliminate with the leading coefficients of the products with one another.
     n = max(first.degree, second.degree)
     rest = left * first[n] - first * left[n]

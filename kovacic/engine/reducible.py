@@ -45,7 +45,8 @@ def decide(problem: Problem) -> Outcome:
         simple = _omegas_of_low_degree(problem)
         if not simple:
             raise
-        y1, y2 = simple[0], simple[-1]
+        y1 = simple[0]
+        y2 = simple[-1]
         product = Form(2, y1.R + y2.R, y1.P * y2.P) if y1 != y2 else None
         return Found(Structure.REDUCIBLE, lambda: y1, product)
     if not isinstance(quadratic, NoInvariant):

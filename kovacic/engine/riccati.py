@@ -30,7 +30,8 @@ from kovacic.limits import check_time
 
 def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int) -> list[Any]:
     """A_0, ..., A_last of equation (2), over the field or modulo a prime."""
-    sequence, slope = [P, D * P.derivative() + R * P], D.derivative()
+    sequence = [P, D * P.derivative() + R * P]
+    slope = D.derivative()
     for k in range(1, last):
         check_time()
         R = R - slope
@@ -79,7 +80,8 @@ Outcome = Found | tuple[Exclusion, ...]
 
 def normalised(form: Form, problem: Problem) -> Form:
     """The same form up to a constant, with P monic and prime to D: powers of the singular factors move from P into R."""
-    R, P = form.R, form.P.monic()
+    R = form.R
+    P = form.P.monic()
     D = problem.D.over(P.field)
     for place in problem.finite_places:
         # Over K(c) the factor of a place may split, and P may contain a part of it.
@@ -115,8 +117,10 @@ def hessian(form: Form, problem: Problem) -> Form:
 
 def jacobian(f: Form, g: Form, problem: Problem) -> Form:
     """Jac(f, g) = m f g' - n f' g, of degree m + n - 2."""
-    A0, A1 = f.P, problem.D * f.P.derivative() + f.R * f.P
-    B0, B1 = g.P, problem.D * g.P.derivative() + g.R * g.P
+    A0 = f.P
+    A1 = problem.D * f.P.derivative() + f.R * f.P
+    B0 = g.P
+    B1 = problem.D * g.P.derivative() + g.R * g.P
     R = f.R + g.R - problem.D.derivative()
     return Form(f.degree + g.degree - 2, R, f.degree * A0 * B1 - g.degree * A1 * B0)
 
@@ -139,7 +143,8 @@ def residue(problem: Problem, R: Poly, place: Place) -> int:
     rest = R if place.weight == 1 else R.exact_quotient(p ** (place.weight - 1))
     if rest is None:
         raise AssertionError("the logarithmic derivative of a rational function has simple poles")
-    rest, cofactor = rest % p, problem.D // p**place.weight * p.derivative() % p
+    rest = rest % p
+    cofactor = problem.D // p**place.weight * p.derivative() % p
     value = rest[cofactor.degree] / cofactor.lc
     rational = problem.field.rational_value(value)
     if rest != cofactor * value or rational is None or rational.denominator != 1:

@@ -84,7 +84,8 @@ def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
 
 def logarithmic_slope(piece: Piece, h: Poly) -> RatFunc:
     """R with R dx/y the odd part of d log(a + b y): half of d log of its quotient by the conjugate."""
-    a, b = piece.a, piece.b
+    a = piece.a
+    b = piece.b
     odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
     return RatFunc(odd, a * a - h * b * b)
 
@@ -119,7 +120,8 @@ def _integers() -> Iterator[int]:
 
 def _is_no_square(H: RatFunc, r: int) -> bool:
     """Is H(r) a number of the field that has no root in it?"""
-    num, den = H.num(H.field.poly([r])), H.den(H.field.poly([r]))
+    num = H.num(H.field.poly([r]))
+    den = H.den(H.field.poly([r]))
     return bool(num) and bool(den) and H.field.sqrt(num * den) is None
 
 
@@ -193,7 +195,10 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
 
 def _sum(h: Poly, first: Points, second: Points) -> Points:
     """The sum of two divisors, without pairs of conjugate points [Cantor]."""
-    u1, v1, u2, v2 = first.u, first.v, second.u, second.v
+    u1 = first.u
+    v1 = first.v
+    u2 = second.u
+    v2 = second.v
     d1, e1, e2 = _extended_gcd(u1, u2)
     d, c1, c2 = _extended_gcd(d1, v1 + v2)
     u = u1 * u2 // (d * d)
@@ -216,13 +221,15 @@ def _reduced(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]
 
 def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
     """(a, b) with a = b v modulo u, of the least max(deg a, deg b + deg h/2), and short."""
-    a0, a1 = E.u, E.v
+    a0 = E.u
+    a1 = E.v
     b0 = E.u * 0
     b1 = b0 + 1
     while a1.degree > b1.degree + model.half:
         quotient, remainder = divmod(a0, a1)
         a0, a1, b0, b1 = a1, remainder, b1, b0 - quotient * b1
-    before, after = a0.degree, b1.degree + model.half
+    before = a0.degree
+    after = b1.degree + model.half
     if before == after:
         return _shortest((a0, b0), (a1, b1))
     return _primitive(a0, b0) if before < after else _primitive(a1, b1)
@@ -230,12 +237,16 @@ def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
 
 def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
     """(d, s, t) with d = s f + t g the monic greatest common divisor."""
-    r0, r1 = f, g
-    s0, s1 = f * 0 + 1, f * 0
-    t0, t1 = s1, s0
+    r0 = f
+    r1 = g
+    s0 = f * 0 + 1
+    s1 = f * 0
+    t0 = s1
+    t1 = s0
     while r1:
         quotient, remainder = divmod(r0, r1)
-        r0, r1 = r1, remainder
+        r0 = r1
+        r1 = remainder
         s0, s1 = s1, s0 - quotient * s1
         t0, t1 = t1, t0 - quotient * t1
     inverse = r0.lc.inverse()

@@ -54,7 +54,8 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
 def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
     """By a rational form F of degree 2; None stands for the first one that there is, if there is any."""
     residues = rational_residues(f.theta)
-    square, space = F is not None and _is_square(problem, F), None
+    square = F is not None and _is_square(problem, F)
+    space = None
     if F is None or square:
         space = invariants(problem, 2)
     if F is None and isinstance(space, list):

@@ -86,7 +86,9 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         return None
     residues = rational_residues(rho)
     N = None if isinstance(residues, Ground) else lcm(1, *(r.denominator for r in residues))
-    kind, f, given = normal_form.kind, decision.semi_invariant, normal_form.name
+    kind = normal_form.kind
+    f = decision.semi_invariant
+    given = normal_form.name
     if N == 1:
         return EquationGroup(normal_form, 1, given, normal_form.finite, normal_form.order)
     if kind is GroupKind.SL2:
@@ -157,7 +159,8 @@ def _residues_on_curve(curve: SquareRootCurve, rho: RatFunc) -> list[tuple[Fract
 
     def add(e: int, delta: Fraction, r: Fraction) -> None:
         """At a branch point twice e/4 + r; at the others e/4 + r, where e = 2 with +-delta/2, at the two points over it."""
-        middle, apart = (Fraction(e, 4) + r) * (1 + e % 2), delta / 2 if e == 2 else Fraction(0)
+        middle = (Fraction(e, 4) + r) * (1 + e % 2)
+        apart = delta / 2 if e == 2 else Fraction(0)
         rows.extend((middle + sign * apart, middle - sign * apart) for sign in (1, -1))
 
     for point in curve.points:

@@ -202,7 +202,8 @@ class Group:
         """
         import sympy
 
-        I, half = sympy.I, sympy.Rational(1, 2)  # noqa: E741 - SymPy's name
+        I = sympy.I  # noqa: E741 - SymPy's name
+        half = sympy.Rational(1, 2)
         swap = sympy.Matrix([[0, 1], [-1, 0]])
         if self.kind is GroupKind.CYCLIC:
             return () if self.n == 1 else (_rotation(self.n),)

@@ -113,7 +113,8 @@ def curve_of(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
             points.append(CurvePoint(place.factor, e, place.delta if e == 2 and place.delta else Fraction(0)))
     if f.P.degree > 0:
         points.append(CurvePoint(f.P, 2, Fraction(1)))
-    place, e = problem.infinity, 4 - growth
+    place = problem.infinity
+    e = 4 - growth
     delta = Fraction(1) if place.kind is PlaceKind.ORDINARY else place.delta
     return SquareRootCurve(tuple(points), CurvePoint(place.factor, e, delta if e == 2 and delta else Fraction(0)))
 
@@ -165,7 +166,8 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
 
 def _demand_a_value_without_root(H: RatFunc, h: Homomorphism) -> None:
     """The kernel moves infinity to where H isn't a square modulo p: there has to be such a place."""
-    num, den = h(H.num), h(H.den)
+    num = h(H.num)
+    den = h(H.den)
     for r in range(h.p):
         if fmpz(int(num(r)) * int(den(r))).jacobi(h.p) == -1:
             return

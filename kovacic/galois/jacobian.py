@@ -47,7 +47,10 @@ class Jacobian:
 
     def add(self, first: DivisorClass, second: DivisorClass) -> DivisorClass:
         """The sum of two classes."""
-        u1, v1, u2, v2 = first.u, first.v, second.u, second.v
+        u1 = first.u
+        v1 = first.v
+        u2 = second.u
+        v2 = second.v
         d, e1, e2 = u1.xgcd(u2)
         d, c1, c2 = d.xgcd(v1 + v2)
         u = u1 * u2 // (d * d)
@@ -57,7 +60,8 @@ class Jacobian:
     def multiple(self, k: int, value: DivisorClass) -> DivisorClass:
         """k times a class, for an integer k of either sign."""
         if k < 0:
-            k, value = -k, DivisorClass(value.u, -value.v)
+            k = -k
+            value = DivisorClass(value.u, -value.v)
         result = self.zero
         while k:
             if k & 1:

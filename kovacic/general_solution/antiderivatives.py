@@ -289,7 +289,8 @@ class _Change:
             return None
         if self.u.func is not tan:
             return TR2i(found.xreplace({x: self.u}))
-        angle, u = self.u.args[0], sympy.Dummy()
+        angle = self.u.args[0]
+        u = sympy.Dummy()
         known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
         return TR2i(found.xreplace({x: u}).xreplace(known).xreplace({u: sin(angle) / cos(angle)}))
 
@@ -300,7 +301,8 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
     theta = _common_angle(waves)
     if theta is None:
         return None
-    s, c = sympy.Dummy(), sympy.Dummy()
+    s = sympy.Dummy()
+    c = sympy.Dummy()
     R = term.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
     slope = theta.diff(x)
     if R.has(x) or slope.has(x) or slope == 0:

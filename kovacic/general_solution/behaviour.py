@@ -20,7 +20,8 @@ from kovacic.closed_form.jets import rewritten
 from kovacic.general_solution.expansion import CONSTANT, Expansion, ExpansionTerm, UnknownBehaviour
 
 Expr = Any  # SymPy publishes no types
-_ONE, _ZERO = sympy.Integer(1), sympy.Integer(0)
+_ONE = sympy.Integer(1)
+_ZERO = sympy.Integer(0)
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch)
 _QUOTIENTS = (sympy.tan, sympy.cot, sympy.sec, sympy.csc)
 #: Numbers of terms that are tried, one after the other.

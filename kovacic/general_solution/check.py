@@ -244,7 +244,8 @@ def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, 
     at = ball(point)
     here = [impulse for impulse in apart.impulses if impulse.a == point]
     strengths = [sympy.Add(*(impulse.strength for impulse in here if impulse.order == n)) for n in (0, 1)]
-    before, after = jet(left, x, at), jet(right, x, at)
+    before = jet(left, x, at)
+    after = jet(right, x, at)
     zero, first = (jet(strength, x, at)[0] for strength in strengths)
     if here:
         zero -= jet(B, x, at)[0] * first
@@ -254,7 +255,8 @@ def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, 
 
 
 def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
-    equation, x = question.equation, question.x
+    equation = question.equation
+    x = question.x
     if equation.change is None and equation.a.field == QQ:
         a, b, c, f = (value_of_fraction(part, point) for part in (equation.a, equation.b, equation.c, equation.f))
         f += 0 if equation.h is None else jet(equation.h, x, point)[0]

@@ -28,7 +28,8 @@ _LONGEST = 200
 #: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
 _LONGEST_FACTORED = 300
 _MOST_ATOMS = 10
-_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+_ZERO = sympy.Integer(0)
+_ONE = sympy.Integer(1)
 
 
 @dataclass(frozen=True)

@@ -241,7 +241,8 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     """The steps of the head of this module, after the first."""
     notices = []
     found = find_basis(question, budget, special=special)
-    basis, solution = found.basis, found.solution
+    basis = found.basis
+    solution = found.solution
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
     if not question.conditions:

@@ -19,7 +19,8 @@ import sympy
 from kovacic.general_solution.zero import Zero, when_zero
 
 Expr = Any  # SymPy publishes no types
-_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+_ZERO = sympy.Integer(0)
+_ONE = sympy.Integer(1)
 #: The most monomials of an expansion.
 _MOST_TERMS = 400
 

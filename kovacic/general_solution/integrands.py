@@ -22,7 +22,8 @@ from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
 #: SymPy's time for a term of what it expands; and from which on terms and exponent of a power aren't counted.
-_TERM_SECONDS, _MANY = 2e-5, 10**4
+_TERM_SECONDS = 2e-5
+_MANY = 10**4
 #: The longest constant with parameters that is written in one form, in subexpressions.
 _LONGEST = 200
 #: The numbers that are parameters in coefficients.
@@ -54,7 +55,8 @@ def _terms(expression: Expr) -> float:
     if expression.is_Mul:
         return math.prod(map(_terms, expression.args))
     if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
-        n, k = _terms(expression.base), int(expression.exp)
+        n = _terms(expression.base)
+        k = int(expression.exp)
         if n == 1:
             return 1.0
         return float(math.comb(int(n) + k - 1, k)) if n * k < _MANY else math.inf
@@ -71,11 +73,13 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     rate = ratfunc(_rate(term, x), x)
     if rate is None:
         return None
-    atoms, h = Atoms(x, beyond_zeros=_is_real_far_away(term, x)), product(rate)
+    atoms = Atoms(x, beyond_zeros=_is_real_far_away(term, x))
+    h = product(rate)
     scale, shown = factors(h, atoms)
     if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes
         return None
-    ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
+    ratio = term / (scale * sympy.Mul(*shown))
+    found = integral(h, atoms)
     values = (_in_one_form(sympy.powsimp(ratio.subs(x, k))) for k in (2, 3, 5))
     constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
     return None if found is None or constant is None else sympy.expand(constant * found)
@@ -149,7 +153,8 @@ def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
     r = ratfunc(g, x)
     if r is None:
         return None
-    atoms, parts = Atoms(x), decompose(r)
+    atoms = Atoms(x)
+    parts = decompose(r)
     return (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
 
 

@@ -102,7 +102,8 @@ def _known_terms(basis: Basis, terms: Sequence[Expr]) -> dict[Expr, Expr]:
 
 def _at_once(basis: Basis, right: Expr) -> Expr | None:
     """A polynomial, a solution with undetermined coefficients, or one by integrals that are known; None without."""
-    equation, x = basis.equation, basis.x
+    equation = basis.equation
+    x = basis.x
     polynomial = _polynomial_for(equation, ratfunc(right, x))
     if polynomial is not None:
         return Atoms(x).poly(polynomial).xreplace(NUMBERS)
@@ -128,8 +129,10 @@ def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
     Either the coefficients are constants; or y = G u, G the gauge factor, has u'' = S u + right/G with a constant S, or with
     S = s/(x - c)^2, which x = c + e^t turns into u_tt - u_t - s u = e^(2t) right/G.
     """
-    atoms, S = Atoms(x), equation.S
-    b, c = equation.b / equation.a, equation.c / equation.a
+    atoms = Atoms(x)
+    S = equation.S
+    b = equation.b / equation.a
+    c = equation.c / equation.a
     if all(rate.is_polynomial and rate.num.degree <= 0 for rate in (b, c)):
         return undetermined(atoms.ratio(b).xreplace(NUMBERS), atoms.ratio(c).xreplace(NUMBERS), right, x)
     gauge = display(product(equation.gauge), atoms).xreplace(NUMBERS)
@@ -144,7 +147,8 @@ def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
     s = S * S.field.poly([root, 1]) ** 2
     if not s.is_polynomial or s.num.degree > 0:
         return None
-    t, u = sympy.Dummy(real=True), x + atoms.constant(root).xreplace(NUMBERS)
+    t = sympy.Dummy(real=True)
+    u = x + atoms.constant(root).xreplace(NUMBERS)
     gauge = gauge.xreplace({atoms.primitive(s.field.poly([root, 1]))[1]: u})
     inner = (right / gauge).subs(x, sympy.exp(t) - u + x)
     found = undetermined(-1, -atoms.ratio(s).xreplace(NUMBERS), sympy.exp(2 * t) * inner, t)
@@ -157,7 +161,8 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
     """A polynomial y with a y'' + b y' + c y = right, of a degree at most two above that of `right`, or None."""
     denominators = equation.a.den * equation.b.den * equation.c.den * right.den
     a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, right))
-    x, height = f.field.poly([0, 1]), max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
+    x = f.field.poly([0, 1])
+    height = max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
     powers: list[Any] = [x**k for k in range(height + 1)]
     slopes = [p.derivative() for p in powers]
     images = [a * q.derivative() + b * q + c * p for p, q in zip(powers, slopes, strict=True)]
@@ -204,7 +209,8 @@ def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Exp
     if wronskian == 0 or not _has_value(wronskian):
         raise NotImplementedError(f"the functions of the closed form are singular at {a}, where the solutions aren't")
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
-    first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
+    first = (value * dv - rate * v) / wronskian
+    second = (rate * u - value * du) / wronskian
     return sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
 
 
@@ -215,7 +221,8 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
     B, C = basis.rates
     singular = sympy.Integer(0)
     for order in range(max(rest), 1, -1):
-        d, j = rest.pop(order, sympy.Integer(0)), order - 2
+        d = rest.pop(order, sympy.Integer(0))
+        j = order - 2
         singular += d * DiracDelta(x - a, j)
         for rate, n in ((B, j + 1), (C, j)):
             for k in range(n + 1):

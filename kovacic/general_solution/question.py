@@ -81,7 +81,8 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
         renamed = _renamed(eq)
         eq = exact(eq)
     if renamed:
-        eq, func = _in_symbols(eq, renamed), _in_symbols(func, renamed)
+        eq = _in_symbols(eq, renamed)
+        func = _in_symbols(func, renamed)
         values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
     read = _read_equation(eq, func, var, limits)
     if read.equation.variable in (PI, EULER):

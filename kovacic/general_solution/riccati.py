@@ -103,7 +103,9 @@ def solve_riccati(
     ((x**2 + 1)/x,)
     """
     given = _read_coefficients(p, q, r, var, limits)
-    R, Q, P = given.a, given.b, given.c
+    R = given.a
+    Q = given.b
+    P = given.c
     unit = R / R
     linear = Equation(unit, -(Q + R.derivative() / R), P * R, R - R, None, given.variable, "u")
     solution = solve(linear, limits=limits)
@@ -132,7 +134,9 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
         equation = read_riccati(p, None, var, limits)
         if equation is None:
             raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
-        p, q, r = equation.p, equation.q, equation.r
+        p = equation.p
+        q = equation.q
+        r = equation.r
         var = equation.x.name
     elif q is None or r is None:
         raise InputError("one of p, q, r is missing", hint="give all three, or an equation")

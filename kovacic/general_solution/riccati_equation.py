@@ -35,7 +35,8 @@ from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import function_of
 
 Expr = Any  # SymPy publishes no types
-_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+_ZERO = sympy.Integer(0)
+_ONE = sympy.Integer(1)
 #: Points at which a solution is put into the equation, and how small a residual is, by the size of its terms.
 _POINTS = (acb(fmpq(23, 71), fmpq(41, 89)), acb(fmpq(-83, 97), fmpq(11, 59)))
 #: The longest solution with exponentials that is tried in another form, in subexpressions.
@@ -88,7 +89,8 @@ def read_riccati(eq: Any, func: Any, var: str | None, limits: Limits) -> Riccati
 
 def _in_powers(whole: Expr, function: Expr) -> RiccatiEquation | None:
     """From an expression that is zero: the numerator is a polynomial in w and w', linear in w'."""
-    slope, value = sympy.Dummy(), sympy.Dummy()
+    slope = sympy.Dummy()
+    value = sympy.Dummy()
     plain = whole.subs(function.diff(function.args[0]), slope).subs(function, value)
     if plain.atoms(sympy.Derivative) or plain.atoms(AppliedUndef):
         return None

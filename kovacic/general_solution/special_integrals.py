@@ -45,7 +45,8 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     base, m = power.as_base_exp()
     if base != x or m.has(x) or m == 0:
         return None
-    z, e = -c * x**m, (s + 1) / m
+    z = -c * x**m
+    e = (s + 1) / m
     return -K / m * exp(constant) * sympy.powsimp(x ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
 
 
@@ -70,7 +71,8 @@ def _fresnel(term: Expr, x: Expr) -> Expr | None:
     if len(waves) != 1:
         return None
     (wave,) = waves
-    P, (q,) = term / wave, wave.args
+    P = term / wave
+    (q,) = wave.args
     if P.has(wave) or not P.is_polynomial(x) or not q.is_polynomial(x) or sympy.degree(q, x) != 2:
         return None
     a, b, c = sympy.Poly(q, x).all_coeffs()
@@ -85,11 +87,14 @@ def _fresnel(term: Expr, x: Expr) -> Expr | None:
 def _fresnel_pairs(a: Expr, d: Expr, t: Expr, count: int) -> list[_Pair]:
     """int t^n sin(a t^2 + d) dt and int t^n cos(a t^2 + d) dt for n below `count`, by parts down to n = 0 or 1."""
     angle = a * t**2 + d
-    unit, z = sympy.sqrt(sympy.pi / (2 * a)), t * sympy.sqrt(2 * a / sympy.pi)
-    S, C = unit * sympy.fresnels(z), unit * sympy.fresnelc(z)
+    unit = sympy.sqrt(sympy.pi / (2 * a))
+    z = t * sympy.sqrt(2 * a / sympy.pi)
+    S = unit * sympy.fresnels(z)
+    C = unit * sympy.fresnelc(z)
     pairs: list[_Pair] = [(cos(d) * S + sin(d) * C, cos(d) * C - sin(d) * S)]
     for n in range(1, count):
-        sine, cosine = -(t ** (n - 1)) * cos(angle) / (2 * a), t ** (n - 1) * sin(angle) / (2 * a)
+        sine = -(t ** (n - 1)) * cos(angle) / (2 * a)
+        cosine = t ** (n - 1) * sin(angle) / (2 * a)
         if n > 1:
             before = pairs[n - 2]
             sine += (n - 1) * before[1] / (2 * a)

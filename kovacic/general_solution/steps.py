@@ -20,7 +20,8 @@ Expr = Any  # SymPy publishes no types
 #: The functions that jump, or whose slopes do.
 JUMPING = (sympy.Piecewise, sympy.Max, sympy.Min, sympy.Abs, sympy.sign, Heaviside, DiracDelta)
 #: The largest degree of a polynomial whose sign is asked for, and number of terms that are treated.
-_LARGEST_DEGREE, _MOST_TERMS = 8, 200
+_LARGEST_DEGREE = 8
+_MOST_TERMS = 200
 
 
 @dataclass(frozen=True)
@@ -227,7 +228,8 @@ def _extremum(e: Expr, x: Expr) -> Expr | None:
 
 def _cases(e: Expr, x: Expr) -> Expr | None:
     """The sum of the cases times the indicators of their conditions, without those before."""
-    total, rest = sympy.Integer(0), sympy.Integer(1)
+    total = sympy.Integer(0)
+    rest = sympy.Integer(1)
     for value, condition in e.args:
         on = _indicator(condition, x)
         if on is None:

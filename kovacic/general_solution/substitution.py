@@ -7,7 +7,8 @@ from typing import Any
 import sympy
 
 Expr = Any  # SymPy publishes no types
-_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+_ZERO = sympy.Integer(0)
+_ONE = sympy.Integer(1)
 #: Mathieu's odd function, and the slope of his even one, which SymPy leaves as they are at 0.
 _ODD = (sympy.mathieus, sympy.mathieucprime)
 _OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}

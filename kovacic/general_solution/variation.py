@@ -108,13 +108,15 @@ class Basis:
         if self.equation.change is None:
             return b, c
         slope = function_of_x(self.equation).diff(self.x)
-        b, c = in_x(self.equation, b), in_x(self.equation, c)
+        b = in_x(self.equation, b)
+        c = in_x(self.equation, c)
         return b * slope - slope.diff(self.x) / slope, c * slope**2
 
     @property
     def _changed(self) -> Expr | None:
         """From that in t = t(x), the variable of the equation, for solutions that are functions of t."""
-        own, t = sympy.Symbol(self.equation.variable), sympy.Dummy()
+        own = sympy.Symbol(self.equation.variable)
+        t = sympy.Dummy()
         value = function_of_x(self.equation)
         old = value
         new = t

@@ -261,7 +261,8 @@ def _bounds_of_power(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
     inner = _bounds(e.base, degrees)
     if inner is None:
         return None
-    times, index = abs(int(e.exp.p)), int(e.exp.q)
+    times = abs(int(e.exp.p))
+    index = int(e.exp.q)
     root = inner
     if index > 1:
         degrees[sympy.Pow(e.base, sympy.Rational(1, index), evaluate=False)] = index

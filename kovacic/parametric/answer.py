@@ -358,8 +358,10 @@ class ParametricAnswer:
         """
         samples = whole(samples, "samples")
         seed = whole(seed, "seed", least=None)
-        budget, statements = Budget(self.limits), [region.statement for region in self.regions]
-        counts, disagreements = Counter[str](inside=0, outside=0, open=0), list[Disagreement]()
+        budget = Budget(self.limits)
+        statements = [region.statement for region in self.regions]
+        counts = Counter[str](inside=0, outside=0, open=0)
+        disagreements = list[Disagreement]()
         sampler = Sampler(self.constant, self.parameters, self.assumptions, Random(seed))
         points = (point for point in islice(sampler.points(statements), 20 * samples) if point is not None)
         with budget.watched(), suppress(LimitExceeded):
@@ -454,7 +456,9 @@ class ParametricAnswer:
 
         try:
             data = json.loads(text) if isinstance(text, str) else text
-            names, variable, constant = tuple(data["parameters"]), data["variable"], constant_from(data)
+            names = tuple(data["parameters"])
+            variable = data["variable"]
+            constant = constant_from(data)
             if not all(name.isidentifier() for name in (*names, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
             reader = StatementReader(FunctionField((*names, *constant.names)))
@@ -469,7 +473,8 @@ class ParametricAnswer:
             )
             claim = (RegionVerdict.from_dict(data["generic"]["verdict"]), regions, data["complete"], data["theory"])
             known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
-            S, notices = reader.function(data["S"], variable), tuple(data["notices"])
+            S = reader.function(data["S"], variable)
+            notices = tuple(data["notices"])
             equation = equation_from(data.get("equation"), variable, names)
             return cls(S, variable, names, *claim, DEFAULT_LIMITS, notices, known, constant, equation)
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:
@@ -627,7 +632,8 @@ class ParametricAnswer:
         return self.text()
 
     def __repr__(self) -> str:
-        names, regions = ", ".join(self.parameters), f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
+        names = ", ".join(self.parameters)
+        regions = f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
         return f"<Conditions on {names} for y'' = {self.right.text}: {regions}>"
 
 
@@ -644,9 +650,11 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
     read = read_input(_in_one_polynomial(values, limits), var="x_", limits=limits).S
     if not read.is_polynomial or read.num.degree >= len(values) or read.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
-    numbers, field = [read.num[k] for k in range(len(values))], read.field
+    numbers = [read.num[k] for k in range(len(values))]
+    field = read.field
     if field == QQ:
-        field, numbers = constant.field, [number.over(constant.field) for number in numbers]
+        field = constant.field
+        numbers = [number.over(constant.field) for number in numbers]
     elif isinstance(constant.field, AlgebraicField):
         *numbers, root = with_root(numbers, field, constant.field, limits)
         return ParameterPoint((*names, *constant.names), (*numbers, root), root.field)

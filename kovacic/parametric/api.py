@@ -126,7 +126,8 @@ def _distinct(
 
 def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:
     """What is left to say where the assumptions hold."""
-    generic, complete = found.generic, found.complete
+    generic = found.generic
+    complete = found.complete
     regions: list[ParameterRegion] = []
     for region in found.regions:
         decided = region.statement.decided(assumptions)

@@ -72,7 +72,8 @@ class Sampler:
         """A point at which the statement holds; None if none was found."""
         values = dict(zip(self.start.names, self.start.values, strict=True))
         values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
-        field, free = self.start.field, list(self.names)
+        field = self.start.field
+        free = list(self.names)
         try:
             for function in reversed(statement.sample(self.random)) if statement else ():
                 field = self._solve_for_zero(function, values, field, free)

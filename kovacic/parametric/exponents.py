@@ -27,7 +27,8 @@ from kovacic.engine.riccati import Form, singular_part
 from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions
 
 #: The degree of the extension that the exponents may need, and singular points up to which all choices are tried.
-_DEGREE, _POINTS = 16, 8
+_DEGREE = 16
+_POINTS = 8
 #: The degree of a hypersurface in its parameter up to which roots are looked for in its field: factoring there is slow.
 _SURFACE = 2
 
@@ -63,7 +64,8 @@ class Exponents:
 
     def images(self, d: int) -> list[Poly]:
         """The images of 1, x, ..., x^d under D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P, theta = R/D."""
-        D, x = self.problem.D.over(self.field), self.field.poly([0, 1])
+        D = self.problem.D.over(self.field)
+        x = self.field.poly([0, 1])
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
         return [2 * Form(1, R, x**k).numerators(self.problem)[-1] // D for k in range(d + 1)]
 
@@ -74,7 +76,8 @@ class Exponents:
         """
         images = self.images(d)
         shift = max(image.degree - k for k, image in enumerate(images))
-        P, rest = self.field.poly([0] * d + [1]), images[d]
+        P = self.field.poly([0] * d + [1])
+        rest = images[d]
         for k in range(d - 1, -1, -1):
             if not images[k][k + shift]:
                 return None
@@ -267,7 +270,8 @@ def _square_root(square: Poly, field: Field) -> Poly:
     root = field.sqrt(square)
     if root is not None:
         return root
-    outer, inner = field.poly([1]), square
+    outer = field.poly([1])
+    inner = square
     if isinstance(square, FunctionPoly):
         outer, inner = square.square_part()
     if isinstance(square, FunctionPoly) or field.ground != field:
@@ -292,11 +296,13 @@ def _at_infinity(place: Place, S: RatFunc) -> Poly:
 
 def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     """The two local parts of theta; one where the exponents are equal."""
-    x, factor = root.field.poly([0, 1]), None if place.at_infinity else place.factor.over(root.field)
+    x = root.field.poly([0, 1])
+    factor = None if place.at_infinity else place.factor.over(root.field)
     if place.kind is Kind.REGULAR:
         signs = (1, -1) if root else (1,)
         return [LocalPart(factor, (1 + sign * root) / 2, 0 * x) for sign in signs]
-    n, quotient = place.order // 2 - 2, _at_infinity(place, S)
+    n = place.order // 2 - 2
+    quotient = _at_infinity(place, S)
     main = root * x**n  # S - main^2 = b x^(n-1) + ..., and omega = +-main + e/x + ... with e = (+-b/a - n)/2
     for k in range(1, n + 1):
         main = main + (quotient - x * main * main)[2 * n - k + 1] / (2 * root) * x ** (n - k)
@@ -313,7 +319,8 @@ def form_images(problem: Problem, m: int) -> list[Poly] | None:
     if bound is None:
         return None
     valuations, N = bound
-    x, R0 = problem.field.poly([0, 1]), singular_part(problem, valuations[:-1])
+    x = problem.field.poly([0, 1])
+    R0 = singular_part(problem, valuations[:-1])
     return [Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)]
 
 

@@ -187,7 +187,8 @@ def root_written(square: Poly) -> str:
     above, below, names = _cleared(over_parameters(square), "x")
     (number, top, odd), (other, bottom, under) = _without_squares(above), _without_squares(below)
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
-        odd, under = -odd, -under
+        odd = -odd
+        under = -under
     return _sum([_FormulaTerm(Fraction(number, other), top, bottom, odd, under)], names)
 
 

@@ -153,7 +153,8 @@ def values_at_integers(form: FunctionPoly, largest: int) -> tuple[str, dict[int,
     c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
     divisor of a d - b c.
     """
-    above, below = form.num, form.den
+    above = form.num
+    below = form.den
     used = [k for k, degree in enumerate(map(int, (above * below).degrees())) if degree]
     if form.degree > 0 or len(used) != 1:
         return None

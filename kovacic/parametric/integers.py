@@ -134,7 +134,9 @@ class Congruence(Statement):
 
     def _relation(self, other: FunctionPoly) -> tuple[int, int] | None:
         """`(sign, shift)` where each root N of the other equation is one, sign N + shift, of this one."""
-        own, N, k = self.equation, self.equation.field.poly([0, 1]), self.equation.degree
+        own = self.equation
+        N = self.equation.field.poly([0, 1])
+        k = self.equation.degree
         if other == own:
             return 1, 0
         if other.degree != k or other.field != own.field:
@@ -195,7 +197,8 @@ class Congruence(Statement):
             return f"`{n.function(scaled)}{shift} in Z`"
         if modulus == 2 and residue.denominator == 1:
             return f"`{n.function(scaled)}` is {kind([residue], modulus)}"
-        residue, modulus = self.residues[0], self.modulus
+        residue = self.residues[0]
+        modulus = self.modulus
         scale = lcm(residue.denominator, modulus.denominator)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         if sum(map(bool, degrees(equation))) > 1 and families(equation):

@@ -57,7 +57,8 @@ from kovacic.parametric.statements import Statement
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
 #: Characters up to which Delta_d and the equations for d are written out, and those for the zeros of an invariant.
-_WRITTEN_OUT, _EQUATIONS = 300, 100
+_WRITTEN_OUT = 300
+_EQUATIONS = 100
 #: What is said of Delta_d where the exponents need too large an extension.
 NO_FORMULA = "no polynomial, as the exponents are irrational: at each point the rank of its linear system decides"
 
@@ -274,7 +275,8 @@ class Natural(Statement):
         numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
         if numbers is None:
             return None
-        field, d = problem.field, self.letter
+        field = problem.field
+        d = self.letter
         roots = [_in_parentheses(root_written(square)) for square, _ in numbers.roots]
         if numbers.only_signs:
             left = written(over_parameters(field.poly([-numbers.constant, 1])), d)

@@ -225,7 +225,8 @@ def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
     if riccati is None or riccati.P.field != problem.field:
         return []
     # The discriminant of W^2 - A1/(P D) W + A2/(P D^2) is w^2 / (y1 y2)^2 with a constant w^2.
-    P, (_, first, second) = riccati.P, riccati.numerators
+    P = riccati.P
+    (_, first, second) = riccati.numerators
     elements = [(first * first - 4 * P * second).lc, *denominators(P), *denominators(first), *denominators(second)]
     return union(irreducible_factors(element) for element in elements)
 
@@ -260,9 +261,11 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
 
     There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
     """
-    regions, first = list[ParameterRegion](), Vanishes(function)
+    regions = list[ParameterRegion]()
+    first = Vanishes(function)
     for other in hypersurface(function).missed:
-        surface, second = hypersurface(other), Vanishes(other)
+        surface = hypersurface(other)
+        second = Vanishes(other)
         try:
             restricted = surface.restricted(S)
         except ZeroDivisionError:
@@ -311,7 +314,9 @@ def _rest(
     statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partition, settings: Settings
 ) -> ParameterRegion:
     """The region of all values on a hypersurface for which nothing else is said; S is the one there."""
-    field, verdict, complete = surface.field, inner.generic, inner.complete
+    field = surface.field
+    verdict = inner.generic
+    complete = inner.complete
     if field.ground == QQ:
         return _at_a_value(statement, S, verdict, complete, settings)
     if complete is not True:

@@ -21,13 +21,15 @@ _KINDS = (
     CellKind("S not defined", "#000000"),
 )
 #: The ends of ranges, and so many intervals, at most.
-_FARTHEST, _MOST_STEPS = 10**300, 10_000
+_FARTHEST = 10**300
+_MOST_STEPS = 10_000
 LABELS = tuple(kind.name for kind in _KINDS)
 
 
 def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
     """So many intervals from one number to another, exactly."""
-    first, last = exact_real(low, "an end of a range"), exact_real(high, "an end of a range")
+    first = exact_real(low, "an end of a range")
+    last = exact_real(high, "an end of a range")
     if max(abs(first), abs(last)) > _FARTHEST:
         raise InputError("a range of a map is beyond the range of doubles, in which pictures are drawn")
     if first >= last:

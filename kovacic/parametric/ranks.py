@@ -30,7 +30,8 @@ from kovacic.limits import bounded_work, check_time, count_work
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 
 #: Determinants whose common factors are taken, and minors up to which all of them are computed.
-_DETERMINANTS, _MINORS = 3, 60
+_DETERMINANTS = 3
+_MINORS = 60
 _PRIME = 2**61 - 1
 #: Products of terms for the determinants of one matrix: those of some seconds.
 _WORK = 10**7
@@ -276,7 +277,8 @@ def _constant_entry(rows: Sequence[dict[int, Any]]) -> tuple[int, int] | None:
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
     """The row with its entry in column k cleared by the chosen one, without its content."""
     check_time()
-    pivot, factor = chosen[k], row[k]
+    pivot = chosen[k]
+    factor = row[k]
     combined: dict[int, Any] = {}
     for j in row.keys() | chosen.keys():
         if j == k:
@@ -313,7 +315,8 @@ def _combined(rows: list[list[Any]], count: int, random: Random, zero: Any) -> l
 
 def _determinant(rows: list[list[Any]]) -> Any:
     """Up to its sign, by elimination without fractions [Bareiss 1968]; the rows are used up."""
-    n, previous = len(rows), None
+    n = len(rows)
+    previous = None
     for k in range(n - 1):
         pivot = next((i for i in range(k, n) if not rows[i][k].is_zero()), None)
         if pivot is None:

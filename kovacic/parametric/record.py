@@ -139,7 +139,8 @@ def constant_from(data: Mapping[str, Any]) -> ParameterPoint:
     """What `constant_data` wrote.  Raises `InputError` for what isn't an irreducible polynomial."""
     if data["constant"] is None:
         return NO_CONSTANT
-    root, arithmetic = data["constant_root"], Arithmetic(_LIMITS)
+    root = data["constant_root"]
+    arithmetic = Arithmetic(_LIMITS)
     modulus = arithmetic.rational(parse_with(root["minimal_polynomial"], {"t": VARIABLE}, arithmetic)).num.monic()
     if modulus.degree < 2 or QQ.factor(modulus) != [(modulus, 1)]:
         raise InputError(f"{root['minimal_polynomial']} isn't an irreducible polynomial")
@@ -171,7 +172,8 @@ class StatementReader:
         if kind in ("and", "or"):
             parts = tuple(map(self.statement, data["parts"]))
             return Both(parts) if kind == "and" else Either(parts)
-        letter, residues = data.get("unknown", "x"), tuple(map(Fraction, data.get("residues", [0])))
+        letter = data.get("unknown", "x")
+        residues = tuple(map(Fraction, data.get("residues", [0])))
         if kind == "lattice":
             equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
             return Congruence.make(equation, residues, fraction(data["modulus"]))

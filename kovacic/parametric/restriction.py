@@ -95,7 +95,8 @@ def generic_conditions(answer: Answer) -> GenericConditions:
         return GenericConditions((), ())
     problem = analyse(answer.S, Budget())
     changes = [structure_changes(problem)]
-    riccati, constants = answer.decision.riccati, answer.constants
+    riccati = answer.decision.riccati
+    constants = answer.constants
     if riccati is not None:
         for polynomial in (riccati.P, riccati.D, *riccati.numerators):
             changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
@@ -116,7 +117,8 @@ def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:
     while second.degree > 0:  # Euclid's algorithm, up to a factor in Q
         rest = first % second
         total = total * second.lc ** max(first.degree - rest.degree, 0)
-        first, second = second, rest
+        first = second
+        second = rest
     return irreducible_factors(_down(total * second ** max(first.degree, 0)))
 
 
@@ -239,7 +241,8 @@ def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, ParameterPoint]:
     name = next(name for k in count() if (name := field.name + "_" * k) not in base.names)
     larger = FunctionField((*base.names, name))
     factors = [_free(S.den.lc, larger), *(_free(factor, larger) ** k for factor, k in field.factor(S.den))]
-    num, modulus = _free(S.num, larger), QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
+    num = _free(S.num, larger)
+    modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
     return RatFunc(num, product(factors)), RatFunc(num, _free(S.den, larger)), point
@@ -275,7 +278,9 @@ def reduced(statement: Statement, constant: ParameterPoint) -> Statement:
 
 def _reduced(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
     """The numerator in lowest powers of the constant, the last parameter of its field."""
-    field, base, numbers = function.field, FunctionField(function.field.names[:-1]), constant.field
+    field = function.field
+    base = FunctionField(function.field.names[:-1])
+    numbers = constant.field
     assert isinstance(numbers, AlgebraicField)
     extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]))
     values = [*(extension.embed(base.generator(name)) for name in base.names), extension.generator]

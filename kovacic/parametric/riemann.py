@@ -377,7 +377,9 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
 
 def _squares_of_sums(cubic: FunctionPoly) -> FunctionPoly:
     """The polynomial of the module's head, in N: its roots are the four sums, up to signs."""
-    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
+    s1 = -cubic[2]
+    s2 = cubic[1]
+    s3 = -cubic[0]
     z = over_parameters(cubic.field.poly([0, 0, 1]))
     return over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)
 

@@ -157,7 +157,8 @@ def _obstruction(place: Place) -> Poly | None:
     delta = place.delta
     if place.order != 2 or place.degree > 1 or delta is None or delta.denominator > 1 or not 0 < delta <= _SERIES:
         return None
-    field, last = place.factor.field, delta.numerator
+    field = place.factor.field
+    last = delta.numerator
     t = field.poly([0, 1])
     num, den = (part(t - place.factor[0]) for part in (place.num, place.den))
     s: list[Poly] = []
@@ -283,7 +284,8 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
     have the other sign, so that this is another solution, and the same sign at the other one.  The Wronskian of the two
     solutions y1, y2 is y1 y2 times a rational function, a constant; but y1 y2 has an essential singularity at the other point.
     """
-    S, field = problem.S, problem.field
+    S = problem.S
+    field = problem.field
     points = S.den if S.den.degree else S.num
     if points.degree < 1:
         return False

@@ -155,7 +155,9 @@ class Given:
 
     def _given(self, solution: PolynomialSolution) -> PolynomialSolution:
         """The solution with its degree and its conditions: where t = x^m, the roots in them are those of the translated y."""
-        y, degree, conditions = self.translated(solution.y), solution.degree, solution.conditions
+        y = self.translated(solution.y)
+        degree = solution.degree
+        conditions = solution.conditions
         if is_power(self.equation):
             x = user_variable(self.equation)
             degree = with_roots_of_factors(degree, x)
@@ -187,12 +189,17 @@ def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, i
     x = sympy.Symbol(variable)
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
-        y, degree, left = P, sympy.Integer(1), list(signs)
+        y = P
+        degree = sympy.Integer(1)
+        left = list(signs)
         for choices in parts:
-            first, last = choices[0], choices[-1]
-            exponent, main = first.exponent.to_sympy(x), first.main.to_sympy(x)
+            first = choices[0]
+            last = choices[-1]
+            exponent = first.exponent.to_sympy(x)
+            main = first.main.to_sympy(x)
             if len(choices) > 1:
-                sign, other = left.pop(0), last.exponent.to_sympy(x)
+                sign = left.pop(0)
+                other = last.exponent.to_sympy(x)
                 exponent = sympy.factor((exponent + other) / 2) + sign * sympy.factor((exponent - other) / 2)
                 main = sign * main
             y *= _local_factor(first.factor, exponent, main, x)
@@ -276,7 +283,8 @@ def _constant(field: Field, below: Field) -> Any:
     if field.base != below or field.dimension > 2:
         return None
     x = sympy.Symbol("x")
-    half, rest = (field.modulus[1] / 2).to_sympy(x), field.modulus[0].to_sympy(x)
+    half = (field.modulus[1] / 2).to_sympy(x)
+    rest = field.modulus[0].to_sympy(x)
     square = sympy.factor(half**2 - rest)
     return None if has_long_numbers(square) else _square_root(square) - half
 
@@ -342,5 +350,6 @@ def may_be_natural(degree: Any) -> bool:
 
 def root(square: Poly) -> Any:
     """The square root of a constant, up to its sign."""
-    inside, x = square.field.sqrt(square), sympy.Symbol("x")
+    inside = square.field.sqrt(square)
+    x = sympy.Symbol("x")
     return sympy.sqrt(sympy.factor(square.to_sympy(x))) if inside is None else sympy.expand(inside.to_sympy(x))

@@ -29,9 +29,11 @@ from kovacic.parametric.functions import (
 )
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
-_BESIDE, _LONGER = 120, 40
+_BESIDE = 120
+_LONGER = 40
 #: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
-_WEIGHT, _LATER = 3, 10
+_WEIGHT = 3
+_LATER = 10
 #: What it costs that n is another number than an integer, of which something has to be said.
 _NO_INTEGER = 25
 #: For which rational numbers n is something possible?
@@ -179,7 +181,8 @@ def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: st
 
 def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str:
     """That a polynomial in N over Q(t) has an integer root in these classes."""
-    best, roots = _spectrum(equation, residues, modulus, n), _roots(equation)
+    best = _spectrum(equation, residues, modulus, n)
+    roots = _roots(equation)
     if roots is None:
         return best or f"{equation_text(equation, n)} for {kind(residues, modulus, n.letter)}"
     mean, squares = roots
@@ -311,7 +314,8 @@ def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:
 
 def _roots(equation: FunctionPoly) -> tuple[FunctionPoly, list[Poly]] | None:
     """`(r, squares)` where the roots are r +- the roots of one, two or three squares; None where they aren't."""
-    field, k = equation.field, equation.degree
+    field = equation.field
+    k = equation.degree
     if k not in (2, 4, 8):
         return None
     mean = over_parameters(-equation[k - 1] / (equation.lc * k))

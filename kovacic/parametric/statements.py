@@ -147,7 +147,8 @@ class Either(_Several):
         """A common start "n = " or "E = f(n), ", and a common end, from "for" on, are written once."""
         parts = [part.written for part in self.parts]
         if self.is_about_one_value:
-            head, values = parts[0].partition(" = ")[0], [part.partition(" = ")[2].rstrip("`") for part in parts]
+            head = parts[0].partition(" = ")[0]
+            values = [part.partition(" = ")[2].rstrip("`") for part in parts]
             return f"{head} = {', '.join(values[:-1])}` or `{values[-1]}`"
         heads, separators, ends = zip(*(part.rpartition(" for ") for part in parts), strict=True)
         if len(set(ends)) == 1 and all(separators):
@@ -211,7 +212,8 @@ def both(*statements: Statement) -> Both:
 
 
 #: What is true everywhere, and nowhere.
-ALWAYS, NEVER = Both(()), Either(())
+ALWAYS = Both(())
+NEVER = Either(())
 
 
 def either(*statements: Statement) -> Statement:

@@ -91,7 +91,8 @@ def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Po
     They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.  The
     other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
     """
-    S, field = problem.S, problem.field
+    S = problem.S
+    field = problem.field
     x = RatFunc(field.poly([0, 1]))
     for pole in (None, *(-place.factor[0] for place in problem.finite_places if place.degree == 1)):
         moved = S if pole is None else S(1 / x + pole) / x**4
@@ -160,7 +161,8 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
     """Equation (1) for signs f, g, h; None where three singular points are conjugate."""
-    x, n = sympy.Symbol(variable), coordinate.n
+    x = sympy.Symbol(variable)
+    n = coordinate.n
     base, weight = map(read_expression, (coordinate.base, coordinate.weight))
     points: list[tuple[Any, Any]] = []
     for place in problem.places:
@@ -181,9 +183,11 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
     (c, first), (c1, second), (c2, third) = points
     z = base**n
     if c2 is None:
-        argument, last = 1 - 2 * sympy.factor((z - c) / (c1 - c)), sympy.Integer(1)
+        argument = 1 - 2 * sympy.factor((z - c) / (c1 - c))
+        last = sympy.Integer(1)
     else:
-        argument, last = 1 - 2 * sympy.factor((z - c) * (c1 - c2) / ((z - c2) * (c1 - c))), z - c2
+        argument = 1 - 2 * sympy.factor((z - c) * (c1 - c2) / ((z - c2) * (c1 - c)))
+        last = z - c2
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         f, g, h = signs
@@ -258,8 +262,10 @@ def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
     if not form.q:
         return None
     x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
-    rate, delta = root(form.q), root(1 + 4 * form.b)
-    beta, n = form.r.to_sympy(x) / rate, form.coordinate.n
+    rate = root(form.q)
+    delta = root(1 + 4 * form.b)
+    beta = form.r.to_sympy(x) / rate
+    n = form.coordinate.n
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         e, f = signs
@@ -278,7 +284,9 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     form = _confluent(problem, variable)
     if form is None:
         return None
-    b, r, q = form.b, form.r, form.q
+    b = form.b
+    r = form.r
+    q = form.q
     n = form.coordinate.n
     z = problem.field.poly([0, 0, 1])
     delta = 1 + 4 * b  # a square, as beta

@@ -101,7 +101,8 @@ class Arithmetic:
         if len(terms) == 1:
             return terms[0]
         coefficients: dict[int, int | Fraction] = {}
-        polynomials, fractions = list[Poly](), list[RatFunc]()
+        polynomials = list[Poly]()
+        fractions = list[RatFunc]()
         for term in terms:
             if isinstance(term, Monomial):
                 known = coefficients.get(term.power)
@@ -125,9 +126,11 @@ class Arithmetic:
             power = left.power + right.power
             self._check(power, 0)
             return _term(left.coefficient * right.coefficient, power)
-        left, right = self.closed(left), self.closed(right)
+        left = self.closed(left)
+        right = self.closed(right)
         if isinstance(left, RatFunc) or isinstance(right, RatFunc):
-            a, b = self.rational(left), self.rational(right)
+            a = self.rational(left)
+            b = self.rational(right)
             return RatFunc(self._product(a.num, b.num), self._product(a.den, b.den))
         return self._product(left, right)
 
@@ -139,11 +142,13 @@ class Arithmetic:
             if left.power == 0 and quotient:
                 self._check(0, _bits(left.coefficient) + _bits(right.coefficient) + 1)
                 return RatFunc(_monomial(quotient, 0), _monomial(1, right.power), reduced=True)
-        left, right = self.closed(left), self.closed(right)
+        left = self.closed(left)
+        right = self.closed(right)
         if not right:
             raise ZeroDivisionError("division by zero")
         if isinstance(left, RatFunc) or isinstance(right, RatFunc):
-            a, b = self.rational(left), self.rational(right)
+            a = self.rational(left)
+            b = self.rational(right)
             return RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
         if right.is_constant:
             return self._product(left, right.inverse())
@@ -177,7 +182,8 @@ class Arithmetic:
             power = self._poly_power(base, abs(n))
             return power if n > 0 else self.divide(Monomial(1, 0), power)
         num, den = (base.num, base.den) if n > 0 else (base.den, base.num)
-        num, den = self._poly_power(num, abs(n)), self._poly_power(den, abs(n))
+        num = self._poly_power(num, abs(n))
+        den = self._poly_power(den, abs(n))
         leading = den.lc.inverse()
         return RatFunc(num * leading, den * leading, reduced=True)
 
@@ -196,7 +202,8 @@ class Arithmetic:
         return RatFunc(num, self._product(left.den, right.den))
 
     def _product(self, left: Poly, right: Poly) -> Poly:
-        m, n = left.degree, right.degree
+        m = left.degree
+        n = right.degree
         carries = (min(m, n) + 1).bit_length()
         self._check(m + n, left.height_bits() + right.height_bits() + carries)
         return left * right

@@ -80,7 +80,9 @@ def in_x(equation: Equation, expression: Any) -> Any:
     """A SymPy expression in t as one in x; exp(2*x) + 1 becomes 2*exp(x)*cosh(x), powers of exponentials exponentials."""
     if equation.change is None:
         return expression
-    own, x, t = sympy.Symbol(equation.variable), user_variable(equation), function_of_x(equation)
+    own = sympy.Symbol(equation.variable)
+    x = user_variable(equation)
+    t = function_of_x(equation)
     integrals = {
         integral: sympy.Integral(in_x(equation, integral.function) * t.diff(x), x)
         for integral in expression.atoms(sympy.Integral)
@@ -151,7 +153,9 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
 
 def _by_halves(t: Any, power: Any) -> Any:
     """cos(w) + 1 = 2 cos(w/2)^2, cos(w) - 1 = -2 sin(w/2)^2, and likewise for cosh, in a power."""
-    base, exponent, half = power.base, power.exp, t.args[0] / 2
+    base = power.base
+    exponent = power.exp
+    half = t.args[0] / 2
     function = {sympy.cos: sympy.sin, sympy.cosh: sympy.sinh}[t.func] if base != t + 1 else t.func
     sign = -1 if base != t + 1 and (t.func is sympy.cos) == (base == t - 1) else 1
     return sympy.Integer(2 * sign) ** exponent * function(half) ** (2 * exponent)

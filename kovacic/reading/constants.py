@@ -84,10 +84,12 @@ class Constants:
             return root.over(self.field)
         if not value:
             return self._with_parameters(value)
-        rational, outer = self.numbers.rational_value(value), Fraction(1)
+        rational = self.numbers.rational_value(value)
+        outer = Fraction(1)
         if n == 2 and rational is not None:
             outer, rest = square_part(rational)
-            rational, value = Fraction(rest), self.numbers.poly([rest])
+            rational = Fraction(rest)
+            value = self.numbers.poly([rest])
             label = "I" if rest == -1 else f"sqrt({rest})"
         one = (Fraction(1), 2, self.numbers.poly([1]))
         root = next((c for q, k, c in (one, *self.radicals) if k == n and q == rational), None)
@@ -121,7 +123,8 @@ class Constants:
         factor = vanishing_factor(equation, target)
         if factor.degree == 1:
             return -factor[0]
-        degree, limit = factor.degree * self.numbers.absolute_degree, self.limits.constants
+        degree = factor.degree * self.numbers.absolute_degree
+        limit = self.limits.constants
         if degree > limit:
             said = f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}"
             raise LimitExceeded(said, limit="constants")

@@ -62,15 +62,14 @@ class EquationReader(RationalReader):
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
         parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
-        rest, y = parts.pop(REST, Monomial(0, 0)), self.unknown
+        rest = parts.pop(REST, Monomial(0, 0))
+        y = self.unknown
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
         order = max((k for k, c in coefficients.items() if c), default=0)
         if order != 2:
             what = f"is of order {order}" if order else f"contains no derivative of {y}"
-            said, hint = (
-                f"an equation of second order is expected, and this one {what}",
-                f"for example {y}'' = (x^2 + 3) {y}",
-            )
+            said = f"an equation of second order is expected, and this one {what}"
+            hint = f"for example {y}'' = (x^2 + 3) {y}"
             if "D" in self.constants.parameters:
                 hint = f"D isn't read as an operator: write {y}' for D {y}, and {y}'' for D^2 {y}"
             place = {} if text is None else {"text": text, "position": 0, "length": len(text)}
@@ -194,14 +193,18 @@ class EquationReader(RationalReader):
     def _differentiated(self, arguments: list[Any]) -> Any:
         """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
         function, *rest = arguments
-        order, previous = 0, False  # was the argument before this one the variable?
+        order = 0
+        previous = False  # was the argument before this one the variable?
         for argument in rest:
             if isinstance(argument, tuple) and self._is_variable(argument[0]):
-                order, previous = order + self._order(argument[1]), False
+                order = order + self._order(argument[1])
+                previous = False
             elif self._is_variable(argument):
-                order, previous = order + 1, True
+                order = order + 1
+                previous = True
             elif previous and not isinstance(argument, tuple):
-                order, previous = order + self._order(argument) - 1, False
+                order = order + self._order(argument) - 1
+                previous = False
             else:
                 raise NotLinear(f"a derivative with respect to something else than {self.variable}")
         if isinstance(function, tuple) or order > _LARGEST_ORDER:

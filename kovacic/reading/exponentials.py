@@ -74,14 +74,17 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     assert read.equation.h is None
     (p, q, f), expression = _best(read.equation, k, x + offset)
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
-    p, q, f = p * denominator, q * denominator, f * denominator
+    p = p * denominator
+    q = q * denominator
+    f = f * denominator
     result = Equation(denominator, p, q, f, h and h / parts[0], t.name, unknown, Change(x.name, expression))
     return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
 
 
 def _rational_part(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
     """The terms that are rational in T = exp(k x), in T, and the others on the other side, in x; None if there are none."""
-    rational, others = [sympy.Integer(0)], []
+    rational = [sympy.Integer(0)]
+    others = []
     for term in sympy.Add.make_args(sympy.expand(rest)):
         rewritten = _in_exponentials(term, x).xreplace(powers)
         free = rewritten.free_symbols | rewritten.atoms(AppliedUndef)
@@ -106,7 +109,8 @@ def common_power(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict
     rates: dict[Any, tuple[Any, Any]] = {}
     for e in sorted(exponentials, key=str):
         argument = sympy.expand(e.exp)
-        rate, shift = argument.coeff(x, 1), argument.coeff(x, 0)
+        rate = argument.coeff(x, 1)
+        shift = argument.coeff(x, 0)
         if sympy.expand(argument - rate * x - shift) != 0 or rate.has(x):
             raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
         rates[e] = rate, shift
@@ -118,7 +122,8 @@ def common_power(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict
     unit = sympy.Rational(gcd(*(int(r.p * common // r.q) for r in ratios.values())), common)
     k = sympy.expand(first * unit)
     if k.could_extract_minus_sign():
-        k, unit = -k, -unit
+        k = -k
+        unit = -unit
 
     def constants(offset: Any) -> dict[Any, Any]:
         return {e: sympy.exp(sympy.expand(shift - rate * offset)) for e, (rate, shift) in rates.items()}
@@ -244,10 +249,12 @@ def _quotient(form: _ThetaForm, sign: int) -> Monic | None:
 def _invariant(function: RatFunc, sign: int) -> RatFunc | None:
     """r with function = r((T + sign/T)/2), by T^2 = 2 w T - sign; None where there is none."""
     field = function.field
-    w, zero = RatFunc(field.poly([0, 1])), RatFunc(field.poly([]))
+    w = RatFunc(field.poly([0, 1]))
+    zero = RatFunc(field.poly([]))
     pairs = []
     for poly in (function.num, function.den):
-        low, high = zero, zero
+        low = zero
+        high = zero
         for power in range(poly.degree, -1, -1):
             low, high = poly[power] - high * sign, low + 2 * w * high
         pairs.append((low, high))

@@ -158,7 +158,8 @@ class RationalReader:
         power = self.arithmetic.closed(exponent)
         if not isinstance(power, Poly) or not power.is_constant:
             raise NotRational(f"the variable in the exponent: {place.text()}")
-        closed, number = self.arithmetic.closed(base), power.field.rational_value(power)
+        closed = self.arithmetic.closed(base)
+        number = power.field.rational_value(power)
         constant = isinstance(closed, Poly) and closed.is_constant
         if number is None or not constant:
             kind = "n algebraic number" if constant else " rational function"

@@ -30,7 +30,8 @@ from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 Expr = Any  # SymPy publishes no types
 Meanings = dict[Expr, Expr]  # of letters
 #: The most letters of an equation, and characters of their names.
-_MOST, _LONGEST = 20, 30
+_MOST = 20
+_LONGEST = 30
 #: The largest number whose factors are asked for.
 _LARGEST = 10**12
 
@@ -76,7 +77,8 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
         lambda e: e.is_Pow and e.exp.has(x) and not e.base.has(x) and e.base is not sympy.E,
         lambda e: sympy.exp(sympy.log(e.base) * e.exp, evaluate=False),
     )
-    inner, shift = sympy.Dummy(), sympy.Dummy()
+    inner = sympy.Dummy()
+    shift = sympy.Dummy()
 
     def is_shifted(e: Expr) -> bool:
         known = isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction)

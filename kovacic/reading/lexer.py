@@ -52,7 +52,8 @@ def _terminals(ascii_only: bool) -> re.Pattern[str]:
 
 def _kind(piece: str) -> str:
     """The kind of a terminal that isn't in `_KINDS`; `OTHER` if it is none."""
-    first, last = piece[0], piece[-1]
+    first = piece[0]
+    last = piece[-1]
     if first in digits or (first == "." and last in digits):
         return "NUMBER"
     if last in _SUPERSCRIPTS:

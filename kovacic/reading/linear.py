@@ -80,7 +80,8 @@ class LinearArithmetic(Arithmetic):
         bits = max(function.num.height_bits(), function.den.height_bits())
         if bits > _LARGEST_BITS:
             raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
-        number, field = self.number(value) if function else Fraction(0), function.field
+        number = self.number(value) if function else Fraction(0)
+        field = function.field
         if number is not None:
             return sympy.Rational(number)
         x = sympy.Symbol(self.variable)
@@ -154,7 +155,8 @@ class LinearArithmetic(Arithmetic):
 
     def symbolic_power(self, base: Any, exponent: Any) -> Any:
         """`base ** exponent` by SymPy."""
-        base, exponent = self.expression(base), self.expression(exponent)
+        base = self.expression(base)
+        exponent = self.expression(exponent)
         self._check_exponent(exponent)
         if base.is_zero and exponent.is_nonpositive:
             raise ZeroDivisionError("0 has no powers with exponent zero or below")

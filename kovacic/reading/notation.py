@@ -289,7 +289,8 @@ def _indexed(text: str) -> str:
     second = re.search(r"\b([a-zA-Z])_([xtzsr])\2\b", text)
     if second is None or "'" in text or "diff(" in text:
         return text
-    y, x = second[1], second[2]
+    y = second[1]
+    x = second[2]
     text = re.sub(rf"\b{y}_{x}{x}\b", f"diff({y}, {x}, 2)", text)
     return re.sub(rf"\b{y}_{x}\b", f"diff({y}, {x})", text)
 
@@ -648,7 +649,8 @@ class _Latex:
             self.take()
             power = self.argument()
         if power.replace(" ", "") == "-1":
-            name, power = self.inverse(name), ""
+            name = self.inverse(name)
+            power = ""
         if self.peek() == "(":
             self.take()
             argument = self.until(")")

@@ -391,7 +391,8 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
         return
     if _are_apart(tokens, left, right):
         return
-    first, second = shortened(tokens.pieces[left]), shortened(tokens.pieces[right])
+    first = shortened(tokens.pieces[left])
+    second = shortened(tokens.pieces[right])
     message = f"an operator is missing between {first!r} and {second!r}"
     raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
 
@@ -426,35 +427,49 @@ def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError
 
 def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
     """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
-    kinds, kind = tokens.kinds, tokens.kinds[k]
-    before, here = kinds[k - 1] if k else "", tokens.pieces[k]
-    first, message, hint = k, f"{here!r} doesn't belong here", None
+    kinds = tokens.kinds
+    kind = tokens.kinds[k]
+    before = kinds[k - 1] if k else ""
+    here = tokens.pieces[k]
+    first = k
+    message = f"{here!r} doesn't belong here"
+    hint = None
     if kind == "$END":
         first = k - 1
         if before in (*_OPERATORS, "EQUAL", "COMMA"):
-            message, hint = f"the expression ends after {tokens.pieces[k - 1]!r}", "something is missing after it"
+            message = f"the expression ends after {tokens.pieces[k - 1]!r}"
+            hint = "something is missing after it"
             k = first
         elif opened:
-            message, first, k = "this parenthesis is never closed", opened[-1], opened[-1]
+            message = "this parenthesis is never closed"
+            first = opened[-1]
+            k = opened[-1]
             hint = f"add {')' * len(opened)!r} where it ends" if len(opened) < 20 else "count the parentheses"
         else:
-            message, first = "the expression isn't complete", k
+            message = "the expression isn't complete"
+            first = k
     elif kind == "RPAR" and before == "LPAR":
-        message, hint = "there is nothing between these parentheses", "leave them out, or write what belongs there"
+        message = "there is nothing between these parentheses"
+        hint = "leave them out, or write what belongs there"
         first = k - 1
     elif kind == "RPAR" and not opened:
-        message, hint = "this parenthesis closes nothing", "remove it, or open it before"
+        message = "this parenthesis closes nothing"
+        hint = "remove it, or open it before"
     elif before in _OPERATORS and kind in (*_OPERATORS, "RPAR", "EQUAL", "COMMA"):
-        message, first = f"something is missing between {tokens.pieces[k - 1]!r} and {here!r}", k - 1
+        message = f"something is missing between {tokens.pieces[k - 1]!r} and {here!r}"
+        first = k - 1
         hint = "write the number or name that belongs there, or one of the signs"
     elif kind in (*_OPERATORS, "SUPERSCRIPT"):
         message = f"there is nothing before {here!r} for it to act on"
         hint = "write the number or name that belongs there"
     elif kind == "COMMA":
-        message, hint = "a comma doesn't belong here", "decimals are written with a point, and one expression is one S"
+        message = "a comma doesn't belong here"
+        hint = "decimals are written with a point, and one expression is one S"
         if before == kinds[k + 1] == "NUMBER" and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
-            whole, digits = tokens.pieces[k - 1], tokens.pieces[k + 1]
-            first, hint = k - 1, f"decimals are written with a point: {whole}.{digits}"
+            whole = tokens.pieces[k - 1]
+            digits = tokens.pieces[k + 1]
+            first = k - 1
+            hint = f"decimals are written with a point: {whole}.{digits}"
             if len(digits) == _GROUPED:
                 hint += f"; digits aren't grouped: {whole}{digits}"
         elif "EQUAL" in tokens.kinds[:k]:

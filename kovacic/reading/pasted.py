@@ -47,7 +47,8 @@ _LABEL = re.compile(r"\\(?:label|tag\*?)\{[^{}]*\}")
 #: What an environment has beside its formula.
 _ALIGNMENT = re.compile(r"&|\\\\|\\label\{[^{}]*\}|\\nonumber|\\notag|[.,]\s*$")
 _DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\[", "\\]"), ("\\(", "\\)"))
-_OPENED, _CLOSED = "([{", ")]}"
+_OPENED = "([{"
+_CLOSED = ")]}"
 #: y, y(x), y[x]: what names the unknown function or the variable to a command.
 _NAMED = re.compile(r"\w+(?:\(\w+\)|\[\w+\])?")
 _NAME_OF_OPTION = re.compile(r"\w+\s*=(?!=)")

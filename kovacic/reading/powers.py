@@ -59,13 +59,16 @@ _WAVES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sy
 
 def _of_power(parts: Sequence[Expr], source: Source, limits: Limits) -> Parsed | None:
     """In T = x^k."""
-    x, s, T = sympy.Symbol(source.variable), sympy.Dummy("s"), sympy.Dummy("T")
+    x = sympy.Symbol(source.variable)
+    s = sympy.Dummy("s")
+    T = sympy.Dummy("T")
     P, Q = (_in_logarithm(part, x, s) for part in _theta_form(parts, x))
     exponentials = {e for part in (P, Q) for e in part.atoms(sympy.exp) if e.has(s)}
     if not exponentials or (P.has(sympy.log) or Q.has(sympy.log)):
         return None
     k, offset, powers = common_power(exponentials, s, T)
-    P, Q = P.xreplace(powers), Q.xreplace(powers)
+    P = P.xreplace(powers)
+    Q = Q.xreplace(powers)
     if offset != 0 or P.has(s) or Q.has(s):
         return None
     return _read_in(T, (k**2 * T**2, (k**2 + k * P) * T, Q), x**k, source, limits)
@@ -73,7 +76,8 @@ def _of_power(parts: Sequence[Expr], source: Source, limits: Limits) -> Parsed |
 
 def _of_waves(parts: Sequence[Expr], waves: Sequence[Expr], source: Source, limits: Limits) -> Parsed | None:
     """In u = x^m, and then in exp(c u)."""
-    x, u = sympy.Symbol(source.variable), sympy.Dummy("u", positive=True)
+    x = sympy.Symbol(source.variable)
+    u = sympy.Dummy("u", positive=True)
     exponents = {p.exp for wave in waves for p in wave.args[-1].atoms(sympy.Pow) if p.base == x}
     if len(exponents) != 1 or any(wave.args[-1].subs(dict.fromkeys(_powers_of(wave, x), 0)).has(x) for wave in waves):
         return None

@@ -96,8 +96,11 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
             found = in_exponentials(source, limits)
         except NotRational as other:
             if other.position is None:  # what isn't rational is the same
-                other.text, other.position, other.length = error.text, error.position, error.length
-            reason, found = other, None
+                other.text = error.text
+                other.position = error.position
+                other.length = error.length
+            reason = other
+            found = None
         found = found or in_powers(source, limits) or _in_letters(source, limits)
         if found is None:
             raise reason from None

@@ -114,7 +114,9 @@ def read_source(source: Source, limits: Limits) -> Parsed:
     Raises `NotRational` and `NotLinear` where it is neither, `ParseError` for what is no expression, with the position in a
     text, and `LimitExceeded` before anything would become larger than the limits allow.
     """
-    x, y, text = source.variable, source.unknown, source.text
+    x = source.variable
+    y = source.unknown
+    text = source.text
 
     def read(constants: Constants) -> Parsed:
         if not y:
@@ -283,7 +285,9 @@ def _unknown_of(tokens: Tokens) -> str:
             return bare
     for k, kind in enumerate(tokens.kinds[:-3]):
         if kind == "HEAD" and tokens.pieces[k] in DERIVATIVES:
-            following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.pieces[k + 2]
+            following = tokens.kinds[k + 2]
+            after = tokens.kinds[k + 3]
+            inner = tokens.pieces[k + 2]
             called = following == "HEAD" and inner not in DERIVATIVES | FUNCTION_NAMES.keys()
             if called or (following == "NAME" and after in ("COMMA", "RPAR")):
                 return inner

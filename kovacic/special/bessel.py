@@ -127,7 +127,9 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
 
 def _scale(f: RatFunc, place: Place) -> Poly | None:
     """The constant c for which c f has the leading coefficient at the pole that S shows; None if there is none."""
-    field, p, d = f.field, place.factor, place.order - 2
+    field = f.field
+    p = place.factor
+    d = place.order - 2
     local = f(RatFunc(field.poly([1]), field.poly([0, 1]))) if place.at_infinity else f
     if local.den.remove(p)[1] != d:
         return None

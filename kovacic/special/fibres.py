@@ -29,7 +29,9 @@ from kovacic.limits import count_work
 #: What a function f costs, in pairs of fibres, about.
 _TRIAL = 20
 #: The most places that are distributed, up to which number apparent ones are among them, and the most functions f.
-_PLACES, _WITH_APPARENT, _TRIALS = 14, 7, 1000
+_PLACES = 14
+_WITH_APPARENT = 7
+_TRIALS = 1000
 
 
 @dataclass(frozen=True)
@@ -163,7 +165,8 @@ def _commensurable(
 
 def _ratio(place: Place, other: Place) -> Fraction | None:
     """The quotient of the exponent differences if it is rational; 1 where both vanish."""
-    over, under = place.delta_squared, other.delta_squared
+    over = place.delta_squared
+    under = other.delta_squared
     assert over is not None
     assert under is not None
     if over and under:

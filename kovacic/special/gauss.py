@@ -75,7 +75,9 @@ class Gauss(StandardEquation):
     def S(self) -> RatFunc:
         z = variable(self.A.field)
         w = z - 1
-        A, B, C = self.A, self.B, self.C
+        A = self.A
+        B = self.B
+        C = self.C
         return RatFunc(w * w * (A - 1) + z * z * (B - 1) + z * w * (1 - A - B + C), z * z * w * w * 4)
 
     @classmethod
@@ -252,7 +254,8 @@ def _jacobi(form: _GaussForm) -> tuple[Expr, Expr]:
     """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
     import sympy
 
-    writer, f = form.writer, form.f
+    writer = form.writer
+    f = form.f
     N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
     t = writer.argument(1 - 2 * f)
     if form.alpha == form.beta:
@@ -281,7 +284,8 @@ def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:
     """The even and the odd solution in 1 - 2 f, for alpha = beta."""
     writer = form.writer
     t = writer.argument(1 - 2 * form.f)
-    N, index = writer.constant(form.degree), writer.constant(HALF - form.alpha)
+    N = writer.constant(form.degree)
+    index = writer.constant(HALF - form.alpha)
     even = writer.even((-N / 2, N / 2 + index), t**2)
     odd = writer.odd(((1 - N) / 2, (1 + N) / 2 + index), t, t**2)
     return (form.factor, even), (form.factor, odd)
@@ -308,7 +312,9 @@ def _values(mapped: tuple[Any, Any, Any, Any, Any]) -> StandardForm:
     n, d, e0, e1, e2 = mapped
     if e0 == half == e2:  # in z/(z - 1)
         n, d, e0, e1, e2 = _maps(n, d, e0, e1, e2)[3]
-    upper, lower, right = (1 + e0) / 2, (1 - e0) / 2, (1 + e1) / 2
+    upper = (1 + e0) / 2
+    lower = (1 - e0) / 2
+    right = (1 + e1) / 2
     is_dihedral = e1 == half and half in (e0, e2)
     if is_dihedral and e0 != 0:
         pair = (_root(e0), _root(-e0)) if e2 == half else (_sine(e2), _cosine(e2))
@@ -358,9 +364,13 @@ def _cosine(e: Any) -> StandardSolution:
 
 def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSolution:
     """2F1 with the exponent differences e0 at 0, e1 at 1, e2 at infinity, in z, or in 1 - z if it is mirrored."""
-    a, b, c = (1 + e0 + e1 + e2) / 2, (1 + e0 + e1 - e2) / 2, 1 + e0
+    a = (1 + e0 + e1 + e2) / 2
+    b = (1 + e0 + e1 - e2) / 2
+    c = 1 + e0
     whole = [is_integer(v) for v in (e2, a - c, b - c, e1)]
-    first, second, third = acb(a), acb(b), acb(c)
+    first = acb(a)
+    second = acb(b)
+    third = acb(c)
 
     def value(z: acb) -> ValueAndSlope:
         w = 1 - z if mirrored else z

@@ -45,8 +45,10 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
         return None
     unit = n if waves else I * n  # kappa x is unit * angle
     unit = -unit if (unit * angle).could_extract_minus_sign() else unit
-    slope, kappa = cancel(s * f.diff(t)), unit * angle.diff(x)
-    mean, start = cancel(f + s * slope.diff(t) / kappa**2), 0 if waves else 1
+    slope = cancel(s * f.diff(t))
+    kappa = unit * angle.diff(x)
+    mean = cancel(f + s * slope.diff(t) / kappa**2)
+    start = 0 if waves else 1
     cosine, sine = (sympy.expand(part.subs(t, start)) for part in (f - mean, slope / kappa))
     if mean.has(t) or sympy.expand(cosine**2 + sine**2) == 0:
         return None

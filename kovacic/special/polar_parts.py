@@ -90,7 +90,8 @@ def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
 
     None if S/q has no square root over the residue field, or its residues at the roots of p aren't equal.
     """
-    p, m = place.factor, place.order // 2
+    p = place.factor
+    m = place.order // 2
     s = root_modulo(unit(place, m) / q, p, 2, m)
     if s is None:
         return None
@@ -101,20 +102,25 @@ def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
 
 def leading_square(place: Place) -> Poly:
     """T modulo p for the t = T/p^d with t'^2/t = -S + ..., d = k - 2: d^2 p'^2 T = -V."""
-    p, d = place.factor, place.order - 2
+    p = place.factor
+    d = place.order - 2
     return -unit(place, 1) * (d * d * p.derivative() ** 2).inverse_modulo(p) % p
 
 
 def square(place: Place) -> RatFunc:
     """The polar part of t with t'^2/t = -S + ... at a ramified place: (T'p - d T p')^2 = -T V modulo p^d for t = T/p^d."""
-    p, d = place.factor, place.order - 2
+    p = place.factor
+    d = place.order - 2
     return in_x(RatFunc(expanded_square(place, d), p**d), place)
 
 
 def expanded_square(place: Place, precision: int) -> Poly:
     """T modulo p^precision, term by term; for even d = k - 2 only d/2 terms are determined."""
-    p, d = place.factor, place.order - 2
-    V, slope, T = unit(place, precision), p.derivative(), leading_square(place)
+    p = place.factor
+    d = place.order - 2
+    V = unit(place, precision)
+    slope = p.derivative()
+    T = leading_square(place)
     scale = (d * slope * slope * T).inverse_modulo(p)
     for i in range(1, precision):
         # T + p^i e changes the difference of both sides by d (d - 2 i) p'^2 T e p^i.
@@ -126,7 +132,8 @@ def expanded_square(place: Place, precision: int) -> Poly:
 
 def integral_of_cubic_root(place: Place, q: Poly) -> RatFunc | None:
     """F at a place where q F'^2 F = S + ...: F^3 = -9 t/q has a pole of order d = k - 2; None without a cubic root."""
-    p, d = place.factor, (place.order - 2) // 3
+    p = place.factor
+    d = (place.order - 2) // 3
     W = root_modulo(expanded_square(place, d) * -9 / q, p, 3, d)
     return None if W is None else in_x(RatFunc(W, p**d), place)
 
@@ -145,7 +152,8 @@ def in_x(function: RatFunc, place: Place) -> RatFunc:
 def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[Poly]:
     """What q can be, up to n-th powers: the leading coefficient at a place of degree 1; else 1, -1 and what norms tell."""
     place = min(places, key=lambda place: place.degree)
-    v, field = value(place), place.num.field
+    v = value(place)
+    field = place.num.field
     if place.degree == 1:
         return [field.poly([1]) if root(v[0], n) is not None else v[0]]
     one = field.poly([1])

@@ -214,7 +214,8 @@ class _WhittakerForm:
 
 def _kummer_or_tricomi(form: _WhittakerForm) -> tuple[Expr, Expr]:
     """M_mu and M_-mu, or with W where 2 mu is an integer."""
-    writer, mu = form.writer, form.mu
+    writer = form.writer
+    mu = form.mu
     if not writer.is_integer(2 * mu):
         return writer.pair(form.kummer(mu), form.kummer(-mu))
     natural = next((m for m in (mu, -mu) if writer.is_natural(2 * m)), None)
@@ -227,7 +228,8 @@ def _kummer_or_tricomi(form: _WhittakerForm) -> tuple[Expr, Expr]:
 def _hermite(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
     import sympy
 
-    writer, degree = form.writer, 2 * form.kappa - HALF
+    writer = form.writer
+    degree = 2 * form.kappa - HALF
     is_weber = not form.mu.roots and form.mu.part == Fraction(1, 4)
     is_square = not form.q.roots and all(k % 2 == 0 for _, k in multiplicities(form.f))
     if not (writer.is_degree(degree) and is_weber and is_square):
@@ -248,7 +250,8 @@ def _laguerre(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
         degree = form.kappa - mu - HALF
         integer = writer.is_integer(2 * mu)
         if writer.is_degree(degree) and (writer.is_natural(2 * mu) or not integer):
-            N, a = writer.constant(degree), writer.constant(2 * mu)
+            N = writer.constant(degree)
+            a = writer.constant(2 * mu)
             polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
             second = form.turned.tricomi if integer else form.kummer(-mu)
             return writer.pair((form.factor(mu + HALF), polynomial), second)
@@ -265,22 +268,28 @@ def _values(q: Any, r: Any, mu: Any) -> tuple[StandardSolution, StandardSolution
     half = fmpq(1, 2)
 
     def first(mu: Any) -> StandardSolution:
-        a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
+        a = acb(half + mu - kappa)
+        b = acb(1 + 2 * mu)
 
         def value(z: acb) -> ValueAndSlope:
-            decay, w = (-(rho * z)).exp(), 2 * rho * z
-            F, above = w.hypgeom_1f1(a, b), w.hypgeom_1f1(a + 1, b + 1)
+            decay = (-(rho * z)).exp()
+            w = 2 * rho * z
+            F = w.hypgeom_1f1(a, b)
+            above = w.hypgeom_1f1(a + 1, b + 1)
             return decay * F, decay * rho * (2 * a / b * above - F)
 
         return value
 
     if not is_integer(2 * mu):
         return first(mu), first(-mu), None
-    a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
+    a = acb(half + mu - kappa)
+    b = acb(1 + 2 * mu)
 
     def second(z: acb) -> ValueAndSlope:
-        decay, w = (-(rho * z)).exp(), 2 * rho * z
-        U, above = w.hypgeom_u(a, b), w.hypgeom_u(a + 1, b + 1)
+        decay = (-(rho * z)).exp()
+        w = 2 * rho * z
+        U = w.hypgeom_u(a, b)
+        above = w.hypgeom_u(a + 1, b + 1)
         return decay * U, -decay * rho * (U + 2 * a * above)
 
     return first(mu), second, rho

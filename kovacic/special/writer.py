@@ -44,7 +44,8 @@ class Writer:
     """Writes in one variable; `symbols` are the user's own by name, with what is assumed about them."""
 
     def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any]) -> None:
-        self.gauge, self.atoms = gauge, Atoms(x)
+        self.gauge = gauge
+        self.atoms = Atoms(x)
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
         self.known = self.symbols
         self._squares: list[Poly] = []

@@ -148,7 +148,9 @@ def _required_exclusions(decision: Decision, claimed: int) -> list[Structure]:
 
 def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:
     """The polynomial of omega and the forms; there are none beside "no" and "undecided"."""
-    riccati, form, structure = decision.riccati, decision.semi_invariant, decision.structure
+    riccati = decision.riccati
+    form = decision.semi_invariant
+    structure = decision.structure
     if decision.status is not Status.LIOUVILLIAN or structure is None:
         nothing = (structure, decision.invariant, form, riccati)
         return [] if nothing == (None,) * 4 else [Check("no solution is claimed", False)]

@@ -34,7 +34,9 @@ from kovacic.verify.primes import homomorphisms_modulo
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 
 #: Primes are taken upwards from here, so many of them, with so many points on the curve modulo each.
-_SMALLEST, _PRIMES, _POINTS = 1 << 40, 100, 40
+_SMALLEST = 1 << 40
+_PRIMES = 100
+_POINTS = 40
 #: The largest prime factor of n for which there are such primes within a machine word.
 _LARGEST_FACTOR = 1 << 50
 
@@ -69,7 +71,8 @@ def _is_its_logarithm(H: RatFunc, f: CurveFunction) -> bool:
         return False
     total = RatFunc(f.rest)
     for piece in f.pieces:
-        a, b = piece.a, piece.b
+        a = piece.a
+        b = piece.b
         norm = a * a - h * b * b
         if not norm:
             return False
@@ -116,7 +119,8 @@ def _homomorphisms(field: Field, l: int) -> Iterator[Homomorphism]:  # noqa: E74
 def _values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
     """Values of the function at points over F_p, neither zeros nor poles of a piece, of a curve that stays squarefree."""
     p = h.p
-    curve, root = h.keeping_degree(f.h), h.keeping_degree(G)
+    curve = h.keeping_degree(f.h)
+    root = h.keeping_degree(G)
     if curve.gcd(curve.derivative()).degree() > 0:
         raise BadPrimeError("branch points meet")
     pieces = [(h(piece.a), h(piece.b), piece.exponent) for piece in f.pieces]

@@ -28,7 +28,8 @@ _Named = tuple[str, int | None]
 
 def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
     """Is this the group?  None for one of which no more is said than that it is imprimitive, where that doesn't decide it."""
-    f, riccati = decision.semi_invariant, decision.riccati
+    f = decision.semi_invariant
+    riccati = decision.riccati
     if decision.undecided is not None:
         return False
     if f is None or riccati is None:  # there is no solution

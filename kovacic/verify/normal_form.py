@@ -13,8 +13,10 @@ from kovacic.algebra.ratfunc import RatFunc
 
 def is_normal_form(S: RatFunc, gauge: RatFunc, a: RatFunc, b: RatFunc, c: RatFunc) -> bool:
     """Is y'' = S y the normal form of a y'' + b y' + c y = 0, with this gauge?"""
-    u, v = b.num * a.den, b.den * a.num
-    w, z = c.num * a.den, c.den * a.num
+    u = b.num * a.den
+    v = b.den * a.num
+    w = c.num * a.den
+    z = c.den * a.num
     square = v * v
     wanted = z * (2 * (u.derivative() * v - u * v.derivative()) + u * u) - 4 * square * w
     is_S = not (4 * square * z * S.num - S.den * wanted)

@@ -50,9 +50,14 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     isn't 0.  Raises `BadPrimeError` where it is 0 modulo the prime.
     """
     p = second.modulus()
-    of_second, of_first, of_zeroth = _padded(second, 2), _padded(first, 1), _padded(zeroth, 0)
+    of_second = _padded(second, 2)
+    of_first = _padded(first, 1)
+    of_zeroth = _padded(zeroth, 0)
     width = max(map(len, (of_second, of_first, of_zeroth)))
-    u, once, twice = [1], [0], [0]  # u_k, k u_k and k (k - 1) u_k
+    # u_k, k u_k and k (k - 1) u_k
+    u = [1]
+    once = [0]
+    twice = [0]
     for j in range(1, count):
         if j % _LOOK == 0:
             check_time()
@@ -111,12 +116,15 @@ def rational_candidate(series: Any, count: int, top: int) -> tuple[Any, Any]:
     with deg A + deg B < count is a multiple of this one [von zur Gathen & Gerhard, Modern Computer Algebra, section 5.7].
     """
     p = series.modulus()
-    before, A = nmod_poly([1], p).left_shift(count), series.truncate(count)
-    B_before, B = nmod_poly([], p), nmod_poly([1], p)
+    before = nmod_poly([1], p).left_shift(count)
+    A = series.truncate(count)
+    B_before = nmod_poly([], p)
+    B = nmod_poly([1], p)
     while A.degree() > top:
         check_time()
         quotient, remainder = divmod(before, A)
-        before, A = A, remainder
+        before = A
+        A = remainder
         B_before, B = B, B_before - quotient * B
     return A, B
 

@@ -20,7 +20,8 @@ class Reference(dict[str, str]):
     def text(self) -> str:
         where = ", ".join(filter(None, (f"{self['journal']} {self.get('volume', '')}".strip(), self.get("pages"))))
         doi = f", doi {self['doi']}" if "doi" in self else ""
-        authors, published = self["author"].replace(" and ", ", "), f"{where.replace('--', '-')} ({self['year']}){doi}"
+        authors = self["author"].replace(" and ", ", ")
+        published = f"{where.replace('--', '-')} ({self['year']}){doi}"
         return f"[{self['key']}] {authors}, {self['title']}, {published}: {self['use']}."
 
     def bibtex(self) -> str:

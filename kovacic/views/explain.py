@@ -123,7 +123,8 @@ def _picture(answer: Answer) -> str:
         from kovacic.views.plot import plot
 
         singular = [float(z.re) for z in as_problem(answer).singular_points(64) if z.is_real()]
-        low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
+        low = round(min(singular, default=-3)) - 2
+        high = round(max(singular, default=3)) + 2
         with bounded_work(_PICTURE_WORK):
             figure = plot(answer, low, high, digits=6, points=240, limits=answer.limits)
     except (KovacicError, ImportError, OverflowError):
@@ -142,13 +143,15 @@ class _ExplanationWriter:
         self.steps = Steps(answer)
 
     def equation(self) -> Iterator[Block]:
-        answer, equation = self.answer, self.answer.equation
+        answer = self.answer
+        equation = self.answer.equation
         yield Heading(self._title(), 1)
         if answer.change is not None:
             yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
         yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
-            y, v = equation.unknown, "v" if equation.unknown != "v" else "u"
+            y = equation.unknown
+            v = "v" if equation.unknown != "v" else "u"
             x = answer.variable
             substitution = Math(f"{y} = {v} exp(int gamma d{x})", rf"{y} = {v} \exp \int \gamma \, d{latex_text(x)}")
             gamma = Math("gamma = -b/(2a)", r"\gamma = -\frac{b}{2a}")
@@ -209,11 +212,13 @@ class _ExplanationWriter:
         return say(*sentence, ".")
 
     def certificate(self) -> Iterator[Block]:
-        form, case = self.answer.semi_invariant, self.answer.case
+        form = self.answer.semi_invariant
+        case = self.answer.case
         assert form is not None
         assert case is not None
         yield Heading("theta and P of the answer")
-        theta, P = Math("theta", r"\theta"), Math("P", "P")
+        theta = Math("theta", r"\theta")
+        P = Math("P", "P")
         yield say(DEGREE[case], f" = {form.P.degree}, and with ", theta, " and ", P, ":")
         yield Formula(self.formulas.named("theta", r"\theta", form.theta))
         yield Formula(self.formulas.named("P", "P", form.P))
@@ -283,7 +288,8 @@ class _ExplanationWriter:
 
 def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:
     """P times powers of the factors of the poles, the residues of theta: the rational function F."""
-    R, F = (form.theta * problem.D).num, RatFunc(form.P)
+    R = (form.theta * problem.D).num
+    F = RatFunc(form.P)
     for place in problem.finite_places:
         F = F * RatFunc(place.factor) ** residue(problem, R, place)
     return F

@@ -100,7 +100,9 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
     names = Formulas(answer.variable, answer.S.field)
     decision = answer.decision
-    riccati, form, constants = decision.riccati, decision.semi_invariant, answer.constants
+    riccati = decision.riccati
+    form = decision.semi_invariant
+    constants = answer.constants
     conditions = _generic_conditions(answer)
     data = {
         "schema": SCHEMA,
@@ -206,11 +208,14 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
 
 def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     """What is claimed of S, with its proof; nothing is verified."""
-    proof, riccati, semi_invariant = data["proof"], data["riccati"], data["proof"]["semi_invariant"]
+    proof = data["proof"]
+    riccati = data["riccati"]
+    semi_invariant = data["proof"]["semi_invariant"]
     has_omega = riccati is not None
     if has_omega != (semi_invariant is not None) or (data["constants"] is not None and not has_omega):
         raise ValueError("omega needs its polynomial and the semi-invariant")
-    rational, names = _Reader.over(S.field, variable), Formulas(variable, S.field)
+    rational = _Reader.over(S.field, variable)
+    names = Formulas(variable, S.field)
     reader = rational.extended(data["constants"])
     form = reader.semi_invariant(semi_invariant) if has_omega else None
     decision = Decision(
@@ -265,7 +270,9 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
 
 def _check_normal_form(answer: Answer) -> None:
     """Raises `ValueError` where a P isn't monic, or D isn't the product of the factors to half the orders of the poles."""
-    form, riccati, field = answer.decision.semi_invariant, answer.decision.riccati, answer.S.field
+    form = answer.decision.semi_invariant
+    riccati = answer.decision.riccati
+    field = answer.S.field
     if form is None or riccati is None:
         return
     D = field.poly([1])
@@ -277,7 +284,8 @@ def _check_normal_form(answer: Answer) -> None:
 
 def _check_invariant(answer: Answer) -> None:
     """Raises `ValueError` where P of the rational form isn't monic, or one of degree 2 isn't that of omega."""
-    F, riccati = answer.decision.invariant, answer.decision.riccati
+    F = answer.decision.invariant
+    riccati = answer.decision.riccati
     if F is None or riccati is None:
         return
     if F.P.lc != 1:
@@ -312,7 +320,8 @@ def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable
     """Raises `ValueError` where the equation and the gauge aren't those that were read."""
     if equation is None:
         raise ValueError("an equation or its gauge, where S alone was given")
-    reader, found = _Reader.over(equation.a.field, variable), data["equation"]
+    reader = _Reader.over(equation.a.field, variable)
+    found = data["equation"]
     if not _is_field(found["field"], equation.a.field):
         raise ValueError("the field of the equation isn't that of the input")
     if any(reader.ratfunc(found[name]) != getattr(equation, name) for name in ("a", "b", "c", "f")):
@@ -423,7 +432,8 @@ def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
     if data["kind"] == "necessary_condition":
         places = tuple(names.internal_place(name) for name in data["places"])
         return NecessaryCondition(Rule[data["rule"].upper()], places)
-    prime, degree = _typed(data, "prime", int, type(None)), _typed(data, "degree", int)
+    prime = _typed(data, "prime", int, type(None))
+    degree = _typed(data, "degree", int)
     if data["kind"] == "no_invariant":
         return NoInvariant(_typed(data, "invariant_degree", int), prime, _typed(data, "point", int), degree)
     if data["kind"] == "no_rational_omega":

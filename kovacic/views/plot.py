@@ -45,7 +45,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
+_SHARE = Fraction(1, 256)
+_IRREGULAR_SHARE = Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
 #: The ends of pictures.
@@ -53,7 +54,8 @@ _FARTHEST = 10**300
 #: A formula of more characters isn't written into the legend.
 _LONGEST_LABEL = 50
 #: Entries of a legend in two columns have so many characters at most, and a title so many.
-_LONGEST_IN_COLUMNS, _LONGEST_TITLE = 55, 100
+_LONGEST_IN_COLUMNS = 55
+_LONGEST_TITLE = 100
 #: Characters of a formula that SymPy evaluates where the curves start; powers of long numbers take it minutes.
 _LONGEST_EVALUATED = 2000
 #: Powers of ten beside an axis, at most.
@@ -419,7 +421,8 @@ def _draw(axes: Axes, curve: SampledCurve, label: str, colour: int) -> int:
             name = "_"  # once in the legend
             if arc.radius.max() > 2e-3 * biggest:
                 middle = getattr(arc.y, part)
-                low, high = middle - arc.radius, middle + arc.radius
+                low = middle - arc.radius
+                high = middle + arc.radius
                 axes.fill_between(arc.x, low, high, color=style, alpha=0.25, linewidth=0, label="error band")
         for envelope in curve.envelopes:
             size = envelope.real if part == "real" else envelope.imaginary
@@ -484,7 +487,8 @@ def _ticks(usual: float, largest: float) -> dict[float, str]:
     power = 10.0 ** math.floor(math.log10(usual))
     near = power * max(k for k in (1, 2, 5) if k * power <= usual)
     found = {near: f"{near:g}"}
-    first, last = math.ceil(math.log10(4 * usual)), math.floor(math.log10(largest))
+    first = math.ceil(math.log10(4 * usual))
+    last = math.floor(math.log10(largest))
     every = (last - first) // _MOST_POWERS + 1
     found |= {10.0**k: f"$10^{{{k}}}$" for k in range(first, last + 1, every)}
     negative = {-value: f"\N{MINUS SIGN}{text}" for value, text in found.items()}

@@ -97,7 +97,8 @@ def _power(bases: list[str], exponent: Fraction) -> str:
 
 def _factor(text: str) -> str:
     """In parentheses, if it is a sum: has a sign or a space outside of parentheses."""
-    inner, count = text, 1
+    inner = text
+    count = 1
     while count:
         inner, count = re.subn(r"\([^()]*\)", "", inner)
     return f"({text})" if " " in inner or text.startswith("-") else text
@@ -115,7 +116,8 @@ def _sum(r: RatFunc, variable: str, radical: str = "") -> str:
         num, den = (_primitive(p, around_zero=False) for p in (rest, r.den))
         scale = _number(rest.lc) / _number(num.lc) * _number(den.lc) / _number(r.den.lc)
         sign = -1 if _number(num.lc) < 0 else 1
-        numerator, divisor = _sum(RatFunc(num * sign), variable), _sum(RatFunc(den), variable)
+        numerator = _sum(RatFunc(num * sign), variable)
+        divisor = _sum(RatFunc(den), variable)
         terms.append(_term(scale * sign, radical, "" if numerator == "1" else _factor(numerator), divisor))
     if terms and terms[0].startswith("-") and not terms[-1].startswith("-"):
         terms.reverse()
@@ -154,7 +156,8 @@ def _conjugate(form: Conjugate, variable: str) -> tuple[str, str] | None:
         )
         return first, second
     if next(c for c in V.num.rational_coefficients()[::-1] if c) < 0:
-        V, B = -V, -B
+        V = -V
+        B = -B
     angle = _sum(V, variable, radical)
     first, second = (
         _with(_times(A, f, variable), _times(B * sign, g, variable, radical))

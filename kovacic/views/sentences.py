@@ -15,7 +15,9 @@ from kovacic.writing.omega import omega_math
 SCREEN = 600
 #: What is said before it.
 #: Verdicts.
-SOLVABLE, UNSOLVABLE, UNDECIDED = "Liouvillian solutions exist", "no Liouvillian solution exists", "undecided"
+SOLVABLE = "Liouvillian solutions exist"
+UNSOLVABLE = "no Liouvillian solution exists"
+UNDECIDED = "undecided"
 SHORTER = "shorter, in special functions:"
 
 

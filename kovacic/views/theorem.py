@@ -94,7 +94,8 @@ class _TheoremWriter:
     # The hypothesis
 
     def _hypothesis(self) -> Iterator[Block]:
-        answer, equation = self.answer, self.answer.equation
+        answer = self.answer
+        equation = self.answer.equation
         names = [name for name in answer.parameters if name != PI]
         sentence: list[str | Math] = []
         if names:
@@ -159,7 +160,8 @@ class _TheoremWriter:
         return ["in ", t.equals(expression), " (", _name(change.variable), " is the variable that was given) "]
 
     def _substitution(self, v: str) -> list[str | Math]:
-        equation, x = self.answer.equation, self.answer.variable
+        equation = self.answer.equation
+        x = self.answer.variable
         assert equation is not None
         gamma = Formulas(x, equation.gauge.field).math(equation.gauge)
         text = f"{equation.unknown} = {v} exp(int ({gamma.text}) d{x})"
@@ -289,7 +291,8 @@ class _TheoremWriter:
     def _collected(self, expression: sympy.Expr) -> sympy.Expr:
         """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""
         by_sign = sympy.collect(sympy.expand(expression), self.signs, evaluate=False)
-        numbers, others = [], []
+        numbers = []
+        others = []
         for sign, coefficient in by_sign.items():
             number, other = sympy.factor(coefficient).as_coeff_Mul()
             is_negative = other.could_extract_minus_sign()

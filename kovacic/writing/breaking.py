@@ -42,7 +42,9 @@ def breakable(latex: str, line: float = LINE) -> str:
 
 def pieces(latex: str) -> list[str]:
     """The parts of a breakable formula between the places where its lines may be broken; a sign begins one."""
-    found, depth, before = [""], 0, ""
+    found = [""]
+    depth = 0
+    before = ""
     for token in _TOKEN.findall(breakable(latex)):
         may_break = depth == 0 and found[-1] and before not in ("", "=", "(")
         if may_break and token in ("+", "-", r"\allowbreak"):
@@ -73,7 +75,8 @@ def _argument(nodes: list[Node], k: int) -> list[Node]:
 
 
 def _width(nodes: list[Node]) -> float:
-    total, rest = 0.0, iter(nodes)
+    total = 0.0
+    rest = iter(nodes)
     for node in rest:
         if isinstance(node, list):
             total += _width(node)
@@ -95,7 +98,8 @@ class _LineBreaker:
     most: float
 
     def written(self, nodes: list[Node]) -> str:
-        written, k = "", 0
+        written = ""
+        k = 0
         while k < len(nodes):
             node = nodes[k]
             following = nodes[k + 1] if k + 1 < len(nodes) else ""
@@ -157,7 +161,8 @@ class _LineBreaker:
         """Between parentheses; parameters and argument of a hypergeometric function in one line, with semicolons."""
         if r"\middle" not in nodes:
             return self.written(nodes)
-        matrix, argument = nodes[2 : nodes.index(r"\end")], nodes[nodes.index(r"\middle") + 2 :]
+        matrix = nodes[2 : nodes.index(r"\end")]
+        argument = nodes[nodes.index(r"\middle") + 2 :]
         rows = _verbatim(matrix).replace(r"\\", ";").replace(r"\frac", r"\tfrac")
         return f"{rows}; {self.written(argument)}"
 

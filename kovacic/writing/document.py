@@ -18,7 +18,8 @@ from kovacic.writing.breaking import LINE, breakable, pieces, width
 from kovacic.writing.formula import Math
 
 #: Characters in a line of a LaTeX table, and the most that count of a column's width: others beside it need some.
-_PAGE, _COLUMN = 66, 120
+_PAGE = 66
+_COLUMN = 120
 
 Sentence = str | Math | Sequence[str | Math]
 

@@ -131,7 +131,8 @@ class Formulas:
         """A place: infinity, x = 2 where its factor is linear in x with a simple constant, else factor = 0."""
         if place == "infinity":
             return Math(place, r"\infty")
-        factor, x = self.place_name(place), self.variable
+        factor = self.place_name(place)
+        x = self.variable
         root = {f"{x} - ": "", f"{x} + ": "-"}.get(factor[: len(x) + 3])
         if root is not None:
             root += factor[len(x) + 3 :]
@@ -163,7 +164,8 @@ def _number_of_terms(polynomial: Poly) -> int:
 
 
 def _degrees(function: RatFunc) -> str:
-    above, below = function.num.degree, function.den.degree
+    above = function.num.degree
+    below = function.den.degree
     return f"(too long to print: degree {above}" + (f" over degree {below})" if below > 0 else ")")
 
 
