@@ -86,6 +86,23 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
         return field.poly([]), field.generator
     tower = AlgebraicField(old, factor)
     n = tower.absolute_degree
+    shift, powers = _primitive_element(tower, old)
+    columns = [powers[n], _coordinates(tower.embed(old.generator), n), _coordinates(tower.generator, n)]
+    solved = _matrix(powers[:n]).solve(_matrix(columns))
+    power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
+    modulus = QQ.poly([*(-q for q in power), 1])
+    with ctx.workprec(_PRECISION):
+        position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
+    field = AlgebraicField(QQ, modulus, "alpha", position)
+    return field.element(QQ.poly(theta)), field.element(QQ.poly(c))
+
+
+def _primitive_element(tower: AlgebraicField, old: AlgebraicField) -> tuple[int, list[list[Any]]]:
+    """The first s with Q(theta, c) = Q(c + s theta), and the coordinates of the powers of c + s theta up to the n-th.
+
+    There is one, since only for finitely many s two of the n conjugates of c + s theta are equal.
+    """
+    n = tower.absolute_degree
     for k in count():
         shift = (k + 1) // 2 * (-1) ** (k + 1)  # 0, 1, -1, 2, ...
         primitive = tower.generator + old.generator * shift
@@ -93,17 +110,14 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
         for _ in range(n):
             powers.append(powers[-1] * primitive)
         rows = [_coordinates(power, n) for power in powers]
-        matrix = fmpq_mat(n, n, [rows[j][i] for i in range(n) for j in range(n)])
-        if matrix.det() != 0:
-            break
-    columns = [rows[n], _coordinates(tower.embed(old.generator), n), _coordinates(tower.generator, n)]
-    solved = matrix.solve(fmpq_mat(n, 3, [column[i] for i in range(n) for column in columns]))
-    power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
-    modulus = QQ.poly([*(-q for q in power), 1])
-    with ctx.workprec(_PRECISION):
-        position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
-    field = AlgebraicField(QQ, modulus, "alpha", position)
-    return field.element(QQ.poly(theta)), field.element(QQ.poly(c))
+        if _matrix(rows[:n]).det() != 0:
+            return shift, rows
+    raise AssertionError("count() doesn't end")
+
+
+def _matrix(columns: list[list[Any]]) -> fmpq_mat:
+    """The matrix with these columns."""
+    return fmpq_mat(len(columns[0]), len(columns), [entry for row in zip(*columns, strict=True) for entry in row])
 
 
 def substituted(constant: Poly, theta: Poly) -> Poly:

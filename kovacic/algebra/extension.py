@@ -227,18 +227,24 @@ class ExtensionPoly(Poly):
             return self.field.poly([1])
         lifter = Lifter(self.field)
         for bundle in self.field.bundles():
-            try:
-                images = [[h.keeping_degree(self).gcd(h.keeping_degree(other))] for h in bundle]
-            except BadPrimeError:
+            images = self._gcd_images(other, bundle)
+            if images is None:
                 continue
-            if len({image[0].degree() for image in images}) > 1:
-                continue
-            if images[0][0].degree() == 0:
+            if images[0].degree() == 0:
                 return self.field.poly([1])
-            proposal = lifter.add(bundle, images)
+            proposal = lifter.add(bundle, [[image] for image in images])
             if proposal and not self % proposal[0] and not other % proposal[0]:
                 return proposal[0]  # type: ignore[return-value]
         raise AssertionError("there are infinitely many primes")
+
+    def _gcd_images(self, other: ExtensionPoly, bundle: Sequence[Homomorphism]) -> list[Any] | None:
+        """The greatest common divisors modulo one prime; None at a bad one, where their degrees differ, for instance."""
+        try:
+            images = [h.keeping_degree(self).gcd(h.keeping_degree(other)) for h in bundle]
+        except BadPrimeError:
+            return None
+        degrees = {image.degree() for image in images}
+        return images if len(degrees) == 1 else None
 
     def inverse_modulo(self, modulus: Poly) -> ExtensionPoly:
         small = modulus.degree <= _EUCLID_DEGREE or self.field.ground != QQ

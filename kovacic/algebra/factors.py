@@ -8,7 +8,7 @@ from itertools import islice
 from operator import mul
 from typing import Any
 
-from kovacic.algebra.homomorphism import BadPrimeError
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.poly import Poly
 from kovacic.limits import check_time
@@ -89,20 +89,25 @@ def _leading_terms(
             images = [
                 _leading_terms_modulo(h(num), [h(p) ** k for p, k in factors], [h(m) for m in moduli]) for h in bundle
             ]
-            new = [
-                i
-                for i, N in enumerate(found)
-                if N is None or any(h(N) != image[i] for h, image in zip(bundle, images, strict=True))
-            ]
+            missing = [i for i, N in enumerate(found) if not _has_images(N, bundle, [image[i] for image in images])]
         except BadPrimeError:
             continue
-        for i in new:
+        for i in missing:
             proposal = lifters[i].add(bundle, [[image[i]] for image in images])
             found[i] = proposal[0] if proposal else None
+        if missing:
+            continue
         leading = [N for N in found if N is not None]
-        if not new and not (num - _combined(leading, tree)) % product(moduli):
+        if not (num - _combined(leading, tree)) % product(moduli):
             return leading
     return None
+
+
+def _has_images(proposed: Poly | None, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> bool:
+    """Is this what was proposed so far, also modulo the prime of these homomorphisms?"""
+    if proposed is None:
+        return False
+    return all(h(proposed) == image for h, image in zip(bundle, images, strict=True))
 
 
 def _leading_terms_modulo(num: Any, powers: Sequence[Any], moduli: Sequence[Any]) -> list[Any]:

@@ -89,24 +89,31 @@ class _Unknown:
 
     def solve(self, p: int, points: list[Exponents], values: list[int]) -> None:
         """Add what the samples modulo a prime say: with the known terms, or with all up to the next degree."""
-        monomials = [] if self.terms else list(_monomials(self.parameters, self.degree))
+        above, below = self.terms or self._terms_of_next_degree()
+        solution = _solve(p, points, values, above, below)
+        if solution is None:
+            return
+        numerator = solution[: len(above)]
+        denominator = solution[len(above) :]
+        if self.terms is None:
+            self.terms = _occurring(above, numerator), _occurring(below, denominator)
+            numerator = [c for c in numerator if c]
+            denominator = [c for c in denominator if c]
+        lead = pow(denominator[0], -1, p)
+        residues = [c * lead % p for c in (*numerator, *denominator)]
+        self.residues = chinese_remainders(self.residues or [0] * len(residues), self.modulus, residues, p)
+        self.modulus *= p
+        self.primes.add(p)
+
+    def _terms_of_next_degree(self) -> tuple[list[Exponents], list[Exponents]]:
+        """All monomials up to it, for N and for D; raises LimitExceeded where these are too many."""
+        monomials = list(_monomials(self.parameters, self.degree))
         if 2 * len(monomials) > _LARGEST:
             raise LimitExceeded(
                 f"the answer has coefficients of degree above {self.degree - 1} in the parameters", limit="parameters"
             )
-        above, below = self.terms or (monomials, monomials)
-        solution = _solve(p, points, values, above, below)
-        self.degree += not self.terms
-        if solution is None:
-            return
-        occurring = [(m, c) for m, c in zip((*above, *below), solution, strict=True) if c or self.terms]
-        split = len(above) if self.terms else sum(map(bool, solution[: len(above)]))
-        self.terms = [m for m, _ in occurring[:split]], [m for m, _ in occurring[split:]]
-        lead = pow(occurring[split][1], -1, p)
-        residues = [c * lead % p for _, c in occurring]
-        self.residues = chinese_remainders(self.residues or [0] * len(residues), self.modulus, residues, p)
-        self.modulus *= p
-        self.primes.add(p)
+        self.degree += 1
+        return monomials, monomials
 
     def reconstruct(self) -> tuple[dict[Exponents, int], dict[Exponents, int]] | None:
         """Integer coefficients of N and D, or None as long as the modulus is too small."""
@@ -120,6 +127,11 @@ class _Unknown:
             dict(zip(self.terms[0], numerators[:split], strict=True)),
             dict(zip(self.terms[1], numerators[split:], strict=True)),
         )
+
+
+def _occurring(monomials: list[Exponents], coefficients: list[int]) -> list[Exponents]:
+    """Those whose coefficient isn't zero."""
+    return [monomial for monomial, c in zip(monomials, coefficients, strict=True) if c]
 
 
 def _monomials(parameters: int, degree: int) -> Iterator[Exponents]:

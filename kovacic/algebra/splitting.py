@@ -79,18 +79,34 @@ def _bundles(
         allowed = _splitting(QQ.poly([v for v in values if v is not None]), allowed)
     for bundle in base.bundles(allowed):
         check_time()
-        found: list[ExtensionHomomorphism] = []
         try:
-            for h in bundle:
-                image = h.keeping_degree(modulus)
-                roots = sorted(int(r) for r, _ in image.roots()) if complete else list(islice(simple_roots(image), 1))
-                if len(roots) < (modulus.degree if complete else 1):
-                    break
-                found += [ExtensionHomomorphism(h, root) for root in roots]
-            else:
-                yield tuple(found)
+            found = _extended(bundle, modulus, complete)
         except BadPrimeError:
             continue
+        if found is not None:
+            yield found
+
+
+def _extended(
+    bundle: Sequence[Homomorphism], modulus: Poly, complete: bool
+) -> tuple[ExtensionHomomorphism, ...] | None:
+    """The homomorphisms of K(c) over these of K: to all roots of the modulus, or unless `complete` to one simple root each.
+
+    None where there are fewer roots; raises BadPrimeError.
+    """
+    found: list[ExtensionHomomorphism] = []
+    for h in bundle:
+        image = h.keeping_degree(modulus)
+        if complete:
+            roots = sorted(int(root) for root, _ in image.roots())
+            needed = modulus.degree
+        else:
+            roots = list(islice(simple_roots(image), 1))
+            needed = 1
+        if len(roots) < needed:
+            return None
+        found += [ExtensionHomomorphism(h, root) for root in roots]
+    return tuple(found)
 
 
 def _splitting(modulus: Poly, allowed: Callable[[int], bool] | None) -> Callable[[int], bool]:
