@@ -43,6 +43,7 @@ QUICK = {
     "test_public_names",
     "test_readme",
     "test_textbook_equations",
+    "test_verify",
     "test_written_solutions",
 }
 

@@ -66,8 +66,34 @@ def test_division_and_common_divisors(f: Poly, g: Poly) -> None:
     common = (f * (x + s)).gcd(g * (x + s))
     assert not common % (x + s)
     assert not (f * (x + s)) % common
+    assert common.is_monic
     assert pickle.loads(pickle.dumps(f)) == f
     assert hash(f + g) == hash(g + f)
+
+
+OVER_PARAMETERS = AlgebraicField(K, K.poly([s * t + 1, s, 0, 1]), "c")
+
+
+@pytest.mark.parametrize(
+    ("field", "a", "b"),
+    [
+        (QQ, QQ.poly([Fraction(2, 3)]), QQ.poly([-5])),
+        (AlgebraicField(QQ, QQ.poly([-5, 0, 1])), Fraction(2, 7), None),
+        (K, s, -2 * t / (s + 3)),
+        (K, -s * t - 1, s.inverse()),
+        (OVER_PARAMETERS, s, None),
+    ],
+    ids=str,
+)
+def test_the_greatest_common_divisor_is_the_monic_one(field: Any, a: Any, b: Any) -> None:
+    """Of multiples by constants as well, which have no part in it."""
+    b = field.generator if b is None else b
+    z = field.poly([0, 1])
+    common = (z + a) * (z * z + b * z + a)
+    assert (common * (z + 1) * a * b).gcd(common * (z - 1) * (a * a + b)) == common
+    assert (common * b).gcd(field.poly([])) == common
+    assert (common * a).gcd(common * (common + b) * b) == common
+    assert (common * a).gcd(field.poly([b])) == 1
 
 
 @settings(max_examples=25)

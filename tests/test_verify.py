@@ -75,6 +75,7 @@ def test_the_fraction_is_that_of_euclids_algorithm(
     assert A == (B * series).truncate(order)
 
 
+@settings(max_examples=25)
 @given(st.data())
 def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.DataObject) -> None:
     """The residue of sqrt(S) at a rational point, term by term: S = (sum a_i t^(i-nu))^2 + O(t^(-nu))."""
@@ -90,6 +91,7 @@ def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.Dat
     assert exponent_difference_squared(S.num, q, p, nu) == 4 * a[-1] * a[-1]
 
 
+@settings(max_examples=30)
 @given(strategies.irreducibles(3), st.integers(1, 4), strategies.polynomials(0, 6), strategies.polynomials(0, 2))
 def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: Any, q: Any) -> None:
     """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
@@ -294,7 +296,7 @@ def test_the_root_of_odd_norms_belongs_to_the_function() -> None:
     answer = kovacic.solve(transform.pull_back(third, (X**2 + 3 * X + 5) / (X + 1)))
     function = answer.group.function
     assert answer.verify()
-    for k in (2, 3, 5, 7):
+    for k in (2, 3):
         pieces = tuple(replace(piece, exponent=k * piece.exponent) for piece in function.pieces)
         power = replace(function, multiple=3 * k, pieces=pieces)
         assert not verify(answer.S, answer.decision, replace(answer.group.claim, n=3 * k, function=power))
@@ -642,7 +644,7 @@ def test_that_no_omega_is_rational_is_proven_at_every_place(S: RatFunc) -> None:
 
 
 def test_the_check_keeps_to_the_time_limit() -> None:
-    answer = kovacic.solve("x^4 + 4002*x + 1")
+    answer = kovacic.solve("x^4 + 402*x + 1")
     with pytest.raises(LimitExceeded):
         verify(answer.S, answer.decision, budget=Budget(Limits(seconds=0.0)))
 
@@ -740,7 +742,7 @@ def test_orders_of_torsion_are_the_same_modulo_every_good_prime(H: RatFunc, orde
 def test_infinite_order_is_seen_from_two_primes() -> None:
     """P = (3, 5) on y^2 = x^3 - 2 isn't torsion; the orders of its multiples, modulo p, by chords and tangents."""
     orders = {}
-    for p in (7, 11, 13, 17, 19, 23, 29, 31):
+    for p in (7, 11, 13, 17, 19, 23):
         x, y, n = 3, 5, 1
         while x is not None:
             n += 1

@@ -76,7 +76,7 @@ class Verification:
         return f"<Verification: {passed} of {len(self.checks)} checks passed, {len(self.unchecked)} not made>"
 
     def _repr_html_(self) -> str:
-        rows = [(check.statement, "passed" if check.passed else "FAILED") for check in self.checks]
+        rows = [(check.statement, _outcome(check)) for check in self.checks]
         rows += [(statement, "not checked") for statement in self.unchecked]
         return "".join(["<table>", *(f"<tr><td>{escape(s)}</td><td>{r}</td></tr>" for s, r in rows), "</table>"])
 
@@ -84,8 +84,12 @@ class Verification:
         return bool(self.checks) and all(check.passed for check in self.checks)
 
     def __str__(self) -> str:
-        lines = [f"{'passed' if check.passed else 'FAILED'}: {check.statement}" for check in self.checks]
+        lines = [f"{_outcome(check)}: {check.statement}" for check in self.checks]
         return "\n".join([*lines, *(f"not checked: {statement}" for statement in self.unchecked)])
+
+
+def _outcome(check: Check) -> str:
+    return "passed" if check.passed else "FAILED"
 
 
 def verify(

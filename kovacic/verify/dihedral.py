@@ -43,15 +43,19 @@ _LARGEST_FACTOR = 1 << 50
 
 def is_least_power(H: RatFunc, f: CurveFunction, n: int) -> bool:
     """Is u^n a function on the curve, and no smaller power?"""
-    if n < 1 or f.multiple != n or f.rest or not _is_its_logarithm(H, f):
+    if n < 1 or f.multiple != n:
+        return False
+    if f.rest or not _is_its_logarithm(H, f):
         return False
     G = _root_of_odd_norms(f)
-    if G is None:
-        return False
+    return G is not None and all(_is_no_power(f, G, q) for q in _prime_factors(n))
+
+
+def _prime_factors(n: int) -> list[int]:
     primes = [int(q) for q, _ in fmpz(n).factor()]
     if any(q > _LARGEST_FACTOR for q in primes):
         raise LimitExceeded("the order has a prime factor of more than 15 digits", limit="bits")
-    return all(_is_no_power(f, G, q) for q in primes)
+    return primes
 
 
 def has_holomorphic_rest(H: RatFunc, f: CurveFunction) -> bool:

@@ -101,7 +101,7 @@ class Inspector:
     def _dimension(self, h: Homomorphism, at: int, m: int, valuations: list[int], degree: int) -> int:
         self.budget.check()
         factors = [*zip(self.factors, valuations, strict=True)]
-        return dimension_modulo(h, self.S, at, m, factors, degree)
+        return dimension_modulo(h, self.S, at, m, factors=factors, degree=degree)
 
     # ------------------------------------------------------------------------------------------- omega
 

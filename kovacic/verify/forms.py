@@ -58,7 +58,9 @@ def room(points: list[Point], m: int) -> tuple[list[int], int] | None:
     return None if degree < 0 else (valuations[:-1], degree)
 
 
-def dimension_modulo(h: Homomorphism, S: RatFunc, at: int, m: int, factors: list[tuple[Poly, int]], degree: int) -> int:
+def dimension_modulo(
+    h: Homomorphism, S: RatFunc, at: int, m: int, *, factors: list[tuple[Poly, int]], degree: int
+) -> int:
     """The dimension modulo a prime of the forms of degree m whose quotient by prod p^v is a polynomial of at most this degree.
 
     They are expanded at the integer `at`, to some terms more than there are unknowns.  Raises `BadPrimeError` where the point

@@ -119,19 +119,28 @@ class Point:
 
 
 def points(S: RatFunc, budget: Budget) -> list[Point]:
-    """Every singular place, and infinity even if it is ordinary.
-
-    S(1/z)/z^4 is z^(-k) N/M, N and M with the coefficients of num and den in the reversed order, k = deg num - deg den + 4.
-    """
+    """Every singular place, and infinity even if it is ordinary."""
     factors = factors_of(S.den)
     regular = Expansions(S, [(p, order) for p, order in factors if order <= 2])
     irregular = Expansions(S, [(p, order) for p, order in factors if order > 2])
-    found = [Point(p, order, S.num, S.den, budget, regular if order <= 2 else irregular) for p, order in factors]
-    order = max(S.num.degree - S.den.degree + 4, 0) if S.num else 0
-    num = backwards(S.num, max(S.den.degree - S.num.degree - 4, 0))
+    found = []
+    for p, order in factors:
+        expansions = regular if order <= 2 else irregular
+        found.append(Point(p, order, S.num, S.den, budget, expansions))
+    return [*found, _infinity(S, budget)]
+
+
+def _infinity(S: RatFunc, budget: Budget) -> Point:
+    """With S(1/z)/z^4 = N/(z^k M), N and M with the coefficients of num and den in the reversed order.
+
+    Here k = deg num - deg den + 4; a negative k gives N its power of z.
+    """
+    k = S.num.degree - S.den.degree + 4 if S.num else 0
+    order = max(k, 0)
+    num = backwards(S.num, max(-k, 0))
     den = backwards(S.den, order)
     z = S.field.poly([0, 1])
-    return [*found, Point(z, order, num, den, budget, at_infinity=True)]
+    return Point(z, order, num, den, budget, at_infinity=True)
 
 
 def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:

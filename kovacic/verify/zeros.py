@@ -1,10 +1,19 @@
 """How many zeros a solution with a rational omega can have, at points where the equation is ordinary.
 
-Fuchs's relation for omega = y'/y, whose residues add up to 0: the zeros of y and its exponents at all singular points, that at
-infinity included, add up to 1.  At a point of the order k > 0 the exponents are A/2 +- half the difference, where A = 1 for
-k <= 2 and A = k/2 for even k > 2, and the difference is Delta or, at an irregular point, twice the residue of sqrt(S) dx.
-Since omega is rational over K, its exponents at the roots of an irreducible factor p are conjugate over K: the difference is an
-element of K[x]/p, and the sum over the roots is its trace, up to one sign.  [Kovacic 1986, sections 2.1 and 3.2]
+The residues of the differential omega dx, omega = y'/y rational, add up to 0.  At a zero of y the residue is 1, and at a
+singular point it is the exponent of y there; so the number of zeros and the exponents at all singular points, that at infinity
+included, add up to 1.  [Kovacic 1986, sections 2.1 and 3.2]
+
+There are two exponents at a point of the order k > 0, A/2 plus or minus half their difference, where A = 1 for k <= 2 and
+A = k/2 for even k > 2.  The difference is Delta or, at an irregular point, twice the residue of sqrt(S) dx.  Which of the two
+belongs to y isn't known, hence the numbers that are possible.
+
+The roots of an irreducible factor p aren't told apart: what is known is the square of the difference at "the" root, the class
+of x in K[x]/p.  But at all of them y has the "same" exponent.  For an automorphism that leaves the elements of K alone, and
+moves one root to another, leaves omega alone, whose coefficients are in K; so it moves the residue of omega at the one root to
+that at the other.  These residues are thus the values at the roots of one element of K[x]/p, and so is the difference.  If its
+square is no square in K[x]/p, no omega is rational over K; if it is one, the differences at the roots add up to the trace of
+its square root, with one choice of the sign for all of them.
 """
 
 from __future__ import annotations
@@ -101,18 +110,26 @@ def _double_mean(point: Point) -> int:
 
 
 def _half_difference(point: Point) -> Fraction | None:
-    """Half the sum over the roots of the difference of the exponents, up to sign; None where it provably isn't in K[x]/p.
+    """Half the difference of the exponents, added up over the roots of the factor; its sign is left open.
 
-    Of an irrational number the first coordinate over Q: all are compared under this linear map, the identity on Q.
+    None where the difference is provably no element of K[x]/p, so that no omega is rational over K.
     """
-    if point.difference is not None:
-        return point.factor.degree * point.difference / 2
     p = point.factor
+    if point.difference is not None:  # the same rational number at all roots
+        return p.degree * point.difference / 2
     if is_no_square(_difference_squared_up_to_squares(point), p):
         return None
-    root = _square_root(_difference_squared(point), p)
-    trace = _trace(root, p)
-    return to_fraction(trace.rational_coefficients()[0]) / 2 if trace else Fraction(0)
+    difference = _square_root(_difference_squared(point), p)
+    return _rational_part(_trace(difference, p)) / 2
+
+
+def _rational_part(constant: Poly) -> Fraction:
+    """The first coordinate over Q of an element of K, a linear map that leaves rational numbers alone.
+
+    Exponents and zeros add up to 1 in K.  Applied to all of them, the map makes this a relation of rational numbers, with the
+    same number of zeros: each number that is possible stays possible.
+    """
+    return to_fraction(constant.rational_coefficients()[0]) if constant else Fraction(0)
 
 
 def _difference_squared_up_to_squares(point: Point) -> Poly:
