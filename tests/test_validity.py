@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 import sympy
 from sympy.abc import a, b, c, k, m, v, w, x  # the names in texts
@@ -41,6 +43,35 @@ def test_what_is_assumed_is_used() -> None:
     assert not kovacic.validity(kovacic.dsolve(t * y.diff(t, 2) + y.diff(t) + p**2 * t * y))
     with pytest.raises(kovacic.InputError):
         kovacic.validity(t)
+
+
+#: Functions with a part that must be positive, or not negative, and the argument in which they are to be complex.
+PARTS = (
+    sympy.log,
+    sympy.sqrt,
+    lambda u: 1 / sympy.sqrt(u),
+    lambda u: sympy.besselk(1, u, evaluate=False),
+    lambda u: u**a,
+)
+
+
+@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("known", [{"positive": True}, {"negative": True}, {"real": True, "nonzero": True}])
+def test_a_part_that_is_complex_by_what_is_assumed(part: Any, known: dict[str, bool]) -> None:
+    """With t > 0 for -t - 1, t < 0 for t - 1, and a real t for i t: no relation is left to say."""
+    t = sympy.Symbol("t", **known)
+    unreal = {t.is_positive: -t - 1, t.is_negative: t - 1}.get(True, sympy.I * t)
+    solution = sympy.Eq(sympy.Function("y")(t), part(unreal) + 1 / (w - v))
+    found = kovacic.validity(solution)
+    assert found.real == (sympy.false,)
+    assert found
+    assert str(found) == "no value"
+
+
+def test_a_complex_rate() -> None:
+    k = sympy.Symbol("k", negative=True)
+    y = sympy.Function("y")(x)
+    assert str(kovacic.validity(kovacic.dsolve(y.diff(x, 2) - y / k**3))) == "no value"
 
 
 def test_a_line_of_the_output(capsys: pytest.CaptureFixture[str]) -> None:

@@ -27,8 +27,9 @@ _BRANCHED = (sympy.bessely, sympy.besselk)
 class Validity:
     """`real`: relations that make every part of the formula real and finite; `exceptions`: what must not be zero.
 
-    An exception depends on parameters alone: for values where it is zero a part has a zero denominator, or the two solutions
-    of a general solution become dependent, so that other formulas hold.
+    `real` is `false` alone where what is assumed of symbols makes a part complex, as sqrt(k) for a negative k.  An exception
+    depends on parameters alone: for values where it is zero a part has a zero denominator, or the two solutions of a general
+    solution become dependent, so that other formulas hold.
     """
 
     real: tuple[Expr, ...]
@@ -40,8 +41,16 @@ class Validity:
 
     def __str__(self) -> str:
         """`x > 0, c**2 - 4*k*m != 0`."""
-        real = [f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real]
-        return ", ".join([*real, *(f"{e} != 0" for e in self.exceptions)])
+        if sympy.false in self.real:
+            return "no value"
+        return ", ".join([*map(_relation_text, self.real), *(f"{e} != 0" for e in self.exceptions)])
+
+
+def _relation_text(relation: Expr) -> str:
+    """As SymPy writes it, but for Ne(x, 0)."""
+    if isinstance(relation, sympy.Ne):
+        return f"{relation.lhs} != 0"
+    return str(relation)
 
 
 def validity(solution: Any) -> Validity:
@@ -49,7 +58,7 @@ def validity(solution: Any) -> Validity:
 
     The conditions are read off the formula, part by part: arguments of even roots, of logarithms and of Bessel functions are
     positive, denominators aren't zero, and the Wronskian of the two solutions isn't.  They are sufficient; where complex parts
-    cancel, they aren't necessary.  What is assumed of symbols is used.
+    cancel, they aren't necessary.  What is assumed of symbols is used; `real` is `false` alone where it makes a part complex.
 
     Parameters
     ----------
@@ -77,39 +86,60 @@ def validity(solution: Any) -> Validity:
     >>> bool(kovacic.validity(kovacic.dsolve("y'' + y = x")))
     False
     """
+    value, x = _value_and_variable(solution)
+    needed = dict.fromkeys(_needs(value))
+    real: list[Expr] = []
+    nonzero: list[Expr] = []
+    for relation in needed:
+        if _is_on_parameters(relation, x):
+            nonzero += _exceptions(relation.lhs)
+        elif relation != sympy.true:
+            real.append(relation)
+    nonzero += _exceptions(_wronskian(value, x))
+    return Validity(_without_weaker(real), tuple(dict.fromkeys(nonzero)))
+
+
+def _value_and_variable(solution: Any) -> tuple[Expr, Expr]:
+    """f(x) and x for Eq(y(x), f(x)).  Raises `InputError`."""
     function = getattr(solution, "lhs", None)
     value = getattr(solution, "rhs", None)
     arguments: tuple[Any, ...] = getattr(function, "args", ())
     if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
         raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
-    x = arguments[0]
-    real: dict[Expr, None] = {}
-    nonzero: dict[Expr, None] = {}
-    for needed in _needs(value, x):
-        if isinstance(needed, sympy.Ne) and not needed.has(x):
-            nonzero |= dict.fromkeys(_exceptions(needed.lhs))
-        elif needed not in (True, sympy.true):
-            real[needed] = None
-    nonzero |= dict.fromkeys(_exceptions(_wronskian(value, x)))
-    positive = {relation.lhs for relation in real if _is_positivity(relation)}
-    kept = [relation for relation in real if _is_positivity(relation) or relation.lhs not in positive]
-    return Validity(tuple(kept), tuple(nonzero))
+    return value, arguments[0]
 
 
-def _is_positivity(relation: Expr) -> bool:
-    return isinstance(relation, sympy.StrictGreaterThan)
+def _is_on_parameters(relation: Expr, x: Expr) -> bool:
+    """Does it say that an expression in parameters alone isn't zero?"""
+    return isinstance(relation, sympy.Ne) and not relation.has(x)
 
 
-def _needs(e: Expr, x: Expr) -> Iterator[Expr]:
+def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
+    """Without e >= 0 and e != 0 beside e > 0; `false` alone where it is one of them."""
+    if sympy.false in relations:
+        return (sympy.false,)
+    strict = [relation for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
+    positive = {relation.lhs for relation in strict}
+    return tuple(relation for relation in relations if relation in strict or relation.lhs not in positive)
+
+
+def _needs(e: Expr) -> Iterator[Expr]:
     """Relations that make the parts of an expression real and finite."""
     if isinstance(e, sympy.Integral):
         return
     for argument in e.args:
-        yield from _needs(argument, x)
+        yield from _needs(argument)
     if e.is_Pow and not isinstance(e, sympy.exp):
         yield from _needs_of_power(e.base, e.exp)
     elif isinstance(e, sympy.log) or _is_branched(e):
-        yield e.args[-1] > 0
+        yield _positive(e.args[-1])
+
+
+def _positive(e: Expr) -> Expr:
+    """e > 0, which SymPy refuses to write for what is known not to be real."""
+    if e.is_extended_real is False:
+        return sympy.false
+    return e > 0
 
 
 def _is_branched(e: Expr) -> bool:
@@ -120,30 +150,44 @@ def _is_branched(e: Expr) -> bool:
 
 
 def _needs_of_power(base: Expr, exponent: Expr) -> Iterator[Expr]:
-    if base.is_number or (exponent.is_integer and not exponent.is_Integer):
+    """No zero under a line, no negative number under an even root; no numbers, and no powers with an integer n."""
+    is_symbolic_integer = exponent.is_integer and not exponent.is_Integer
+    if base.is_number or is_symbolic_integer:
         return
-    is_odd_root = exponent.is_Rational and exponent.q % 2
-    if is_odd_root:
-        if exponent < 0:
-            yield sympy.Ne(base, 0)
-    elif exponent.is_Rational and exponent > 0:
-        yield base >= 0
-    else:
-        yield base > 0
+    if not exponent.is_Rational:
+        yield _positive(base)
+        return
+    is_below_the_line = exponent < 0
+    is_even_root = exponent.q % 2 == 0
+    if is_even_root and is_below_the_line:
+        yield _positive(base)
+    elif is_even_root:
+        yield _not_negative(base)
+    elif is_below_the_line:
+        yield sympy.Ne(base, 0)
+
+
+def _not_negative(e: Expr) -> Expr:
+    """e >= 0, which SymPy refuses to write for what is known not to be real."""
+    if e.is_extended_real is False:
+        return sympy.false
+    return e >= 0
 
 
 def _wronskian(value: Expr, x: Expr) -> Expr:
     """That of a general solution at a point, up to what isn't known; 1 where there are no two constants."""
-    constants = sorted((s for s in value.free_symbols if _CONSTANT.fullmatch(s.name)), key=str)
+    constants = [symbol for symbol in value.free_symbols if _CONSTANT.fullmatch(symbol.name)]
     if len(constants) != 2 or value.has(sympy.Integral):
         return sympy.S.One
-    y1, y2 = (value.diff(constant) for constant in constants)
+    y1, y2 = (value.diff(constant) for constant in sorted(constants, key=str))
     W = y1 * y2.diff(x) - y1.diff(x) * y2
     if size(W) > _LARGEST or W.has(*constants):
         return sympy.S.One
     for point in (0, 1):
         found = finite_value(W, x, sympy.Integer(point))
-        if found is not None and found.is_zero is not True and _is_elementary(found):
+        if found is None or found.is_zero:
+            continue
+        if _is_elementary(found):
             return found
     return sympy.S.One
 
@@ -155,6 +199,10 @@ def _is_elementary(e: Expr) -> bool:
 def _exceptions(value: Expr) -> Iterator[Expr]:
     """The factors with parameters that may be zero, each once and without a sign."""
     for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(value))):
-        base = factor.base if factor.is_Pow else factor
+        base = factor
+        if factor.is_Pow:
+            base = factor.base
+        if base.could_extract_minus_sign():
+            base = -base
         if base.free_symbols:
-            yield -base if base.could_extract_minus_sign() else base
+            yield base
