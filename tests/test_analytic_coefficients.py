@@ -193,8 +193,8 @@ def test_many_digits_and_the_same_digits_by_few() -> None:
 @parametrize(
     "text",
     [
-        "y'' + 1/2*csc(x/9)*y' + (-3*cos(x) + tan(x/5)^2)*y = 0",
         "y'' + sin(x/3)*y' + sin(x/7)^2*y = 0",
+        "y'' + 1/2*csc(x/9)*y' + (-3*cos(x) + tan(x/5)^2)*y = 0",
         "y'' + tan(x/11)*y' + cos(3*x)*y = 0",
     ],
     ordinary=1,
@@ -217,7 +217,7 @@ def test_waves_of_which_the_common_angle_is_small(text: str) -> None:
         ("y'' + sin(31*x)*csc(x)*y = 0", 5),
         ("y'' + (tan(20*x)*cos(20*x) + cot(x)*tan(x))*y = 0", 5),
     ],
-    ordinary=2,
+    ordinary=0,
 )
 def test_quotients_of_waves_without_singular_points_are_on_the_way(text: str, stop: int) -> None:
     there = kovacic.evaluate(text, stop, x0=1, y0=1, dy0=0, derivative=True, digits=25)

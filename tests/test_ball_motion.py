@@ -93,7 +93,7 @@ def test_the_reference_starts_with_the_rates_that_are_meant():
         assert abs(found["n"][0] - START.n) < 1e-14
 
 
-@pytest.mark.parametrize("R1", [3, "2/3", -3])
+@parametrize("R1", [3, "2/3", -3], ordinary=1)
 @parametrize(
     ("du", "dv", "n"),
     [
@@ -248,7 +248,7 @@ def long_way(motion, sphere, count, rest):
 
 
 @parametrize("name", sorted(BALLS), ordinary=1)
-@pytest.mark.parametrize("R1", [3, "2/3", -3, None])
+@parametrize("R1", [3, "2/3", -3, None], ordinary=2)
 def test_the_closed_form_and_the_energy_hold_along_the_motion(name, R1):
     """omega_3 and n by the theorem, on either sign of l, against the integrated motion, and along the reference."""
     sphere = put(BALLS[name], R1)
@@ -299,7 +299,7 @@ def pendulum(sphere, gap):
     return replace(START, u=2.0, du=-np.sqrt(2 * (V(0.0) - V(2.0)) / K11 * (1 - gap)), dv=0.0, n=0.0)
 
 
-@pytest.mark.parametrize("R1", [3, "2/3"])
+@parametrize("R1", [3, "2/3"], ordinary=1)
 @parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2], ordinary=1)
 def test_near_the_separatrix(R1, gap):
     """The ball just swings back before it stands upright, or just goes over: against Newton and Euler's equations."""
@@ -404,6 +404,7 @@ def test_what_is_refused():
         motion.contact(1e7)
 
 
+@pytest.mark.long
 def test_work_is_bounded(monkeypatch):
     """A fall into a singularity, and one oscillation that takes too long, end with a reason."""
     with pytest.raises(LimitExceeded, match="can't be followed beyond t ="):

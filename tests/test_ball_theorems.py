@@ -155,6 +155,7 @@ def test_both_theorems_for_every_physical_parameter():
         assert statement.case_at({**general, "A1": Fraction(1, 3), "R1": radius}) == 1
 
 
+@pytest.mark.long
 def test_theorem_2_formula_for_all_ratios_and_roots():
     assert satisfies(closed_form(InRoots(k)), InRoots(k), IN_ROOTS)
 

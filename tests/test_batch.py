@@ -187,6 +187,7 @@ def test_answers_validate_against_the_schema(pool: Pool) -> None:
     assert records[-1].label == "undecided"
 
 
+@pytest.mark.long
 def test_published_equations_have_their_answers(pool: Pool) -> None:
     expected = [json.loads(line)["case"] for line in CASES.read_text(encoding="utf-8").splitlines()][:60]
     with CASES.open("rb") as stream:

@@ -433,6 +433,7 @@ def test_floats_come_back() -> None:
     assert str(dsolve("y'' + 0.4*y' + 0.04*y = 0").rhs) == "(C1 + C2*x)*exp(-x/5)"
 
 
+@pytest.mark.long
 def test_long_constants_with_parameters_come_to_an_end() -> None:
     """Determinants that are too long to be factored, and a Wronskian whose terms cancel."""
     g = Symbol("g")
@@ -445,6 +446,7 @@ def test_long_constants_with_parameters_come_to_an_end() -> None:
     assert len(str(found)) < 1500
 
 
+@pytest.mark.long
 def test_numbers_for_integers_are_ones_for_which_the_answer_holds() -> None:
     """At n = 4 the particular solution has a pole; and integrals in integrals have their own variable."""
     even, b = Symbol("n", even=True, positive=True), Symbol("b")

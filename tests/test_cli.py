@@ -384,6 +384,7 @@ def test_hints_of_python_speak_python() -> None:
         kovacic.evaluate("a*x", 1, x0=0, y0=1, dy0=0)
 
 
+@pytest.mark.long
 def test_a_terminal_shows_that_work_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """From the first moment here; it is wiped away before the answer, and what ends at once shows nothing."""
     program = (

@@ -325,6 +325,7 @@ def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kind
         assert abs(mpmath.im(value(point + 0.01) / value(point))) < 1e-30
 
 
+@pytest.mark.long
 def test_the_terms_of_an_elliptic_integral_keep_their_signs_where_the_angle_is_complex() -> None:
     """Left of s = -1, which is x = -1 - sqrt(3): the terms with F, E and the algebraic one have to agree there, too."""
     S = _with_square("x**3 + 1", "x")

@@ -235,6 +235,7 @@ def test_algebraic_points(answers: dict[str, Conditions]) -> None:
             answers["whittaker"].case_at(values)
 
 
+@pytest.mark.long
 def test_a_polynomial_of_degree_two_in_all_its_coefficients() -> None:
     answer = kovacic.conditions("a*x^2 + b*x + c", var="x")
     assert answer.complete is True
@@ -905,6 +906,7 @@ def test_points_of_a_rational_curve() -> None:
     assert answer.check(60)
 
 
+@pytest.mark.long
 def test_each_stratum_is_examined_once() -> None:
     """Three moving simple poles: what lies on a hypersurface before isn't said again."""
     answer = kovacic.conditions("a/(x-p) + b/(x-q) + c/(x-r)", var="x", max_degree=0)

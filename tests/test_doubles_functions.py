@@ -463,6 +463,7 @@ def test_arguments_are_checked(points: Any, words: str) -> None:
         function(np.array(points))
 
 
+@pytest.mark.long
 def test_tables_start_as_evaluate_does() -> None:
     """Algebraic constants, values of parameters, regular singular points, infinity, right-hand sides: known functions."""
     x = np.linspace(1, 9, 41)

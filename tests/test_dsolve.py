@@ -1101,6 +1101,7 @@ def test_integrals_that_stay_are_in_the_variable(right: str) -> None:
     assert all(integral.variables == [sympy.Symbol("x")] for integral in found.atoms(sympy.Integral))
 
 
+@pytest.mark.long
 def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
     """y'' = x tan(x), y(1) = 1, y'(1) = 0, against Taylor's method."""
     found = kovacic.dsolve("y'' = x*tan(x)", ics="y(1)=1, y'(1)=0").rhs
@@ -1151,6 +1152,7 @@ def test_right_hand_sides_beside_functions_of_x(equation: str, integrals: int) -
         assert abs(sympy.N(residual.subs(variable, sympy.Float(point, 40)), 20)) < 1e-12
 
 
+@pytest.mark.long
 def test_quadratics_with_parameters_have_formulas() -> None:
     a, b = sympy.symbols("a b")
     found = dsolve(sympy.Eq(D2, 1 / (x**2 + a * x + b))).rhs
@@ -1165,6 +1167,7 @@ def test_powers_with_symbols_are_combined() -> None:
     assert dsolve(sympy.Eq(D2, x * x**a)).rhs == C1 + C2 * x + x ** (a + 3) / ((a + 2) * (a + 3))
 
 
+@pytest.mark.long
 def test_right_hand_sides_of_textbooks_without_integrals() -> None:
     problems = [
         sympy.Eq(D2 + y(x), cos(2 * x) ** Rational(-3, 2)),
@@ -1176,6 +1179,7 @@ def test_right_hand_sides_of_textbooks_without_integrals() -> None:
     assert not any(dsolve(problem).rhs.has(sympy.Integral) for problem in problems)
 
 
+@pytest.mark.long
 def test_an_integral_is_easier_to_read_than_many_complex_functions() -> None:
     found = dsolve("y'' - y' + exp(2*x)*y = tanh(x)").rhs
     assert found.has(sympy.Integral)

@@ -306,7 +306,7 @@ def test_a_search_that_ran_out_of_time_isnt_remembered() -> None:
 
 
 @parametrize(
-    "S", ["-400*x^2", "-x^4 - 3/(16*x^2)", "-30/(16*x^2) - x^4", "-1 - 2/(7*x^2)", "-9 + 5/x - 1/(4*x^2)"], ordinary=1
+    "S", ["-1 - 2/(7*x^2)", "-x^4 - 3/(16*x^2)", "-30/(16*x^2) - x^4", "-400*x^2", "-9 + 5/x - 1/(4*x^2)"], ordinary=1
 )
 def test_many_points_where_a_series_loses_its_digits_cost_little(S: str) -> None:
     """Between the power series and the asymptotic expansion FLINT's values may be worse at a higher precision."""

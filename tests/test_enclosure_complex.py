@@ -177,6 +177,7 @@ def test_functions_of_real_numbers_refuse_complex_equations() -> None:
             kovacic.tabulate(equation, 0, 1, x0=0, y0=1, dy0=0)
 
 
+@pytest.mark.long
 def test_constants_beside_functions_of_x() -> None:
     found = evaluate("y'' + I*exp(x)*y = 0", 1, x0="1/2", y0=1, dy0=0)
     with flint.ctx.workprec(200):  # J0 and Y0 of 2 sqrt(I) exp(x/2)

@@ -35,6 +35,7 @@ def test_values_on_kept_ways_are_those_of_the_integration(equation: str, x0: Any
         assert pair[0].digits >= 25
 
 
+@pytest.mark.long
 def test_a_side_matters_only_where_a_singular_point_is_passed() -> None:
     start = {"x0": 1, "path": "above", **START}
     equation = "y'' + y/(4*x^2) = exp(x)"

@@ -122,6 +122,7 @@ def test_an_oscillation_that_a_page_cannot_show_is_an_envelope_and_the_legend_sa
     assert 0.9 * periods < count <= 1.01 * periods
 
 
+@pytest.mark.long
 def test_the_legend_says_which_solution_is_drawn() -> None:
     """Values without a place are those at the left end, as in initial value problems; there must be one."""
     waves = "y'' + y'/10 + y = 0"
@@ -160,6 +161,7 @@ def test_a_growing_solution_leaves_the_rest_to_be_seen() -> None:
     assert kovacic.solve("-1").plot(0, 9).axes[0].get_yscale() == "linear"
 
 
+@pytest.mark.long
 def test_the_plot_command_writes_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "curve.png"
     assert run(["plot", "-1/x^2 + 2", "--from", "-1", "--to", "3/2", "--points", "30", "-o", str(target)]) == 0

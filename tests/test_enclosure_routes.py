@@ -303,7 +303,7 @@ GROUPS = {
 }
 
 
-@parametrize("name", sorted(GROUPS), ordinary=1)
+@parametrize("name", sorted(GROUPS), ordinary=0)
 def test_the_monodromy_of_published_equations_agrees_with_their_groups(name: str) -> None:
     solution = kovacic.solve(published_S(GROUPS[name]))
     assert str(solution.group) == name
@@ -320,7 +320,7 @@ FINITE += [claimed(GroupKind.DICYCLIC, n) for n in (2, 3, 6)]
 FINITE += [claimed(kind) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRAL, GroupKind.ICOSAHEDRAL)]
 
 
-@parametrize("name", sorted(GROUPS), ordinary=1)
+@parametrize("name", sorted(GROUPS), ordinary=0)
 def test_a_wrong_finite_group_is_disproved(name: str) -> None:
     S = published_S(GROUPS[name])
     matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S))

@@ -243,6 +243,7 @@ def test_values_at_many_complex_points_are_those_at_each_alone(S: str, x0: Any) 
         assert all(ball.overlaps(other) and ball.digits > 19 for ball, other in zip(found, alone[x], strict=True)), x
 
 
+@pytest.mark.long
 def test_a_thousand_complex_points_take_a_few_dozen_expansions(monkeypatch: pytest.MonkeyPatch) -> None:
     count, expand = [0], transport.expand
 

@@ -260,6 +260,7 @@ def test_five_thousand_digits_of_airy_functions() -> None:
             assert carried(matrix, *start).rel_accuracy_bits() > 3.32 * DIGITS - 8
 
 
+@pytest.mark.long
 def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
     S = ([-5, 0, -36], [0, 0, 36])  # y = sqrt(x) J_(1/3)(x)
     matrix = connection_matrix(S, [1, Fraction(3, 2)], digits=DIGITS)

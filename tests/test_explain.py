@@ -641,6 +641,7 @@ def test_an_explanation_in_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert run(["explain", "x", "-o", str(tmp_path / "b.doc")]) == 2
 
 
+@pytest.mark.long
 def test_the_page_names_its_equation_and_whose_the_solutions_are() -> None:
     """y1 solves the equation that was given, and omega belongs to the normal form: both are said."""
     answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")

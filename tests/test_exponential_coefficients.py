@@ -353,6 +353,7 @@ def test_tables_and_pictures_where_there_are_no_values_are_refused(equation: str
             kovacic.solve(equation).plot(*interval, x0=0)
 
 
+@pytest.mark.long
 def test_a_picture_in_the_users_variable() -> None:
     (arc,) = sample("2*sech(x)^2*(-1) + 1", -3, 4, points=30, **SECH).arcs
     assert (arc.x[0], arc.x[-1]) == (-3, 4)
@@ -369,6 +370,7 @@ def test_json_keeps_the_change_of_variable() -> None:
     assert "t = exp(2*x)" in answer.notices[0]
 
 
+@pytest.mark.long
 def test_json_of_a_sympy_equation_is_read_in_the_users_variable() -> None:
     x, b, theta = sympy.symbols("x b theta")
     y = sympy.Function("y")

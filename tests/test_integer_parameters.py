@@ -64,7 +64,6 @@ FAMILIES = {
 @pytest.mark.parametrize(
     ("name", "largest"),
     [
-        ("associated Legendre", 5),
         ("hydrogen", 2),
         *(pytest.param(name, 5, marks=pytest.mark.long) for name in FAMILIES),
     ],
@@ -82,6 +81,7 @@ def test_no_constant_dies(name: str, largest: int) -> None:
             assert wronskian > 1e-20, numbers
 
 
+@pytest.mark.long
 def test_names_where_they_are_known() -> None:
     equation = Y(X).diff(X, 2) + sympy.cot(X) * Y(X).diff(X)
     integer, natural, _ = _halves(equation + (N * (N + 1) - M**2 / sympy.sin(X) ** 2) * Y(X))

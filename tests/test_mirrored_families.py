@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from build import FunctionField
+from build import FunctionField, parametrize
 
 import kovacic
 from kovacic.parametric.formulas import text_of
@@ -70,12 +70,13 @@ def test_lame_in_n_and_its_accessory_parameter() -> None:
         assert answer.case_at({"n": number, "B": B}) == answer.case_at({"n": -number - 1, "B": B})
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "line"),
     [
         ("a*x^2 + c + l*(l+1)/x^2 + x^6", "l = 0 or -1, and a = +-(2*d + 3), d in N, and Delta_d = 0: case 1"),
         ("l*(l+1)/x^2 + E/x - 1/4 + m/(x-1)", "l = 0 or -1, and m = 0, and 2*E*I is an even integer: case 1"),
     ],
+    ordinary=1,
 )
 def test_regions_that_a_symmetry_exchanges_are_one_line(S: str, line: str) -> None:
     """l (l + 1) is the same for l = 0 and l = -1, and so is what is said of both; nothing else is merged."""

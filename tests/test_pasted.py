@@ -297,6 +297,7 @@ def test_wave_vectors_and_words_are_names() -> None:
         assert name in str(kovacic.dsolve(f"y'' + {name}*y = 0"))
 
 
+@pytest.mark.long
 def test_beside_a_frequency_zeta_is_the_damping_ratio() -> None:
     time, zeta, omega = sympy.symbols("t zeta omega")
     for text in (

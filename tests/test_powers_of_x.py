@@ -85,6 +85,7 @@ def test_values_at_the_origin() -> None:
         assert abs(found.subs(x, Rational(1, 10**6)).evalf(20) - value) < 1e-5
 
 
+@pytest.mark.long
 def test_numbers() -> None:
     """The proven value is that of the formula."""
     formula = kovacic.dsolve("y'' = sqrt(x)*y", ics="y(1)=1, y'(1)=0").rhs.subs(x, 2).evalf(20)
@@ -96,6 +97,7 @@ def test_numbers() -> None:
     assert kovacic.Solution.from_json(answer.to_json()) == answer
 
 
+@pytest.mark.long
 def test_the_degree_of_a_solution_has_the_root_that_is_in_it() -> None:
     """sqrt(a/m^2) is sqrt(a)/m or minus that; for a negative m the degree and the index of the polynomial would differ."""
     answer = kovacic.conditions("y'' = (a*x^(2*m-2) + b*x^(m-2))*y")

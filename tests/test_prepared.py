@@ -108,6 +108,7 @@ def test_arrays_and_complex_points() -> None:
     assert repr(airy) == "<Prepared x0=0, y0=1, dy0=0, 15 digits>"
 
 
+@pytest.mark.long
 def test_a_singular_point_is_no_place_to_go_beyond() -> None:
     """The second question looks farther than its point; what is there isn't its matter."""
     for equation in ("1/(x - 2)^2", "y'' + y/sin(x - 2) = 0"):

@@ -38,6 +38,7 @@ def test_nothing_is_started_without_time(seconds: float) -> None:
     assert last_of(values, "for ever", 1, seconds=seconds) is None
 
 
+@pytest.mark.long
 def test_what_a_process_prints_is_no_answer_and_its_last_words_are_kept() -> None:
     process = Process(talks)
     process.send(2)

@@ -192,6 +192,7 @@ def test_every_parameter_is_described() -> None:
     assert missing == []
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore")
 def test_types_of_answers_show_themselves() -> None:
     """Each has a representation of its own in a line or a few, without addresses."""

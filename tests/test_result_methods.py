@@ -29,6 +29,7 @@ def test_values_of_a_solution_by_its_own_method() -> None:
     assert len(answer.at([2, 3], x0=1, y0=1, dy0=0)) == 2
 
 
+@pytest.mark.long
 def test_a_vectorised_function_and_a_figure() -> None:
     answer = kovacic.solve("x^2 + 3")
     f = answer.lambdify(interval=(1, 3))

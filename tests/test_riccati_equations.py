@@ -155,7 +155,7 @@ WITH_VALUES: list[tuple[Any, Any, Any, Any, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("p", "q", "r", "point", "value"), WITH_VALUES)
+@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=3)
 def test_values_with_symbols(p: Any, q: Any, r: Any, point: Any, value: Any) -> None:
     """No symbol of the question is taken for a constant, and r may be 0 at the point."""
     found = kovacic.dsolve(sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2), w(x), ics={w(point): value}).rhs

@@ -345,7 +345,7 @@ def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) ->
         "x^2*y'' + 2*x*y' + (x^2 - n*(n + 1))*y = 0",
         "y'' + 3*y' - (x/7)*y = 0",
     ],
-    ordinary=3,
+    ordinary=2,
 )
 def test_wronskians(equation: str) -> None:
     """Against derivatives by mpmath; and one minus sign is noticed."""
@@ -517,6 +517,7 @@ def test_other_waves_are_not_mathieus(coefficient: str) -> None:
         kovacic.dsolve(f"y'' + ({coefficient})*y = 0")
 
 
+@pytest.mark.long
 def test_a_long_answer_in_mathieus_functions_has_no_shorter_form() -> None:
     """Formulas of more than a screen are looked for in other functions; these are such functions already."""
     text = "y'' = (2 + cos(x))*y + sin(3*x) + cos(5*x)"

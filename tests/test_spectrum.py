@@ -132,6 +132,7 @@ def test_as_many_levels_as_a_solution_has_zeros(V: str, domain: tuple[object, ob
     assert zeros(lambda z: float(numeric(z)), low, inf, top, 0.1) == number
 
 
+@pytest.mark.long
 def test_values_that_are_refused() -> None:
     with pytest.raises(kovacic.InputError, match="isn't a real number"):
         kovacic.spectrum("a*x^2").states({"a": "I"})
@@ -313,6 +314,7 @@ def test_pi_is_a_number() -> None:
     assert sympy.expand(found.levels[0].energy - (2 * n + 1) * sympy.sqrt(sympy.pi)) == 0
 
 
+@pytest.mark.long
 def test_a_root_that_may_vanish_is_positive() -> None:
     found = kovacic.spectrum("A*x^2 + B/x^2", domain=HALF, boundary="friedrichs")
     assert [*map(str, found.levels[0].conditions)] == ["A > 0", "B >= -1/4"]
@@ -364,7 +366,7 @@ def test_a_box_has_the_levels_of_its_waves() -> None:
     assert half.levels == ()
 
 
-@pytest.mark.parametrize("V", ["(x^8 + a*x^3 + b)/(x^6 + c^2 + 1)", "x^30 + x^2/(x^20 + 1)", "x^2/(x^4 + x^2 + 1) + a"])
+@parametrize("V", ["(x^8 + a*x^3 + b)/(x^6 + c^2 + 1)", "x^30 + x^2/(x^20 + 1)", "x^2/(x^4 + x^2 + 1) + a"], ordinary=2)
 def test_a_denominator_without_real_zeros_is_no_pole(V: str) -> None:
     """Whether its roots are real isn't seen by their radicals."""
     assert "isn't regular" not in kovacic.spectrum(V, max_degree=0).reason
@@ -405,6 +407,7 @@ def test_levels_of_a_periodic_potential_on_a_half_line_are_open() -> None:
     assert "V is periodic" in found.ends[1]
 
 
+@pytest.mark.long
 def test_the_only_name_is_the_variable_where_it_usually_is_one() -> None:
     in_r = kovacic.spectrum("-2/r", domain=HALF, boundary="friedrichs")
     in_x = kovacic.spectrum("-2/x", domain=HALF, boundary="friedrichs")
@@ -428,6 +431,7 @@ def test_hints_speak_the_language_of_the_door(capsys: pytest.CaptureFixture[str]
     assert "hint: --boundary friedrichs chooses it" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
     found = kovacic.spectrum("x^6 - 11*x^2")
     assert found.hint.endswith("a polynomial of degree 4: max_degree=4")
@@ -435,6 +439,7 @@ def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
     assert not kovacic.spectrum("x^4 - x^2").hint
 
 
+@pytest.mark.long
 def test_equal_strengths_are_in_the_same_variable_as_one_function() -> None:
     """1/sin(x)^2 + 1/cos(x)^2 = 4/sin(2 x)^2, with the same levels (1 + sqrt(5) + 2 n)^2."""
     both = kovacic.spectrum("1/sin(x)^2 + 1/cos(x)^2", domain=(0, "pi/2"))
@@ -444,6 +449,7 @@ def test_equal_strengths_are_in_the_same_variable_as_one_function() -> None:
     assert both.levels[0].energy == one.levels[0].energy == (2 * sympy.Symbol("n") + 1 + sympy.sqrt(5)) ** 2
 
 
+@pytest.mark.long
 def test_a_formula_that_holds_for_no_n_is_left_out() -> None:
     """A step, Woods and Saxon's potential on the line, has no bound states."""
     step = kovacic.spectrum("-20/(1 + exp(x))")
@@ -457,7 +463,7 @@ def test_states_are_numbered_by_their_zeros() -> None:
     assert [(state.number, state.energy) for state in states] == [(0, -3), (1, 3), (2, 5), (3, 7)]
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("V", "domain", "energies"),
     [
         ("sqrt(2)*x^2 - sqrt(3)*x", ("-oo", "oo"), "2^(1/4)*(2*n + 1) - 3*sqrt(2)/8"),
@@ -465,6 +471,7 @@ def test_states_are_numbered_by_their_zeros() -> None:
         ("sqrt(7)/x^2 - sqrt(5)/x", (0, "oo"), "-5/(2*n + 1 + sqrt(1 + 4*sqrt(7)))^2"),
         ("sqrt(a)*x^2", ("-oo", "oo"), "sqrt(sqrt(a))*(2*n + 1)"),
     ],
+    ordinary=1,
 )
 def test_answers_are_in_the_roots_of_the_user(V: str, domain: tuple[object, object], energies: str) -> None:
     """Not in a generator of the field of all roots, nor in a letter for one of them."""
@@ -490,6 +497,7 @@ def test_energies_are_written_without_the_imaginary_unit() -> None:
     assert sympy.simplify(levels.energy - printed) == 0
 
 
+@pytest.mark.long
 def test_the_sign_of_a_quotient_is_that_of_its_denominator() -> None:
     """The Coulomb potential without a condition on l: l + n + 1 > 0, not 1/(l + n + 1) > 0."""
     answer = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=(0, "oo"), assume={"Z": "positive"})
@@ -532,7 +540,7 @@ def test_powers_of_numbers_are_exponentials() -> None:
 
 
 @pytest.mark.parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"])
-@pytest.mark.parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))])
+@parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))], ordinary=1)
 def test_two_solutions_at_an_end(nu: str, base: str, domain: tuple[object, object]) -> None:
     """They are sqrt(x) and sqrt(x)*log(x) where the exponents agree, real inside the domain, and solve the equation there."""
     found = kovacic.spectrum(f"(({nu})^2 - 1/4)/{base}^2 + {base}^2", domain=domain, boundary="friedrichs")

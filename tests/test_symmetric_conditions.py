@@ -84,6 +84,7 @@ def test_the_groups_over_the_quotient_split() -> None:
     assert region.group == "the quaternion group"
 
 
+@pytest.mark.long
 def test_the_centre_of_symmetry_is_found() -> None:
     moved = pulled_back(2, "p", "q", "r").replace("x", "(x-3)")
     answer = kovacic.conditions(moved, var="x")

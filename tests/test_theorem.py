@@ -264,6 +264,7 @@ def _order(function: Any) -> int:
     return -(10**6) if above == 0 else int(sympy.degree(above, x) - sympy.degree(below, x))
 
 
+@pytest.mark.long
 def test_polynomials_are_printed_in_factors() -> None:
     """Chandrasekhar's algebraically special frequencies."""
     assert "s = -l*(l - 1)*(l + 1)*(l + 2)/6 or l*(l - 1)*(l + 1)*(l + 2)/6" in str(conditions("black hole"))

@@ -57,6 +57,7 @@ def test_conjugate_omegas(F: RatFunc, w: int) -> None:
         transform.from_conjugate_omegas(first, second + 1)
 
 
+@pytest.mark.long
 @given(omegas, small_functions)
 @settings(max_examples=50)
 def test_pull_back_of_a_solution(omega: RatFunc, f: RatFunc) -> None:
@@ -124,6 +125,7 @@ def test_hypergeometric_has_its_exponent_differences(l: Fraction, m: Fraction, n
     assert (QQ.poly([0, -1, 1]) ** 2).exact_quotient(S.den) is not None
 
 
+@pytest.mark.long
 @given(strategies.moebius_maps(), small_functions)
 def test_schwarzian_vanishes_exactly_for_moebius_maps(m: tuple[int, int, int, int], f: RatFunc) -> None:
     a, b, c, d = m
