@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -52,13 +52,26 @@ def latex_of(said: str) -> str:
     >>> print(latex_of("`E = -n^2 - b^2/(4*n^2)` for an integer `n`"))
     E = -n^{2} - \frac{b^{2}}{4 n^{2}}\text{ for an integer } n
     """
-    return "".join(part.latex if isinstance(part, Math) else rf"\text{{{part}}} " for part in sentence_of(said)).strip()
+    return "".join(map(_latex_of_part, sentence_of(said))).strip()
+
+
+def _latex_of_part(part: str | Math) -> str:
+    if isinstance(part, Math):
+        return part.latex
+    return rf"\text{{{part}}} "
 
 
 def sentence_of(said: str) -> list[str | Math]:
-    """The same as the parts of a sentence, words and formulas."""
-    pieces = enumerate(said.split(_MARK))
-    return [Math(piece, _formula(piece)) if k % 2 else piece for k, piece in pieces if piece]
+    """The same as the parts of a sentence, words and formulas: every other piece is a formula."""
+    found: list[str | Math] = []
+    for k, piece in enumerate(said.split(_MARK)):
+        if not piece:
+            continue
+        if k % 2:
+            found.append(Math(piece, _formula(piece)))
+        else:
+            found.append(piece)
+    return found
 
 
 def _formula(text: str) -> str:
@@ -78,25 +91,35 @@ def shifted(text: str, value: Poly) -> str:
     if not value:
         return text
     amount = shown(over_parameters(value))
-    if not re.fullmatch(r"-?[\w/*^]+(\([\w*^]+\))?", amount):
+    is_one_term = re.fullmatch(r"-?[\w/*^]+(\([\w*^]+\))?", amount)
+    if not is_one_term:
         return f"{text} - ({amount})"
-    return f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
+    if amount.startswith("-"):
+        return f"{text} + {amount[1:]}"
+    return f"{text} - {amount}"
 
 
 def shortest_length(function: FunctionPoly | RatFunc, letter: str = "x") -> int:
     """How many characters the shortest of the usual forms has."""
     above, below, names = _cleared(function, letter)
-    return min(len(_sum(form, names)) for form in _forms(above, below))
+    return len(_shortest(_forms(above, below), names))
 
 
 def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _cleared(function, letter)
     forms = [*_forms(above, below)]
+    shortest = _shortest(forms, names)
+    has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", shortest) is not None
+    if not has_sum_below:
+        return shortest
     in_factors = _sum(forms[-1], names)
-    shortest = min((_sum(form, names) for form in forms), key=len)
-    is_expanded = re.search(r"/\([^()]* [+-] [^()]*\)", shortest) is not None
-    return in_factors if is_expanded and len(in_factors) <= len(shortest) + _FOR_FACTORS else shortest
+    return in_factors if len(in_factors) <= len(shortest) + _FOR_FACTORS else shortest
+
+
+def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> str:
+    """The text of the first of the shortest ones."""
+    return min((_sum(form, names) for form in forms), key=len)
 
 
 def partial_fractions(S: RatFunc, variable: str) -> str:
@@ -106,17 +129,23 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
     for factor, k in S.field.factor(S.den):
         power = factor**k
         above = rest * (S.den // power).inverse_modulo(power) % power
-        digits_from_below = []
-        for _ in range(k):
-            above, digit = divmod(above, factor)
-            digits_from_below.append(digit)
-        for j, digit in enumerate(reversed(digits_from_below), 1):
+        for j, digit in enumerate(_digits_from_above(above, factor, k), 1):
             if digit:
                 terms.append(_in_factors(RatFunc(digit, factor**j), variable))
     return _joined(terms)
 
 
+def _digits_from_above(polynomial: Poly, factor: Poly, count: int) -> list[Poly]:
+    """d_1, ..., d_count with polynomial/factor^count = d_1/factor + d_2/factor^2 + ..."""
+    found = []
+    for _ in range(count):
+        polynomial, digit = divmod(polynomial, factor)
+        found.append(digit)
+    return found[::-1]
+
+
 def _monomial(coefficient: Poly, variable: str, k: int) -> str:
+    """coefficient * variable^k, a fraction below: 2*x/3, and x/3 for a third."""
     text = written(over_parameters(coefficient))
     if k == 0:
         return text
@@ -124,10 +153,12 @@ def _monomial(coefficient: Poly, variable: str, k: int) -> str:
     if text in ("1", "-1"):
         return text[:-1] + power
     number = re.fullmatch(r"(-?)(\d+)/(\d+)", text)
-    if number is not None:
-        sign, above, below = number.groups()
-        return f"{sign}{above}*{power}/{below}" if above != "1" else f"{sign}{power}/{below}"
-    return f"({text})*{power}" if " " in text else f"{text}*{power}"
+    if number is None:
+        return f"({text})*{power}" if " " in text else f"{text}*{power}"
+    sign, above, below = number.groups()
+    if above == "1":
+        return f"{sign}{power}/{below}"
+    return f"{sign}{above}*{power}/{below}"
 
 
 def _in_factors(function: RatFunc, variable: str) -> str:
@@ -138,36 +169,42 @@ def _in_factors(function: RatFunc, variable: str) -> str:
 def equation_written(function: FunctionPoly) -> str:
     """`function = 0`; it is solved where it is linear, or a power is a product of linear factors; two terms have two sides."""
     above, _, names = _cleared(function, "x")
-    terms = above.to_dict()
-    linear = [exponents for exponents in terms if sum(map(int, exponents)) == 1]
-    constants = [exponents for exponents in terms if not any(exponents)]
-    if linear and len(terms) == len(linear) + len(constants):
-        return _solved_for_a_parameter(above, linear, names)
-    if len(terms) > 2:
-        power = _power_in_linear_factors(above)
-        if power is not None:
-            left, value = power
-            return f"{_polynomial(left, names)} = {_sum([value], names)}"
-    negative = {exponents: -int(c) for exponents, c in terms.items() if int(c) < 0}
-    if len(terms) == 2 and len(negative) == 1:
-        right = above.context().from_dict(negative)
+    solved = _solved_for_a_parameter(above)
+    if solved is None:
+        solved = _power_in_linear_factors(above)
+    if solved is not None:
+        return f"{_polynomial(solved.left, names)} = {_shortest(solved.values, names)}"
+    right = _negative_one_of_two(above)
+    if right is not None:
         return f"{_polynomial(above + right, names)} = {_polynomial(right, names)}"
     return f"{_polynomial(above, names)} = 0"
 
 
-def _solved_for_a_parameter(above: Any, linear: Sequence[tuple[int, ...]], names: Sequence[str]) -> str:
-    """A linear equation, solved for the first parameter with the coefficient 1 or -1, or for the first."""
+class _SolvedFor(NamedTuple):
+    """A polynomial vanishes exactly where a power of a parameter, `left`, has a value: `values` are the forms of it."""
+
+    left: Any
+    values: Sequence[Sequence[_FormulaTerm]]
+
+
+def _solved_for_a_parameter(above: Any) -> _SolvedFor | None:
+    """A linear equation, solved for the first parameter with the coefficient 1 or -1, or for the first; None for others."""
     terms = above.to_dict()
+    linear = [exponents for exponents in terms if sum(map(int, exponents)) == 1]
+    constants = [exponents for exponents in terms if not any(exponents)]
+    if not linear or len(terms) > len(linear) + len(constants):
+        return None
     chosen = next((exponents for exponents in linear if abs(int(terms[exponents])) == 1), linear[0])
     coefficient = int(terms[chosen])
     left = above.context().from_dict({chosen: 1})
     values = _forms(left * coefficient - above, above.context().constant(coefficient))
-    right = min((_sum(form, names) for form in values), key=len)
-    return f"{_polynomial(left, names)} = {right}"
+    return _SolvedFor(left, [*values])
 
 
-def _power_in_linear_factors(polynomial: Any) -> tuple[Any, _FormulaTerm] | None:
-    """`(t^k, f)` where the polynomial vanishes exactly where t^k = f, and f is a product of linear forms; None if none is."""
+def _power_in_linear_factors(polynomial: Any) -> _SolvedFor | None:
+    """t^k = f, f a product of linear forms, where there are more than two terms; None where no power is alone."""
+    if len(polynomial) <= 2:
+        return None
     for i, degree in enumerate(map(int, polynomial.degrees())):
         if not degree:
             continue
@@ -176,8 +213,17 @@ def _power_in_linear_factors(polynomial: Any) -> tuple[Any, _FormulaTerm] | None
             continue
         value = _factored(-parts[0], parts[degree])
         if all(factor.total_degree() == 1 for factor, _ in value.top):
-            return polynomial.context().gen(i) ** degree, value
+            return _SolvedFor(polynomial.context().gen(i) ** degree, [[value]])
     return None
+
+
+def _negative_one_of_two(polynomial: Any) -> Any:
+    """Minus the negative one of two terms with different signs; None for any other polynomial."""
+    terms = polynomial.to_dict()
+    negative = {exponents: -int(c) for exponents, c in terms.items() if int(c) < 0}
+    if len(terms) != 2 or len(negative) != 1:
+        return None
+    return polynomial.context().from_dict(negative)
 
 
 def root_written(square: Poly) -> str:
@@ -185,18 +231,30 @@ def root_written(square: Poly) -> str:
     if not square:
         return "0"
     above, below, names = _cleared(over_parameters(square), "x")
-    (number, top, odd), (other, bottom, under) = _without_squares(above), _without_squares(below)
+    top = _without_squares(above)
+    bottom = _without_squares(below)
+    odd = top.odd
+    under = bottom.odd
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
         odd = -odd
         under = -under
-    return _sum([_FormulaTerm(Fraction(number, other), top, bottom, odd, under)], names)
+    number = Fraction(top.number, bottom.number)
+    return _sum([_FormulaTerm(number, top.factors, bottom.factors, root=odd, under=under)], names)
 
 
-def _cleared(function: FunctionPoly | RatFunc, letter: str) -> tuple[Any, Any, tuple[str, ...]]:
-    """Numerator and denominator over Z, and the names of their variables."""
+class _Quotient(NamedTuple):
+    """Numerator and denominator over Z, flint's, and the names of their variables."""
+
+    above: Any
+    below: Any
+    names: tuple[str, ...]
+
+
+def _cleared(function: FunctionPoly | RatFunc, letter: str) -> _Quotient:
+    """A function as such a quotient; the polynomial variable comes first."""
     quotient = function if isinstance(function, RatFunc) else RatFunc(function)
     above, below = map(over_parameters, quotient.cleared())
-    return above.num, below.num, (letter, *above.field.names)
+    return _Quotient(above.num, below.num, (letter, *above.field.names))
 
 
 @dataclass(frozen=True)
@@ -211,38 +269,59 @@ class _FormulaTerm:
 
 
 def _forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
-    """Sums of terms that are equal to the quotient of two polynomials over Z."""
+    """Sums of terms that are equal to the quotient of two polynomials over Z; the last one is in factors, if it isn't 0."""
     whole = [_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]
-    is_number = below.is_constant()
-    most = 2 if is_number else _TERMS
-    apart: list[list[_FormulaTerm]] = []
-    if len(below) == 1 and 1 < len(above) <= most:
-        terms = above.to_dict().items()
-        apart = [[_factored(above.context().from_dict({e: c}), below) for e, c in terms]]
-    yield from [whole, *apart] if is_number else [*apart, whole]
+    apart = _term_by_term(above, below)
+    if below.is_constant():
+        yield whole
+        yield from apart
+    else:
+        yield from apart
+        yield whole
     if not above:
         return
     for i, degree in enumerate(map(int, above.degrees())):
         parts = by_power(above, i)
-        if i and degree and len(parts) == 2:
+        is_parameter = i > 0
+        if is_parameter and degree and len(parts) == 2:
             generator = above.context().gen(i)
             yield [_factored(part * generator**power, below) for power, part in sorted(parts.items())]
     yield [_factored(above, below)]
 
 
+def _term_by_term(above: Any, below: Any) -> list[list[_FormulaTerm]]:
+    """The form in which each of a few terms stands over a monomial; none for other quotients."""
+    most = 2 if below.is_constant() else _TERMS
+    is_short = len(below) == 1 and 1 < len(above) <= most
+    if not is_short:
+        return []
+    terms = above.to_dict().items()
+    return [[_factored(above.context().from_dict({exponents: c}), below) for exponents, c in terms]]
+
+
 def _factored(above: Any, below: Any) -> _FormulaTerm:
     """The quotient of two polynomials, the first one not zero, in irreducible factors."""
     common = above.gcd(below)
-    (number, top), (other, bottom) = factorisation(above // common), factorisation(below // common)
-    return _FormulaTerm(Fraction(number, other), tuple(top), tuple(bottom))
+    number, top = factorisation(above // common)
+    divisor, bottom = factorisation(below // common)
+    return _FormulaTerm(Fraction(number, divisor), tuple(top), tuple(bottom))
 
 
-def _without_squares(polynomial: Any) -> tuple[int, tuple[Power, ...], Any]:
-    """`(a, factors, r)` with polynomial = (a prod factors)^2 r, r squarefree."""
-    content, factors = factorisation(polynomial)
-    number, squarefree = square_part(Fraction(content))
-    odd = prod((factor for factor, k in factors if k % 2), start=polynomial.context().constant(squarefree))
-    return int(number), tuple((factor, k // 2) for factor, k in factors if k > 1), odd
+class _WithoutSquares(NamedTuple):
+    """(number * the product of `factors`)^2 * odd, with a squarefree `odd`."""
+
+    number: int
+    factors: tuple[Power, ...]
+    odd: Any
+
+
+def _without_squares(polynomial: Any) -> _WithoutSquares:
+    content, powers = factorisation(polynomial)
+    number, odd_number = square_part(Fraction(content))
+    odd_factors = [factor for factor, k in powers if k % 2]
+    odd = prod(odd_factors, start=polynomial.context().constant(odd_number))
+    factors = [(factor, k // 2) for factor, k in powers if k > 1]
+    return _WithoutSquares(int(number), tuple(factors), odd)
 
 
 def _sum(terms: Sequence[_FormulaTerm], names: Sequence[str]) -> str:
@@ -276,20 +355,27 @@ def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
 
 def _divisor(factors: list[str]) -> str:
     """A product behind a slash: in parentheses, unless it is a single name, number, power or sum in parentheses."""
-    alone = len(factors) == 1 and ("*" not in factors[0] or factors[0].startswith(("(", "sqrt(")))
-    return factors[0] if alone else f"({'*'.join(factors)})"
+    if len(factors) > 1:
+        return f"({'*'.join(factors)})"
+    (factor,) = factors
+    is_closed = "*" not in factor or factor.startswith(("(", "sqrt("))
+    return factor if is_closed else f"({factor})"
 
 
 def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:
     """The factors of a product, none for 1; sums are in parentheses."""
     pieces = [digits(number)] if number != 1 else []
     for factor, k in factors:
-        if not (factor.is_constant() and factor.is_one()):
+        is_one = factor.is_constant() and factor.is_one()
+        if not is_one:
             pieces.append(_power(_polynomial(factor, names), k))
     if root != 1:
-        inside = _polynomial(root, names)
-        pieces.append("I" if inside == "-1" else f"sqrt({inside})")
+        pieces.append(_square_root(_polynomial(root, names)))
     return pieces
+
+
+def _square_root(text: str) -> str:
+    return "I" if text == "-1" else f"sqrt({text})"
 
 
 def in_product(text: str) -> str:

@@ -30,6 +30,7 @@ from kovacic.limits import Budget, count_work
 from kovacic.parametric import restriction
 from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
+from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
@@ -84,12 +85,15 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
         return Partition(verdict, verdict.known or str(decision.undecided), "the engine")
     if not isinstance(constants, FunctionField):
         # Functions on a hypersurface; see the head of this module for case 1.
-        reducible = verdict.known and verdict.structure is Structure.REDUCIBLE
-        return Partition(verdict, reducible or "for generic values only", "the engine")
+        return Partition(verdict, _is_reducible(verdict) or "for generic values only", "the engine")
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
         return Partition(verdict, as_far_as(limit), "nothing but the generic answer")
+
+
+def _is_reducible(verdict: RegionVerdict) -> bool:
+    return verdict.known and verdict.structure is Structure.REDUCIBLE
 
 
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
@@ -107,7 +111,7 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
 
 def _theorem_for(problem: Problem, expected: RegionVerdict, settings: Settings) -> Theorem | None:
     """One that covers all values of the parameters."""
-    if expected.known and expected.structure is Structure.REDUCIBLE:
+    if _is_reducible(expected):
         name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
         return Theorem(name, restriction.undefined(problem), [ParameterRegion(ALWAYS, expected)])
     return kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
@@ -135,21 +139,29 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     regions = _degenerate(problem.S, found.exceptions, settings)
     regions += _pieces(problem.S, found.special, settings)
     inner = partition(found.simpler, settings)
-    for region in inner.regions:
-        if region.defined:
-            origin = None if region.origin is None else Back(region.origin, found.W, settings.variable)
-            regions.append(replace(region, origin=origin))
+    regions += [_carried_back(region, found, settings.variable) for region in inner.regions if region.defined]
     complete = together(regions) if inner.complete is True else inner.complete
     theory = f"{inner.theory.removesuffix(_TRANSFORMED)}{_TRANSFORMED}"
     return Partition(inner.generic, complete, theory, tuple(regions))
 
 
-def together(regions: Sequence[ParameterRegion]) -> bool | str:
+def _carried_back(region: ParameterRegion, found: Transformation, variable: str) -> ParameterRegion:
+    """A region of the simpler equation, with the solutions of the one that was given."""
+    if region.origin is None:
+        return region
+    return replace(region, origin=Back(region.origin, found.W, variable))
+
+
+def together(regions: Iterable[ParameterRegion]) -> bool | str:
     """True where everything is complete, else the first sentence that says what isn't."""
-    return next((r.complete for r in regions if r.complete is not True), True)
+    for region in regions:
+        if region.complete is not True:
+            return region.complete
+    return True
 
 
 def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
+    """The regions where S changes, those of the candidates, those with a natural number, as far as the limits allow."""
     regions: list[ParameterRegion] = []
     findings = Findings("polynomial conditions")
     complete: bool | str = True
@@ -158,17 +170,26 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
         findings = search(problem)
         half_integers = all_half_integers(problem)
-        if expected.structure is Structure.IMPRIMITIVE:
-            findings.candidates += _discriminants(problem, settings)
-        elif expected.structure not in (None, Structure.REDUCIBLE):
-            findings.unproven.append("smaller groups than the generic one")
+        _add_smaller_groups(findings, problem, expected, settings)
         if findings.unproven:
             complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
         _add_special(regions, findings.candidates, problem, expected, settings)
     except LimitExceeded as limit:
         complete = as_far_as(limit)
     _add_natural(regions, findings, half_integers, expected, settings)
-    return Partition(expected, together(regions) if complete is True else complete, findings.theory, tuple(regions))
+    if complete is True:
+        complete = together(regions)
+    return Partition(expected, complete, findings.theory, tuple(regions))
+
+
+def _add_smaller_groups(findings: Findings, problem: Problem, expected: RegionVerdict, settings: Settings) -> None:
+    """Where an imprimitive group can become reducible; for a primitive one that isn't known."""
+    if expected.structure is None or expected.structure is Structure.REDUCIBLE:
+        return
+    if expected.structure is Structure.IMPRIMITIVE:
+        findings.candidates += _discriminants(problem, settings)
+    else:
+        findings.unproven.append("smaller groups than the generic one")
 
 
 def _add_special(
@@ -193,7 +214,9 @@ def _add_special(
 
 
 def _is_as_expected(region: ParameterRegion, expected: RegionVerdict) -> bool:
-    return region.verdict.known and region.case == expected.case and region.complete is True
+    """Is the same case proven for all of the region?"""
+    is_proven = region.verdict.known and region.complete is True
+    return is_proven and region.case == expected.case
 
 
 def _add_natural(
@@ -204,19 +227,25 @@ def _add_natural(
     settings: Settings,
 ) -> None:
     """The regions with a natural number; those of four half-integers before the first that isn't reducible."""
+    is_without_solution = expected.structure is None
     for statement in findings.natural:
         structure = statement.structure
         is_reducible = structure is Structure.REDUCIBLE
-        if half_integers != NEVER and expected.structure is None and not is_reducible:
+        if is_without_solution and half_integers != NEVER and not is_reducible:
             regions.append(ParameterRegion(half_integers, RegionVerdict(Structure.IMPRIMITIVE)))
             findings.theory += "; half-integers: Treibich & Verdier"
             half_integers = NEVER
-        is_smaller = expected.structure is None or is_reducible
-        if structure is not expected.structure and is_smaller:
-            primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
-            verdict = RegionVerdict(structure, family=primitive)
-            origin = partial(statement.solutions, settings.variable)
-            regions.append(ParameterRegion(statement, verdict, origin=origin))
+        is_smaller = is_without_solution or is_reducible
+        if is_smaller and structure is not expected.structure:
+            regions.append(_with_a_number(statement, settings.variable))
+
+
+def _with_a_number(statement: Natural, variable: str) -> ParameterRegion:
+    """The region of a statement with a natural number; case 3 leaves the group open."""
+    structure = statement.structure
+    family = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
+    origin = partial(statement.solutions, variable)
+    return ParameterRegion(statement, RegionVerdict(structure, family=family), origin=origin)
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
@@ -253,7 +282,10 @@ def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     """The regions that make up the zeros of a polynomial, in their order."""
     settings.budget.check()
     regions = _inside(S, function, settings)
-    return [*_missed(S, function, settings), *regions] if regions[-1].defined else regions
+    is_defined = regions[-1].defined
+    if not is_defined:
+        return regions
+    return [*_missed(S, function, settings), *regions]
 
 
 def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
@@ -262,22 +294,30 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
     """
     regions = list[ParameterRegion]()
-    first = Vanishes(function)
     for other in hypersurface(function).missed:
-        surface = hypersurface(other)
-        second = Vanishes(other)
         try:
-            restricted = surface.restricted(S)
+            restricted = hypersurface(other).restricted(S)
         except ZeroDivisionError:
-            regions.append(ParameterRegion(both(first, second), _UNKNOWN, defined=False))
+            statement = both(Vanishes(function), Vanishes(other))
+            regions.append(ParameterRegion(statement, _UNKNOWN, defined=False))
             continue
-        regions += _also(_missed(S, other, settings), first)
-        rest = surface.at(function)
-        if not isinstance(rest, FunctionPoly):
-            regions += _also(_inside(S, other, settings), first)
-            continue
-        for factor in irreducible_factors(rest):
-            regions += _also(_pieces(restricted, factor, settings.on(surface)), first, second)
+        regions += _also(_missed(S, other, settings), Vanishes(function))
+        regions += _on_both(S, restricted, function, other, settings)
+    return regions
+
+
+def _on_both(
+    S: RatFunc, restricted: RatFunc, function: FunctionPoly, other: FunctionPoly, settings: Settings
+) -> list[ParameterRegion]:
+    """Regions for the zeros of a polynomial among those of another one, on whose hypersurface S is the restricted one."""
+    first = Vanishes(function)
+    surface = hypersurface(other)
+    rest = surface.at(function)
+    if not isinstance(rest, FunctionPoly):
+        return _also(_inside(S, other, settings), first)
+    regions: list[ParameterRegion] = []
+    for factor in irreducible_factors(rest):
+        regions += _also(_pieces(restricted, factor, settings.on(surface)), first, Vanishes(other))
     return regions
 
 
@@ -358,7 +398,12 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
         if isinstance(first, Vanishes) and str(first.function) in elsewhere:
             continue
         if surface.curve:
-            verdict = _without_formulas(region.verdict)
-            region = replace(region, statement=region.statement.rewritten(surface.back), verdict=verdict, origin=None)
+            region = _off_the_curve(region, surface)
         special.append(region)
     return special
+
+
+def _off_the_curve(region: ParameterRegion, surface: Hypersurface) -> ParameterRegion:
+    """The same region without the parameter of the curve."""
+    statement = region.statement.rewritten(surface.back)
+    return replace(region, statement=statement, verdict=_without_formulas(region.verdict), origin=None)

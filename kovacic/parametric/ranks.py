@@ -12,11 +12,11 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from itertools import combinations
+from itertools import chain, combinations
 from math import comb, gcd, lcm
 from operator import mul
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpz_mat, nmod_mat, nmod_poly
 
@@ -70,10 +70,8 @@ def has_kernel(images: Sequence[Poly]) -> bool:
     if width < count:
         return True
     rows = [_integers(image, width) for image in images]
-    entries: list[int] = []
-    for row in rows:
-        entries += [entry % _PRIME for entry in row]
-    if nmod_mat(count, width, entries, _PRIME).rank() == count:
+    residues = [entry % _PRIME for entry in chain.from_iterable(rows)]
+    if nmod_mat(count, width, residues, _PRIME).rank() == count:
         return False
     return bool(fmpz_mat(rows).rank() < count)
 
@@ -107,23 +105,91 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
 
 
 def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> RankConditions:
-    rows, eliminated = without_constant_pivots([*map(_column, images)])
-    rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
-    rank = _generic_rank(rows, field, surface)
-    deficient = eliminated + rank < len(images)
-    if rank == 0:
-        return RankConditions(deficient=deficient)
-    is_square = len(rows) == len(rows[0]) == rank
-    if is_square or (surface is None and len(field.names) == 1):
-        return _common_factors(field, rows, rank, deficient)
-    if rank < len(rows[0]) or comb(len(rows), rank) > _MINORS:
-        common = () if surface else _common_factors(field, rows, rank, deficient).polynomials
-        return RankConditions(common, None, deficient)
-    minors = [_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)]
-    minors = [minor for minor in minors if not minor.is_zero()]
+    """By the gcd of the minors where that says all, or else by all of them, if there aren't too many."""
+    matrix = _Matrix.of(images, field, surface)
+    if matrix.rank == 0:
+        return RankConditions(deficient=matrix.deficient)
+    has_one_parameter = surface is None and len(field.names) == 1
+    if matrix.is_square or has_one_parameter:
+        return matrix.common_factors()
+    if matrix.has_many_minors:
+        polynomials: tuple[FunctionPoly, ...] = ()
+        if surface is None:
+            polynomials = matrix.common_factors().polynomials
+        return RankConditions(polynomials, None, matrix.deficient)
+    minors = matrix.minors()
     if surface is not None:
-        return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
-    return _common_zeros(field, minors, deficient)
+        return RankConditions((), tuple(element(field, minor) for minor in minors), matrix.deficient)
+    return matrix.common_zeros(minors)
+
+
+@dataclass(frozen=True)
+class _Matrix:
+    """Rows over Z[t] without constant pivots, their generic rank, and whether the images they are from are `deficient`."""
+
+    field: FunctionField
+    rows: list[list[Any]]
+    rank: int
+    deficient: bool
+
+    @classmethod
+    def of(cls, images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> _Matrix:
+        """That of the images, each row once."""
+        smaller = without_constant_pivots([*map(_column, images)])
+        different = {tuple(map(str, row)): row for row in map(_normalised, smaller.rows)}
+        rows = [*different.values()]
+        rank = _generic_rank(rows, field, surface)
+        return cls(field, rows, rank, deficient=smaller.eliminated + rank < len(images))
+
+    @property
+    def is_square(self) -> bool:
+        """Is there one minor of the size of the rank?"""
+        return len(self.rows) == len(self.rows[0]) == self.rank
+
+    @property
+    def has_many_minors(self) -> bool:
+        """Are columns to be chosen, too, or more than `_MINORS` choices of rows?"""
+        return self.rank < len(self.rows[0]) or comb(len(self.rows), self.rank) > _MINORS
+
+    def minors(self) -> list[Any]:
+        """Those of the size of the rank that don't vanish, for a rank that is the number of columns."""
+        found = []
+        for chosen in combinations(self.rows, self.rank):
+            minor = _determinant([[*row] for row in chosen])
+            if not minor.is_zero():
+                found.append(minor)
+        return found
+
+    def common_factors(self) -> RankConditions:
+        """The irreducible factors that all minors of the size of the rank have in common."""
+        zero = self.field.context.constant(0)
+        common = zero
+        random = Random(20240229)
+        determinants = 1 if self.is_square else _DETERMINANTS
+        for _ in range(determinants):
+            check_time()
+            determinant = _determinant(_mixed(self.rows, self.rank, random, zero))
+            if determinant.is_constant() and not determinant.is_zero():
+                return RankConditions(deficient=self.deficient)
+            common = common.gcd(determinant)
+        return RankConditions(tuple(irreducible_factors(element(self.field, common))), deficient=self.deficient)
+
+    def common_zeros(self, minors: list[Any]) -> RankConditions:
+        """Common factors, and the system of what is left of the minors, without powers."""
+        common = reduce(lambda a, b: a.gcd(b), minors)
+        factors = tuple(irreducible_factors(element(self.field, common)))
+        products: dict[FunctionPoly, None] = {}
+        for minor in minors:
+            check_time()
+            parts = irreducible_factors(element(self.field, minor // common))
+            if not parts:
+                return RankConditions(factors, deficient=self.deficient)
+            products[reduce(mul, parts)] = None
+        return RankConditions(factors, tuple(sorted(products, key=_length_and_text)), self.deficient)
+
+
+def _length_and_text(function: FunctionPoly) -> tuple[int, str]:
+    return len(function.num), str(function)
 
 
 def _generic_rank(rows: Sequence[Sequence[Any]], field: FunctionField, surface: _Surface | None) -> int:
@@ -131,10 +197,8 @@ def _generic_rank(rows: Sequence[Sequence[Any]], field: FunctionField, surface: 
     if not rows:
         return 0
     p, point = _random_point(field, surface)
-    entries: list[int] = []
-    for row in rows:
-        entries += [int(entry(0, *point)) % p for entry in row]
-    return int(nmod_mat(len(rows), len(rows[0]), entries, p).rank())
+    residues = [int(entry(0, *point)) % p for entry in chain.from_iterable(rows)]
+    return int(nmod_mat(len(rows), len(rows[0]), residues, p).rank())
 
 
 @dataclass(frozen=True)
@@ -184,38 +248,11 @@ def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, 
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _common_factors(field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool) -> RankConditions:
-    """The irreducible factors that all minors of the size of the rank have in common."""
-    single = len(rows) == len(rows[0]) == rank
-    zero = common = field.context.constant(0)
-    random = Random(20240229)
-    for _ in range(1 if single else _DETERMINANTS):
-        check_time()
-        determinant = _determinant(_mixed(rows, rank, random, zero))
-        if determinant.is_constant() and not determinant.is_zero():
-            return RankConditions(deficient=deficient)
-        common = common.gcd(determinant)
-    return RankConditions(tuple(irreducible_factors(element(field, common))), deficient=deficient)
-
-
-def _common_zeros(field: FunctionField, minors: list[Any], deficient: bool) -> RankConditions:
-    """Common factors, and the system of what is left of the minors."""
-    common = reduce(lambda a, b: a.gcd(b), minors)
-    factors = tuple(irreducible_factors(element(field, common)))
-    rest = []
-    for minor in minors:
-        check_time()
-        rest.append(irreducible_factors(element(field, minor // common)))
-    if [] in rest:
-        return RankConditions(factors, deficient=deficient)
-    products = dict.fromkeys(reduce(mul, parts) for parts in rest)
-    return RankConditions(factors, tuple(sorted(products, key=lambda f: (len(f.num), str(f)))), deficient)
-
-
 def _normalised(row: list[Any]) -> list[Any]:
     """The multiple by a number with coprime coefficients, the leading one positive."""
     reduced = _primitive(dict(enumerate(row)))
-    sign = 1 if int(next(e for e in row if e).leading_coefficient()) > 0 else -1
+    first = next(entry for entry in row if entry)
+    sign = 1 if int(first.leading_coefficient()) > 0 else -1
     return [sign * entry for entry in reduced.values()]
 
 
@@ -225,7 +262,14 @@ def _column(image: Poly) -> dict[int, Any]:
     return by_power(over_parameters(image).num, 0)
 
 
-def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:
+class WithoutPivots(NamedTuple):
+    """A matrix whose rank is smaller than that of another one, by the number of rows that were `eliminated`."""
+
+    rows: list[list[Any]]
+    eliminated: int
+
+
+def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
     """A smaller matrix, without zero rows and columns, and by how much its rank is smaller.
 
     The columns are given by their entries.  A constant entry clears its column, and its row and column are left out then;
@@ -233,18 +277,23 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[An
     so that this is the elimination of its coefficients by their recurrence.
     """
     rows = _rows_of(columns)
-    rank = 0
+    eliminated = 0
     pivot = _constant_entry(rows)
     while pivot is not None:
-        i, k = pivot
-        chosen = rows.pop(i)
-        rows = [_cleared(row, k, chosen) if k in row else row for row in rows]
-        rank += 1
+        chosen = rows.pop(pivot.row)
+        rows = _with_cleared_column(rows, pivot.column, chosen)
+        eliminated += 1
         pivot = _constant_entry(rows)
-    rows = [row for row in rows if row]
-    left = sorted(set().union(*rows))
-    zero = 0 * next(iter(rows[0].values())) if rows else 0
-    return [[row.get(k, zero) for k in left] for row in rows], rank
+    return WithoutPivots(_dense([row for row in rows if row]), eliminated)
+
+
+def _dense(rows: Sequence[dict[int, Any]]) -> list[list[Any]]:
+    """The rows with zeros, in the columns that occur."""
+    if not rows:
+        return []
+    columns = sorted(set().union(*rows))
+    zero = 0 * next(iter(rows[0].values()))
+    return [[row.get(k, zero) for k in columns] for row in rows]
 
 
 def _rows_of(columns: Sequence[dict[int, Any]]) -> list[dict[int, Any]]:
@@ -258,20 +307,38 @@ def _rows_of(columns: Sequence[dict[int, Any]]) -> list[dict[int, Any]]:
     return [rows[i] for i in sorted(rows)]
 
 
-def _constant_entry(rows: Sequence[dict[int, Any]]) -> tuple[int, int] | None:
-    """Row and column of the constant entry with the fewest others in its row times those in its column; None without any."""
+class _Pivot(NamedTuple):
+    """A constant entry; those with the smallest `cost` come first."""
+
+    cost: int
+    row: int
+    column: int
+
+
+def _constant_entry(rows: Sequence[dict[int, Any]]) -> _Pivot | None:
+    """The constant entry with the fewest others in its row times those in its column; None without any."""
     weights: Counter[int] = Counter()
     for row in rows:
         weights.update(row.keys())
-    best: tuple[int, int, int] | None = None
+    best: _Pivot | None = None
     for i, row in enumerate(rows):
         for k, entry in row.items():
             if not entry.is_constant():
                 continue
-            place = (len(row) * weights[k], i, k)
-            if best is None or place < best:
-                best = place
-    return None if best is None else best[1:]
+            pivot = _Pivot(len(row) * weights[k], i, k)
+            if best is None or pivot < best:
+                best = pivot
+    return best
+
+
+def _with_cleared_column(rows: Sequence[dict[int, Any]], k: int, chosen: dict[int, Any]) -> list[dict[int, Any]]:
+    """The rows, with a multiple of the chosen one subtracted where there is an entry in column k."""
+    found = []
+    for row in rows:
+        if k in row:
+            row = _cleared(row, k, chosen)
+        found.append(row)
+    return found
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
@@ -293,8 +360,12 @@ def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, A
 
 def _primitive(row: dict[int, Any]) -> dict[int, Any]:
     """A multiple with coprime coefficients: otherwise pivots would grow exponentially."""
-    content = gcd(*(int(c) for entry in row.values() for c in entry.coeffs()))
-    return {j: entry // content for j, entry in row.items()} if content > 1 else row
+    content = 0
+    for entry in row.values():
+        content = gcd(content, *map(int, entry.coeffs()))
+    if content <= 1:
+        return row
+    return {j: entry // content for j, entry in row.items()}
 
 
 def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[list[Any]]:
@@ -322,10 +393,18 @@ def _determinant(rows: list[list[Any]]) -> Any:
         if pivot is None:
             return rows[k][k]
         rows[k], rows[pivot] = rows[pivot], rows[k]
-        for i in range(k + 1, n):
-            for j in range(k + 1, n):
-                check_time()
-                value = _product(rows[k][k], rows[i][j]) - _product(rows[i][k], rows[k][j])
-                rows[i][j] = value // previous if k else value
+        _eliminate_below(rows, k, previous)
         previous = rows[k][k]
     return rows[-1][-1]
+
+
+def _eliminate_below(rows: list[list[Any]], k: int, previous: Any) -> None:
+    """Minors with the pivot rows[k][k] in the place of the entries below, divided by the last pivot, None at first."""
+    n = len(rows)
+    for i in range(k + 1, n):
+        for j in range(k + 1, n):
+            check_time()
+            minor = _product(rows[k][k], rows[i][j]) - _product(rows[i][k], rows[k][j])
+            if previous is not None:
+                minor = minor // previous
+            rows[i][j] = minor

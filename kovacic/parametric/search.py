@@ -12,7 +12,7 @@ exactly when.  Cases 2 and 3 are treated in the same way through the invariants 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
@@ -41,6 +41,8 @@ _SERIES = 8
 _HEUN = 4
 #: A rational form of this degree has a linear factor with a rational omega; one of degree 4 is that of case 2, maybe.
 _SHOWS_CASE_1 = 2
+#: Degrees of invariants, each with the structures of the groups that it is examined for.
+Degrees = dict[int, list[Structure]]
 
 
 @dataclass
@@ -62,65 +64,101 @@ class Findings:
             return False
         for function in found.system:
             factors = irreducible_factors(function)
-            if all(map(_is_eliminated, factors)):
+            if _are_eliminated(factors):
                 self.candidates += factors
                 return True
         return not found.system
 
 
+def _are_eliminated(functions: Iterable[FunctionPoly]) -> bool:
+    """Does the vanishing of each leave rational functions of fewer parameters, so that everything on it is found?"""
+    return all(map(_is_eliminated, functions))
+
+
 def _is_eliminated(function: FunctionPoly) -> bool:
-    """Does its vanishing leave rational functions of fewer parameters, so that everything on it is found?"""
-    return isinstance(hypersurface(function).field, FunctionField) or sum(map(bool, degrees(function))) == 1
+    if isinstance(hypersurface(function).field, FunctionField):
+        return True
+    return sum(map(bool, degrees(function))) == 1  # numbers, where one parameter occurs
 
 
 def search(problem: Problem) -> Findings:
-    """Candidates for the special values of the parameters."""
-    degrees = _degrees_that_decide(problem)
-    findings = Findings("exponents that don't depend on the parameters: invariants of bounded degree")
-    if degrees is None:
+    """Candidates for the special values of the parameters.
+
+    The exponents say which degrees of invariants are examined; a logarithm leaves fewer of them, and each one gives equations
+    for the number of its zeros, from which the statements are made.
+    """
+    wanted = _degrees_that_decide(problem)
+    if wanted is not None:
+        findings = Findings("exponents that don't depend on the parameters: invariants of bounded degree")
+    else:
         findings = Findings("the exponents, and polynomials of bounded or natural degree")
-        _reducible(problem, findings)
-        degrees = _degrees_that_are_possible(problem)
-    without_logarithm = _where_a_logarithm_vanishes(problem) if degrees else None
-    if without_logarithm is not None:
-        findings.candidates += without_logarithm
-        degrees = {m: [Structure.REDUCIBLE] for m, possible in degrees.items() if Structure.REDUCIBLE in possible}
-    by_degree: dict[int, tuple[FunctionPoly, ...] | None] = {}
-    for m, possible in degrees.items():
-        factors = _forms(problem, m, findings)
-        if factors == ():
-            continue
-        if _has_conjugate_exponents(problem):
-            findings.unproven.append(f"case {possible[0].case}")
-        else:
-            by_degree[m] = factors
-    if any(m > _SHOWS_CASE_1 and Structure.REDUCIBLE in degrees[m] for m in by_degree):
-        _reducible(problem, findings)
+        _add_reducible(problem, findings)
+        wanted = _degrees_that_are_possible(problem)
+    if wanted:
+        wanted = _beside_logarithms(problem, wanted, findings)
+    equations = _equations_by_degree(problem, wanted, findings)
+    if any(_hides_case_1(m, wanted) for m in equations):
+        _add_reducible(problem, findings)
     for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
-        for m, factors in by_degree.items():
-            is_shown = structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
-            if is_shown and structure in degrees[m]:
+        for m, factors in equations.items():
+            if _shows(m, structure, wanted):
                 findings.natural.append(Natural(problem.S, m, factors, structure))
     return findings
 
 
-def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
+def _shows(m: int, structure: Structure, wanted: Degrees) -> bool:
+    """Does an invariant of degree m say that the group has this structure?"""
+    if structure not in wanted[m]:
+        return False
+    return structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
+
+
+def _hides_case_1(m: int, wanted: Degrees) -> bool:
+    """Has a reducible group an invariant of degree m, which doesn't show that it is one?"""
+    return Structure.REDUCIBLE in wanted[m] and not _shows(m, Structure.REDUCIBLE, wanted)
+
+
+def _beside_logarithms(problem: Problem, wanted: Degrees, findings: Findings) -> Degrees:
+    """The degrees that are left where there is a logarithm; the values at which there is none become candidates."""
+    candidates = _where_a_logarithm_vanishes(problem)
+    if candidates is None:
+        return wanted
+    findings.candidates += candidates
+    return {m: [Structure.REDUCIBLE] for m, structures in wanted.items() if Structure.REDUCIBLE in structures}
+
+
+def _equations_by_degree(
+    problem: Problem, wanted: Degrees, findings: Findings
+) -> dict[int, tuple[FunctionPoly, ...] | None]:
+    """What `_equations_for_zeros` gives for each degree where there is anything to say."""
+    found: dict[int, tuple[FunctionPoly, ...] | None] = {}
+    for m, structures in wanted.items():
+        factors = _equations_for_zeros(problem, m, findings)
+        if factors == ():
+            continue
+        if _has_conjugate_exponents(problem):
+            findings.unproven.append(f"case {structures[0].case}")
+        else:
+            found[m] = factors
+    return found
+
+
+def _degrees_that_decide(problem: Problem) -> Degrees | None:
     """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
 
     2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
     solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None where an
     exponent difference isn't a rational number.
     """
-    singular = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
-    differences = [place.delta for place in singular if place.delta is not None]
-    if len(differences) < len(singular):
+    differences = _rational_differences(problem)
+    if differences is None:
         return None
-    found: dict[int, list[Structure]] = {}
+    found: Degrees = {}
     is_ramified = _is_ramified(problem)
     if not is_ramified:
         q = lcm(*(((1 + difference) / 2).denominator for difference in differences))
-        for m in {2, q}:
-            found[m] = [Structure.REDUCIBLE]
+        found[2] = [Structure.REDUCIBLE]
+        found[q] = [Structure.REDUCIBLE]
     if not _has_logarithms(problem):
         if _has_two_branch_points(problem):
             found.setdefault(4, []).append(Structure.IMPRIMITIVE)
@@ -129,9 +167,28 @@ def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
     return dict(sorted(found.items()))
 
 
+def _rational_differences(problem: Problem) -> list[Fraction] | None:
+    """The exponent differences at the places that have some; None where one of them isn't a rational number."""
+    found = []
+    for place in problem.places:
+        if place.kind not in (Kind.REGULAR, Kind.UNRAMIFIED):
+            continue
+        if place.delta is None:
+            return None
+        found.append(place.delta)
+    return found
+
+
 def _has_logarithms(problem: Problem) -> bool:
-    """Is there a simple pole, or a double exponent?  The logarithm, for all values, leaves only case 1 or none."""
-    return any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places)
+    """Is there a logarithm for all values?  It leaves only case 1 or none."""
+    return any(map(_has_logarithm, problem.places))
+
+
+def _has_logarithm(place: Place) -> bool:
+    """Is it a simple pole, or has it a double exponent?"""
+    if place.order == 1:
+        return True
+    return place.order == 2 and place.delta == 0
 
 
 def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
@@ -144,7 +201,7 @@ def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
         obstruction = _obstruction(place)
         if obstruction:
             factors = irreducible_factors(over_parameters(obstruction))
-            if all(map(_is_eliminated, factors)):
+            if _are_eliminated(factors):
                 return factors
     return None
 
@@ -154,27 +211,48 @@ def _obstruction(place: Place) -> Poly | None:
 
     c_n are the coefficients of the solution with the smaller exponent.  None where Delta isn't a small positive integer.
     """
-    delta = place.delta
-    if place.order != 2 or place.degree > 1 or delta is None or delta.denominator > 1 or not 0 < delta <= _SERIES:
+    delta = _small_integer_difference(place)
+    if delta is None:
         return None
+    s = _laurent_coefficients(place, delta)
+    c = [place.factor.field.poly([1])]
+    for n in range(1, delta):
+        c.append(_right_side(s, c, n) / (n * (n - delta)))
+    return _right_side(s, c, delta)
+
+
+def _small_integer_difference(place: Place) -> int | None:
+    """The exponent difference at a rational pole of order 2, where it is an integer from 1 to `_SERIES`."""
+    delta = place.delta
+    if place.order != 2 or place.degree > 1 or delta is None:
+        return None
+    is_small = delta.denominator == 1 and 0 < delta <= _SERIES
+    return delta.numerator if is_small else None
+
+
+def _laurent_coefficients(place: Place, last: int) -> list[Poly]:
+    """s_0, ..., s_last of S = s_0/t^2 + s_1/t + ..., t = x - c, by long division from below: den = den_2 t^2 + ..."""
     field = place.factor.field
-    last = delta.numerator
-    t = field.poly([0, 1])
-    num, den = (part(t - place.factor[0]) for part in (place.num, place.den))
+    x = field.poly([0, 1]) - place.factor[0]
+    num = place.num(x)
+    den = place.den(x)
     s: list[Poly] = []
     for k in range(last + 1):
-        s.append((num[k] - sum((den[2 + j] * s[k - j] for j in range(1, k + 1)), field.poly([]))) / den[2])
-    c = [field.poly([1])]
-    for n in range(1, last + 1):
-        check_time()
-        value = sum((s[k] * c[n - k] for k in range(1, n + 1)), field.poly([]))
-        c.append(value / (n * (n - last)) if n < last else value)
-    return c[last]
+        known = [den[2 + j] * s[k - j] for j in range(1, k + 1)]
+        s.append((num[k] - sum(known, field.poly([]))) / den[2])
+    return s
 
 
-def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
+def _right_side(s: Sequence[Poly], c: Sequence[Poly], n: int) -> Poly:
+    """s_1 c_(n-1) + ... + s_n c_0."""
+    check_time()
+    terms = [s[k] * c[n - k] for k in range(1, n + 1)]
+    return sum(terms, 0 * c[0])
+
+
+def _degrees_that_are_possible(problem: Problem) -> Degrees:
     """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
-    found: dict[int, list[Structure]] = {}
+    found: Degrees = {}
     if _has_logarithms(problem):
         return found
     if _has_two_branch_points(problem):
@@ -198,7 +276,9 @@ def _may_be_branch_point(place: Place) -> bool:
     """Can it be one of case 2: is the exponent difference a half-integer, or not known?"""
     if place.kind is Kind.RAMIFIED:
         return True
-    return place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2)
+    if place.kind is not Kind.REGULAR:
+        return False
+    return place.delta is None or place.delta.denominator == 2
 
 
 def _signed_sums(squares: Sequence[Poly], constant: Fraction, field: Field) -> Poly:
@@ -216,7 +296,9 @@ def degree_equation(problem: Problem) -> Poly | None:
 
     None where a solution has no rational omega, or the exponents at conjugate points differ.
     """
-    numbers = None if _is_ramified(problem) else degrees_of_solutions(problem)
+    if _is_ramified(problem):
+        return None
+    numbers = degrees_of_solutions(problem)
     if numbers is None:
         return None
     return _signed_sums([square for square, _ in numbers.roots], numbers.constant, problem.field)
@@ -226,7 +308,8 @@ def _is_ramified(problem: Problem) -> bool:
     return any(place.kind is Kind.RAMIFIED for place in problem.places)
 
 
-def _reducible(problem: Problem, findings: Findings) -> None:
+def _add_reducible(problem: Problem, findings: Findings) -> None:
+    """Where there is a solution with a rational omega: candidates for each degree of P that is a number, else a statement."""
     if _is_ramified(problem) or _is_excluded_by_symmetry(problem):
         return
     equation = degree_equation(problem)
@@ -243,7 +326,7 @@ def _reducible(problem: Problem, findings: Findings) -> None:
 
 def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
     """Is the degree a number, for which the candidates are all that is special?  They are added in any case."""
-    root = problem.field.rational_value(-factor[0]) if factor.degree == 1 else None
+    root = _number_root(factor)
     if root is None:
         return False
     found = with_degree(problem, int(root))
@@ -251,6 +334,11 @@ def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
         return False
     complete = [findings.add(conditions) for _, conditions in found]
     return all(complete)
+
+
+def _number_root(factor: Poly) -> Fraction | None:
+    """The root of a polynomial over Q(t) of degree 1, where it is a number."""
+    return factor.field.rational_value(-factor[0]) if factor.degree == 1 else None
 
 
 def all_half_integers(problem: Problem) -> Statement:
@@ -266,15 +354,21 @@ def all_half_integers(problem: Problem) -> Statement:
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
-        if place.delta_squared is None or place.delta_squared.degree > 0:
-            return NEVER
-        equation = over_parameters(problem.field.poly([-4 * place.delta_squared, 0, 1]))
-        statement = integer_roots(equation, [1], 2)
+        statement = _half_integer_difference(place)
         if statement == NEVER:
             return NEVER
         if statement != ALWAYS and statement not in found:
             found.append(statement)
     return found[0] if len(found) == 1 else both(*found)
+
+
+def _half_integer_difference(place: Place) -> Statement:
+    """That Delta is half an odd integer N: (2 Delta)^2 = N^2."""
+    square = place.delta_squared
+    if square is None or square.degree > 0:
+        return NEVER
+    equation = square.field.poly([-4 * square, 0, 1])
+    return integer_roots(over_parameters(equation), [1], 2)
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:
@@ -284,25 +378,40 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
     have the other sign, so that this is another solution, and the same sign at the other one.  The Wronskian of the two
     solutions y1, y2 is y1 y2 times a rational function, a constant; but y1 y2 has an essential singularity at the other point.
     """
-    S = problem.S
-    field = problem.field
-    points = S.den if S.den.degree else S.num
-    if points.degree < 1:
-        return False
-    center = -points[points.degree - 1] / (points.lc * points.degree)
-    if S(2 * center - field.poly([0, 1])) != S:
+    center = _center_of_symmetry(problem)
+    if center is None:
         return False
     changes = set()
     for place in problem.places:
-        is_fixed = place.at_infinity or (place.degree == 1 and place.factor[0] == -center)
-        if is_fixed and place.kind is Kind.UNRAMIFIED:
+        if place.kind is Kind.UNRAMIFIED and _is_fixed(place, center):
             # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
             changes.add(place.order // 2 % 2 == 0)
     return len(changes) == 2
 
 
-def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
-    """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents."""
+def _center_of_symmetry(problem: Problem) -> Poly | None:
+    """c with S(2c - x) = S(x), the mean of the poles, or of the zeros of a polynomial; None where there is none."""
+    S = problem.S
+    points = S.den if S.den.degree else S.num
+    if points.degree < 1:
+        return None
+    center = -points[points.degree - 1] / (points.lc * points.degree)
+    mirrored = S(2 * center - problem.field.poly([0, 1]))
+    return center if mirrored == S else None
+
+
+def _is_fixed(place: Place, center: Poly) -> bool:
+    """Is it a fixed point of x -> 2c - x?"""
+    if place.at_infinity:
+        return True
+    return place.degree == 1 and place.factor[0] == -center
+
+
+def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
+    """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents.
+
+    The constant number is left out where the candidates that are added for it are all that is special.
+    """
     complete = findings.add(form_conditions(problem, m))
     numbers = zeros_of_forms(problem, m)
     if numbers is None:
@@ -310,7 +419,9 @@ def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, 
     largest = [largest for _, largest in numbers.roots]
     if prod(k + 1 for k in largest) > _COMBINATIONS:
         return None
-    factors = [] if complete else [over_parameters(problem.field.poly([-numbers.constant, 1]))]
+    factors: list[FunctionPoly] = []
+    if not complete:
+        factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
     for multiples in product(*(range(k + 1) for k in largest)):
         if any(multiples):
             factors += _numbers_of_zeros(multiples, numbers, problem.field)
@@ -331,10 +442,7 @@ def _numbers_of_zeros(multiples: Sequence[int], numbers: Numbers, field: Field) 
 
 def _may_be_natural(factor: Poly) -> bool:
     """Can an irreducible polynomial over Q(t) have a natural root for some values of the parameters?"""
-    values = [factor.field.rational_value(c) for c in factor]
-    if None in values:
+    if any(factor.field.rational_value(c) is None for c in factor):
         return True
-    if factor.degree != 1 or values[0] is None:
-        return False
-    root = -values[0]
-    return root.denominator == 1 and root >= 0
+    root = _number_root(factor)
+    return root is not None and root.denominator == 1 and root >= 0
