@@ -71,7 +71,7 @@ class Bound:
 
 
 @lru_cache(maxsize=256)
-def _end(text: str) -> Any:
+def _real_number(text: str) -> Any:
     """A ball with the real number that a text denotes.  Raises `InputError` for any other text."""
     number = read_input(text, var="x_").S
     is_constant = number.num.degree <= 0 and number.den.degree <= 0
@@ -87,19 +87,36 @@ def _matches(pattern: re.Pattern[str], words: Iterable[str]) -> list[re.Match[st
     return [match for match in map(pattern.fullmatch, words) if match is not None]
 
 
-def _ends(words: Iterable[str]) -> list[tuple[int, Any]]:
-    """The direction of each bound that isn't rational, and a ball with its end."""
-    return [(1 if ">" in match[1] else -1, _end(match[2])) for match in _matches(_ALGEBRAIC, words)]
+@dataclass(frozen=True)
+class _End:
+    """A bound, rational or not: the numbers lie on this side, 1 above and -1 below, of a real number, a ball."""
+
+    sign: int
+    ball: Any
+
+    def excludes(self, value: Any) -> bool:
+        """Does a ball provably lie on the wrong side?"""
+        with ctx.workprec(_PRECISION):
+            return bool((value - self.ball) * self.sign < 0)
+
+    def rational_bound(self) -> Bound:
+        """A weaker bound that is rational."""
+        with ctx.workprec(_PRECISION):
+            scaled = self.ball * 2**_BITS
+            steps = scaled.floor() if self.sign > 0 else scaled.ceil()
+            whole = (steps - self.sign).unique_fmpz()
+        if whole is None:
+            raise InputError("a bound is too large to be compared with")
+        return Bound(self.sign, Fraction(int(whole), 2**_BITS), strict=True)
 
 
-def _beyond(sign: int, end: Any) -> Fraction:
-    """A rational number from which on all numbers are admitted that lie on this side of the end."""
-    with ctx.workprec(_PRECISION):
-        steps = (end * 2**_BITS).floor() if sign > 0 else (end * 2**_BITS).ceil()
-        whole = (steps - sign).unique_fmpz()
-    if whole is None:
-        raise InputError("a bound is too large to be compared with")
-    return Fraction(int(whole), 2**_BITS)
+def _ends(words: Iterable[str]) -> list[_End]:
+    """The bounds among the words that aren't rational."""
+    return [_End(_direction(match[1]), _real_number(match[2])) for match in _matches(_ALGEBRAIC, words)]
+
+
+def _direction(relation: str) -> int:
+    return 1 if ">" in relation else -1
 
 
 _NO_BOUND = Bound(1, Fraction(0), False)
@@ -114,11 +131,15 @@ class Known:
     @property
     def coset(self) -> Coset | None:
         """The smallest known class that contains it."""
-        found = [_COSETS[word] for word in self.words if word in _COSETS]
-        return max(found, key=lambda coset: coset.step, default=None)
+        return max(self._cosets, key=lambda coset: coset.step, default=None)
+
+    @property
+    def _cosets(self) -> list[Coset]:
+        return [_COSETS[word] for word in self.words if word in _COSETS]
 
     @property
     def rational(self) -> bool | None:
+        """Is it known to be rational, True, or irrational, False?"""
         if self.coset or "rational" in self.words:
             return True
         return False if "irrational" in self.words else None
@@ -126,7 +147,9 @@ class Known:
     @property
     def concerns_exponents(self) -> bool:
         """Is anything known beside signs?"""
-        return self.coset is not None or self.rational is False or "noninteger" in self.words
+        if self.coset is not None or self.rational is False:
+            return True
+        return "noninteger" in self.words
 
     @property
     def bounds(self) -> list[Bound]:
@@ -144,10 +167,9 @@ class Known:
         """What each word says; for one that isn't rational, a weaker one."""
         inequalities = [_INEQUALITIES.get(word, word) for word in self.words]
         for match in _matches(_BOUND, inequalities):
-            sign = 1 if ">" in match[1] else -1
-            yield Bound(sign, Fraction(match[2]), strict="=" not in match[1])
-        for sign, end in _ends(self.words):
-            yield Bound(sign, _beyond(sign, end), strict=True)
+            yield Bound(_direction(match[1]), Fraction(match[2]), strict="=" not in match[1])
+        for end in _ends(self.words):
+            yield end.rational_bound()
 
     @property
     def nonzero(self) -> bool:
@@ -157,22 +179,25 @@ class Known:
         """May the parameter have this value?  An algebraic number of which any conjugate may be meant has no sign."""
         number = value.field.rational_value(value)
         if number is not None:
-            return self._admits(number) and (bool(number) or not self.nonzero)
+            is_forbidden_zero = not number and self.nonzero
+            return self._admits(number) and not is_forbidden_zero
         if self.rational is True:
             return False
-        if not self.bounds or getattr(value.field, "approximation", None) is None:
+        has_sign = getattr(value.field, "approximation", None) is not None
+        if not self.bounds or not has_sign:
             return True
         ball = enclosure(value)
         if not ball.imag.contains(0):
             return False
-        ends = [(bound.sign, _ball(bound.end)) for bound in self.bounds]
+        ends = [_End(bound.sign, _ball(bound.end)) for bound in self.bounds]
         ends += _ends(self.words)
-        return not any(_is_beyond(sign, ball.real, end) for sign, end in ends)
+        return not any(end.excludes(ball.real) for end in ends)
 
     def _admits(self, number: Fraction) -> bool:
-        if not all(_COSETS[word].contains(number) for word in self.words if word in _COSETS):
-            return False
+        """May it be this number, 0 apart?"""
         if self.rational is False:
+            return False
+        if not all(coset.contains(number) for coset in self._cosets):
             return False
         if "noninteger" in self.words and number.denominator == 1:
             return False
@@ -180,9 +205,8 @@ class Known:
         if number in excluded:
             return False
         ball = _ball(number)
-        for sign, end in _ends(self.words):
-            if _is_beyond(sign, ball, end):
-                return False
+        if any(end.excludes(ball) for end in _ends(self.words)):
+            return False
         return all(bound.admits(number) for bound in self.bounds)
 
     def sample(self, random: Random) -> Fraction:
@@ -206,12 +230,6 @@ def _among(bound: Bound, coset: Coset) -> Bound:
 def _ball(number: Fraction) -> Any:
     with ctx.workprec(_PRECISION):
         return arb(fmpq(number.numerator, number.denominator))
-
-
-def _is_beyond(sign: int, value: Any, end: Any) -> bool:
-    """Does a value provably lie on the wrong side of the end?"""
-    with ctx.workprec(_PRECISION):
-        return bool((value - end) * sign < 0)
 
 
 def _is_relation(word: str) -> bool:
@@ -258,9 +276,9 @@ class Assumptions:
         parts = []
         for name, known in self.known:
             words = [word for word in known.words if not _is_relation(word)]
+            relations = [word for word in known.words if _is_relation(word)]
             if words:
                 parts.append(f"{name} {' '.join(words)}")
-            relations = [word for word in known.words if _is_relation(word)]
             parts += [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in relations]
         return ", ".join(parts)
 
@@ -281,23 +299,23 @@ class Assumptions:
         """Is the value of a form rational and in one of the classes: True (always), False (never) or None?"""
         value = self._value_of(form)
         if value is not None:
-            number = value.field.rational_value(value)
-            return number is not None and any(coset.contains(number) for coset in classes)
+            return _is_in_one(value, classes)
         values = self._coset_of(form)
         if values is not None:
             if values.is_covered_by(classes):
                 return True
             return None if any(values.meets(coset) for coset in classes) else False
-        linear = _linear(form)
-        if linear is not None and len(linear.factors) == 1 and self._is_apart(linear, classes):
+        if self._is_apart(form, classes) or self._is_irrational(form):
             return False
-        return False if self._is_irrational(form) else None
+        return None
 
-    def _is_apart(self, linear: _Linear, classes: list[Coset]) -> bool:
-        """Is no value of the one parameter known to bring the form into the classes?"""
-        ((name, factor),) = linear.factors.items()
-        known = self.of(name)
-        solutions = [Coset((c.start - linear.constant) / factor, c.step / abs(factor)) for c in classes]
+    def _is_apart(self, form: FunctionPoly, classes: list[Coset]) -> bool:
+        """Is the form linear in one parameter, and no value of it known to bring the form into the classes?"""
+        line = _line(form)
+        if line is None:
+            return False
+        known = self.of(line.name)
+        solutions = [Coset((c.start - line.constant) / line.factor, c.step / abs(line.factor)) for c in classes]
         if "noninteger" in known.words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
             return True
         return not any(_has_number_between(s, known.bounds) for s in solutions)
@@ -315,11 +333,9 @@ class Assumptions:
         if values is not None and not values.contains(Fraction(0)):
             return True
         above = numerator(function)
-        linear = _linear(above)
-        if linear is not None and len(linear.factors) == 1:
-            ((name, factor),) = linear.factors.items()
-            if not self.of(name).admits(QQ.poly([-linear.constant / factor])):
-                return True
+        line = _line(above)
+        if line is not None and not self.of(line.name).admits(QQ.poly([line.root])):
+            return True
         if len(function.num) == 1:
             return all(self.of(name).nonzero for name in _names(function))
         if self._is_irrational(function):
@@ -331,9 +347,9 @@ class Assumptions:
         field = self.values[0][1].field if self.values else QQ
         fixed = dict(self.values)
         below = element(function.field, function.den)
-        for part in (function, below):
-            if not fixed.keys() >= {*_names(part)}:
-                return None
+        used = {*_names(function), *_names(below)}
+        if not used <= fixed.keys():
+            return None
         return function.value_at([fixed.get(name, 0) for name in function.field.names], field)
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
@@ -343,18 +359,13 @@ class Assumptions:
         """
         if not form.den.is_constant():
             return False
-        names = form.field.names
         choices = []
-        for name, degree in zip(names, degrees(form), strict=True):
-            choices.append(self.of(name).bounds if degree else [_NO_BOUND])
-        for chosen in product(*choices):
-            values = [form.field.generator(n) * b.sign + b.end for n, b in zip(names, chosen, strict=True)]
-            terms = over_parameters(form.value_at(values, form.field)).num.to_dict()
-            if not all(coefficient > 0 for coefficient in terms.values()):
-                continue
-            if or_zero or any(_is_positive_monomial(exponents[1:], chosen) for exponents in terms):
-                return True
-        return False
+        for name, degree in zip(form.field.names, degrees(form), strict=True):
+            if degree:
+                choices.append(self.of(name).bounds)
+            else:
+                choices.append([_NO_BOUND])
+        return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices))
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""
@@ -368,8 +379,8 @@ class Assumptions:
             return None
         linear = _linear(form)
         if linear is None:
-            integers = form.den.is_one() and all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
-            return _INTEGERS if integers else None
+            are_integers = all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
+            return _INTEGERS if are_integers and form.den.is_one() else None
         start = linear.constant + sum(factor * known[name].start for name, factor in linear.factors.items())
         steps = [abs(factor) * known[name].step for name, factor in linear.factors.items()]
         return Coset(start, reduce(common_divisor, steps))
@@ -398,16 +409,18 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for symbol in getattr(S, "free_symbols", ()):
         if symbol.name in names:
             found[symbol.name] = _words_of(symbol)
-    for name, what in (assume or {}).items():
-        if str(name) not in names:
+    for key, what in (assume or {}).items():
+        name = str(key)
+        if name not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-        found.setdefault(str(name), []).extend(_read_words(what))
-    known = []
-    for name in names:
-        words = [word for word in dict.fromkeys(found.get(name, ())) if word not in _SAY_NOTHING]
-        if words:
-            known.append((name, Known(tuple(words))))
-    return Assumptions(tuple(known))
+        found.setdefault(name, []).extend(_read_words(what))
+    known = {name: _useful(found.get(name, ())) for name in names}
+    return Assumptions(tuple((name, Known(words)) for name, words in known.items() if words))
+
+
+def _useful(words: Iterable[str]) -> tuple[str, ...]:
+    """Each once, without those that say nothing."""
+    return tuple(word for word in dict.fromkeys(words) if word not in _SAY_NOTHING)
 
 
 def _read_words(what: object) -> list[str]:
@@ -415,7 +428,8 @@ def _read_words(what: object) -> list[str]:
     text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what))
     text = re.sub(r"!=0(?![\d/])", "nonzero", text)
     words = text.replace(",", " ").split()
-    unknown = [word for word in words if word not in (*WORDS, *_SAY_NOTHING) and not _is_relation(word)]
+    known = {*WORDS, *_SAY_NOTHING}
+    unknown = [word for word in words if word not in known and not _is_relation(word)]
     if unknown or not words:
         raise InputError(
             f"{' '.join(unknown) or what!r} isn't an assumption that is known",
@@ -458,10 +472,22 @@ def _sympy_properties(known: Known) -> list[str]:
     if "half-integer" in known.words:
         words += ["rational", "noninteger"]
     for bound in known.bounds:
-        if bound.sign * bound.end >= 0:
-            strict, weak = _SIGNS[bound.sign]
-            words.append(strict if bound.end or bound.strict else weak)
+        if bound.sign * bound.end < 0:
+            continue
+        strict, weak = _SIGNS[bound.sign]
+        excludes_zero = bound.strict or bound.end != 0
+        words.append(strict if excludes_zero else weak)
     return words
+
+
+def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero: bool) -> bool:
+    """Is no coefficient negative in the s with t = end + sign s, and a monomial positive?"""
+    field = form.field
+    values = [field.generator(name) * b.sign + b.end for name, b in zip(field.names, bounds, strict=True)]
+    terms = over_parameters(form.value_at(values, field)).num.to_dict()
+    if not all(coefficient > 0 for coefficient in terms.values()):
+        return False
+    return or_zero or any(_is_positive_monomial(exponents[1:], bounds) for exponents in terms)
 
 
 def _is_positive_monomial(exponents: Sequence[int], bounds: Sequence[Bound]) -> bool:
@@ -475,7 +501,11 @@ def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
         return True
     low = max(bounds, key=lambda bound: bound.sign)
     first = coset.start + ceil((low.end - coset.start) / coset.step) * coset.step
-    return any(all(bound.admits(number) for bound in bounds) for number in (first, first + coset.step))
+    return _is_within(bounds, first) or _is_within(bounds, first + coset.step)
+
+
+def _is_within(bounds: list[Bound], number: Fraction) -> bool:
+    return all(bound.admits(number) for bound in bounds)
 
 
 @dataclass(frozen=True)
@@ -484,6 +514,34 @@ class _Linear:
 
     constant: Fraction
     factors: Mapping[str, Fraction]
+
+
+@dataclass(frozen=True)
+class _Line:
+    """constant + factor * the parameter of this name."""
+
+    name: str
+    constant: Fraction
+    factor: Fraction
+
+    @property
+    def root(self) -> Fraction:
+        return -self.constant / self.factor
+
+
+def _line(form: FunctionPoly) -> _Line | None:
+    """A linear form of one parameter; None for anything else."""
+    linear = _linear(form)
+    if linear is None or len(linear.factors) != 1:
+        return None
+    ((name, factor),) = linear.factors.items()
+    return _Line(name, linear.constant, factor)
+
+
+def _is_in_one(value: Poly, classes: Iterable[Coset]) -> bool:
+    """Is it rational, and in one of the classes?"""
+    number = value.field.rational_value(value)
+    return number is not None and any(coset.contains(number) for coset in classes)
 
 
 def _linear(form: FunctionPoly) -> _Linear | None:

@@ -25,6 +25,7 @@ from functools import cached_property, lru_cache, reduce
 from itertools import product
 from math import gcd, lcm
 from random import Random
+from typing import NamedTuple
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -73,21 +74,27 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
     >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
     <Structure.OCTAHEDRAL: 'octahedral'>
     """
-    known = [d for d in differences if d is not None]
-    if sum(d.denominator == 2 for d in known) >= 2:
+    known = _known(differences)
+    half_integers = [d for d in known if d.denominator == 2]
+    if len(half_integers) >= 2:
         return Structure.IMPRIMITIVE
     if len(known) < 3 or any(d.denominator > LARGEST for d in known):
         return None
     return _table().get(_key(known))
 
 
+def _known(differences: Iterable[Fraction | None]) -> list[Fraction]:
+    """Those that are rational."""
+    return [d for d in differences if d is not None]
+
+
 def _is_reducible(differences: Sequence[Fraction | None]) -> bool:
     """Is one of the four sums l +- m +- n an odd integer?"""
-    known = [d for d in differences if d is not None]
+    known = _known(differences)
     if len(known) < 3:
         return False
     l, m, n = known  # noqa: E741
-    return any((l + s * m + t * n) % 2 == 1 for s, t in product((1, -1), repeat=2))
+    return any(total % 2 == 1 for total in (l + m + n, l + m - n, l - m + n, l - m - n))
 
 
 @lru_cache(maxsize=1)
@@ -99,9 +106,14 @@ def _table() -> dict[tuple[int, ...], Structure]:
             if parity and sum(whole) % 2:
                 continue
             values = [r + q for r, q in zip(row, whole, strict=True)]
-            for signs in product((1, -1), repeat=3):
-                table[_key([sign * value for sign, value in zip(signs, values, strict=True)])] = structure
+            table.update(dict.fromkeys(_keys_with_signs(values), structure))
     return table
+
+
+def _keys_with_signs(values: Sequence[Fraction]) -> Iterator[tuple[int, ...]]:
+    """The keys of +-u, +-v, +-w."""
+    for u, v, w in product(*((value, -value) for value in values)):
+        yield _key((u, v, w))
 
 
 def _sixtieths(difference: Fraction) -> int:
@@ -157,7 +169,7 @@ class Schwarz(Statement):
             return _two_half_integers(names)
         rows = [number for number, row in _SCHWARZ.items() if row[0] in self.structures]
         which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
-        return f"the exponent differences {', '.join(f'`{name}`' for name in names)} are in Schwarz's {which}"
+        return f"the exponent differences {_listed(names)} are in Schwarz's {which}"
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
@@ -198,17 +210,25 @@ class Schwarz(Statement):
         Else no names, and the rows of Schwarz's table.
         """
         constants = _split(self.cubic).constants
-        names = [name for name in differences(self.cubic) if not re.fullmatch(r"[\d/]+", name)]
+        names = _without_numbers(differences(self.cubic))
         if len(constants) != 1 or constants[0] is None or len(names) != 2:
-            rows = [row for row in _SCHWARZ.values() if row[0] in self.structures]
-            return [], [(kind, [f"`{_text(row)}`", "even" if even else "any"]) for kind, row, even in rows]
+            return [], self._rows_of_the_table()
         found = self._pairs_beside(constants[0])
-        is_modulo_1 = _is_symmetric(found)
-        if is_modulo_1:
+        lattice = "2*Z"
+        if _is_symmetric(found):
+            lattice = "Z"
             found = [pair for pair in found if max(pair.u, pair.v) <= 30]
-        lattice = "Z" if is_modulo_1 else "2*Z"
         found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
         return names, [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
+
+    def _rows_of_the_table(self) -> list[tuple[Structure, list[str]]]:
+        """The differences modulo 1, and whether the sum of the integers must be even."""
+        found = []
+        for structure, row, is_even in _SCHWARZ.values():
+            if structure in self.structures:
+                parity = "even" if is_even else "any"
+                found.append((structure, [f"`{', '.join(map(str, row))}`", parity]))
+        return found
 
     def _pairs_beside(self, third: Fraction) -> list[_DifferencePair]:
         """The other two differences in sixtieths, up to signs modulo 2, with one of these structures."""
@@ -223,10 +243,6 @@ class Schwarz(Statement):
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
             return Schwarz(self.cubic, (*self.structures, *other.structures))
         return None
-
-
-def _text(row: Sequence[Fraction]) -> str:
-    return ", ".join(map(str, row))
 
 
 def _class(sixtieths: int, lattice: str) -> str:
@@ -244,22 +260,32 @@ class _DifferencePair:
 
 def _is_symmetric(found: Sequence[_DifferencePair]) -> bool:
     """Are the structures those of the differences modulo 1: the same for u and 1 - u, and for v and 1 - v?"""
-    whole = {*found}
-    return {replace(p, u=60 - p.u) for p in found} == whole and {replace(p, v=60 - p.v) for p in found} == whole
+    pairs = {*found}
+    if {replace(pair, u=60 - pair.u) for pair in found} != pairs:
+        return False
+    return {replace(pair, v=60 - pair.v) for pair in found} == pairs
+
+
+def _without_numbers(names: Iterable[str]) -> list[str]:
+    """The exponent differences that depend on the parameters."""
+    return [name for name in names if not re.fullmatch(r"[\d/]+", name)]
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def _two_half_integers(names: list[str]) -> str:
     """That two of the exponent differences, of which no constant one is a half-integer, are half-integers."""
-    free = [name for name in names if not re.fullmatch(r"[\d/]+", name)]
+    free = _without_numbers(names)
     for name in free:
         if free.count(name) > 1:
             return f"`{name}` is a half-integer"
-    said = [f"`{name}`" for name in free]
-    if len(said) == 1:
-        return f"{said[0]} is a half-integer"
-    if len(said) == 2:
-        return f"{' and '.join(said)} are half-integers"
-    return f"two of {', '.join(said)} are half-integers"
+    if len(free) == 1:
+        return f"`{free[0]}` is a half-integer"
+    if len(free) == 2:
+        return f"`{free[0]}` and `{free[1]}` are half-integers"
+    return f"two of {_listed(free)} are half-integers"
 
 
 def differences(cubic: FunctionPoly) -> list[str]:
@@ -277,10 +303,13 @@ def _square_roots_of_roots(factor: Poly) -> list[str] | None:
     """Those of Z - a: sqrt(a); of Z^2 + b Z + r^2: sqrt((-b + 2 r)/4) +- sqrt((-b - 2 r)/4); None for any other."""
     if factor.degree == 1:
         return [root_written(-factor[0])]
-    r = factor.field.sqrt(factor[0]) if factor.degree == 2 else None
+    if factor.degree > 2:
+        return None
+    r = factor.field.sqrt(factor[0])
     if r is None:
         return None
-    first, second = (root_written((-factor[1] + sign * 2 * r) / 4) for sign in (1, -1))
+    first = root_written((-factor[1] + 2 * r) / 4)
+    second = root_written((-factor[1] - 2 * r) / 4)
     if " + " in second or " - " in second:
         second = f"({second})"
     return [f"{first} + {second}", f"{first} - {second}"]
@@ -291,18 +320,22 @@ def is_fuchsian(problem: Problem) -> bool:
     return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
 
 
+def _singular_places(problem: Problem) -> list[Place]:
+    return [place for place in problem.places if place.kind is not Kind.ORDINARY]
+
+
 def singular_points(problem: Problem) -> int:
     """How many there are on the sphere."""
-    return sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY)
+    return sum(place.degree for place in _singular_places(problem))
 
 
 def squares_of_differences(problem: Problem) -> FunctionPoly:
     """The monic cubic over Q(t) whose roots are the squares of the exponent differences."""
     cubic = problem.field.poly([1])
-    for place in problem.places:
-        if place.kind is not Kind.ORDINARY:
-            cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
-    return over_parameters(cubic * problem.field.poly([-1, 1]) ** max(3 - cubic.degree, 0))
+    for place in _singular_places(problem):
+        cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
+    ordinary = max(3 - cubic.degree, 0)  # at which the difference is 1
+    return over_parameters(cubic * problem.field.poly([-1, 1]) ** ordinary)
 
 
 def difference_squared(place: Place) -> Poly:
@@ -322,20 +355,29 @@ def group(problem: Problem, structure: Structure) -> str | None:
     imprimitive equation, which is rational because it has two branch points, the same holds for the third difference.
     """
     cubic = squares_of_differences(problem)
-    split = _split(cubic)
     if structure is Structure.REDUCIBLE:
-        if None not in split.constants and len(split.constants) >= 2:
-            return _CYCLIC  # a third difference is rational because their sum is
-        return f"{_CYCLIC}, where {_rational(differences(cubic))}; else `G_m`, or the Borel group"
-    return _imprimitive_group(split) if structure is Structure.IMPRIMITIVE else None
+        return _reducible_group(cubic)
+    if structure is Structure.IMPRIMITIVE:
+        return _imprimitive_group(_split(cubic))
+    return None
+
+
+def _reducible_group(cubic: FunctionPoly) -> str:
+    """Two rational differences make the third one rational, because their sum, with signs, is an integer."""
+    constants = _split(cubic).constants
+    if len(constants) >= 2 and None not in constants:
+        return _CYCLIC
+    return f"{_CYCLIC}, where {_rational(differences(cubic))}; else `G_m`, or the Borel group"
 
 
 def _rational(names: Iterable[str]) -> str:
     """That the exponent differences are rational, those that aren't numbers anyway."""
-    free = [name for name in dict.fromkeys(names) if not re.fullmatch(r"[\d/]+", name)]
-    if len(free) == 1 and free[0].startswith("(the "):
+    free = _without_numbers(dict.fromkeys(names))
+    if len(free) != 1:
+        return f"{_listed(free)} are rational"
+    if free[0].startswith("(the "):
         return "the exponent differences are rational"
-    return f"{', '.join(f'`{name}`' for name in free)} {'is' if len(free) == 1 else 'are'} rational"
+    return f"{_listed(free)} is rational"
 
 
 def _imprimitive_group(split: _Split) -> str:
@@ -343,11 +385,13 @@ def _imprimitive_group(split: _Split) -> str:
     halves: list[Fraction | None] = []
     others: list[Fraction | None] = []
     for difference in split.constants:
-        is_half = difference is not None and difference.denominator == 2
-        (halves if is_half else others).append(difference)
-    third = [*others, *halves[2:]]
-    if len(split.constants) >= 2 and third:
-        return "the infinite dihedral group" if third[0] is None else "dicyclic"
+        if difference is not None and difference.denominator == 2:
+            halves.append(difference)
+        else:
+            others.append(difference)
+    beside = [*others, *halves[2:]]
+    if len(split.constants) >= 2 and beside:
+        return "the infinite dihedral group" if beside[0] is None else "dicyclic"
     if len(split.constants) == 2 and split.variable is not None:
         return f"dicyclic where `{root_written(split.variable)}` is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
@@ -364,9 +408,14 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
     always = kimura(constants)
     if always is not None:
         yield always, ALWAYS
-        return
-    if len(constants) == 3:
-        return
+    elif len(constants) < 3:
+        yield from _irreducible_structures(cubic, constants)
+
+
+def _irreducible_structures(
+    cubic: FunctionPoly, constants: Sequence[Fraction | None]
+) -> Iterator[tuple[Structure, Statement]]:
+    """The rows of the table, by one function of the parameters where all differences are said by it."""
     single = _one_function(cubic)
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
         if single is not None:
@@ -399,10 +448,11 @@ def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> 
 
 def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fraction | None]) -> Statement:
     """That the exponent differences are in the rows of the structure."""
-    has_half_integer = any(d is not None and d % 1 == _F(1, 2) for d in constants)
-    if structure is Structure.IMPRIMITIVE and has_half_integer:
+    if structure is not Structure.IMPRIMITIVE:
+        return Schwarz(cubic, (structure,))
+    if any(d % 1 == _F(1, 2) for d in _known(constants)):
         return _half_integers(cubic, 1)
-    if structure is Structure.IMPRIMITIVE and any(k > 1 for _, k in cubic.field.factor(cubic)):
+    if any(multiplicity > 1 for _, multiplicity in cubic.field.factor(cubic)):
         return _half_integers(cubic, 2)
     return Schwarz(cubic, (structure,))
 
@@ -415,10 +465,15 @@ def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
     field = cubic.field
     found = []
     for factor, multiplicity in field.factor(cubic):
-        if multiplicity >= times and any(field.rational_value(c) is None for c in factor):
+        if multiplicity >= times and _has_parameters(factor):
             equation = over_parameters(factor(field.poly([0, 0, _F(1, 4)])))
             found.append(integer_roots(equation, [1], 2))
     return either(*found)
+
+
+def _has_parameters(factor: Poly) -> bool:
+    """Does a coefficient depend on them?"""
+    return any(factor.field.rational_value(c) is None for c in factor)
 
 
 def _each_factor(cubic: FunctionPoly) -> list[Poly]:
@@ -429,17 +484,30 @@ def _each_factor(cubic: FunctionPoly) -> list[Poly]:
     return found
 
 
+class _Line(NamedTuple):
+    """slope * w + shift."""
+
+    slope: Fraction
+    shift: Fraction
+
+    def at(self, w: Fraction) -> Fraction:
+        return self.slope * w + self.shift
+
+
 @dataclass(frozen=True)
 class _OneFunction:
-    """The exponent differences are a w + b with rational (a, b), `lines`, where w^2 = square; None is irrational."""
+    """The exponent differences are the `lines` at w, w^2 = square; None is irrational.
+
+    `root` is w, where it is a rational function of the parameters.
+    """
 
     square: FunctionPoly
     root: FunctionPoly | None
-    lines: tuple[tuple[Fraction, Fraction] | None, ...]
+    lines: tuple[_Line | None, ...]
 
     def structure(self, w: Fraction) -> Structure | None:
         """By Kimura's theorem, with this value of the function."""
-        differences = [None if line is None else line[0] * w + line[1] for line in self.lines]
+        differences = [line.at(w) for line in self.lines if line is not None]
         return Structure.REDUCIBLE if _is_reducible(differences) else kimura(differences)
 
 
@@ -451,61 +519,72 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     if not free or len(squares) < 3:
         return None
     root = field.sqrt(free[0])
-    lines: list[tuple[Fraction, Fraction] | None] = []
+    lines: list[_Line | None] = []
     for square in squares:
-        if field.rational_value(square) is None:
-            line = _line(square, free[0], root)
-            if line is None:
-                return None
-        else:
-            constant = rational_square_root(square)
-            line = None if constant is None else (_F(0), constant)
+        is_constant = field.rational_value(square) is not None
+        line = _constant_line(square) if is_constant else _line(square, free[0], root)
+        if line is None and not is_constant:
+            return None
         lines.append(line)
     return _OneFunction(free[0], None if root is None else over_parameters(root), tuple(lines))
 
 
-def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> tuple[Fraction, Fraction] | None:
-    """`(a, b)` with sqrt(square) = +-(a w + b), w^2 = first; b is 0 where w isn't rational (`root` is None)."""
-    field = first.field
+def _constant_line(square: Poly) -> _Line | None:
+    """The root of a number; None where it is irrational."""
+    constant = rational_square_root(square)
+    return None if constant is None else _Line(_F(0), constant)
+
+
+def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> _Line | None:
+    """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
     if root is None:
         ratio = rational_square_root(square / first)
-        return None if ratio is None else (ratio, _F(0))
-    own = field.sqrt(square)
+        return None if ratio is None else _Line(ratio, _F(0))
+    own = first.field.sqrt(square)
     if own is None:
         return None
-    (form, scale, shift), (other, other_scale, other_shift) = map(normal_form, (own, root))
-    a = other_scale / scale
-    return (a, shift - a * other_shift) if form == other else None
+    form, scale, shift = normal_form(own)
+    root_form, root_scale, root_shift = normal_form(root)
+    if form != root_form:
+        return None
+    slope = root_scale / scale
+    return _Line(slope, shift - slope * root_shift)
 
 
 def _classes(single: _OneFunction, structure: Structure) -> Statement:
     """Where w gives the exponent differences this structure, and the equation isn't reducible."""
-    lines = {line for line in single.lines if line is not None and line[0]}
-    period = reduce(common_multiple, (2 / abs(a) for a, _ in lines))
-    found = set().union(*(_numbers_in_table(a, b, period) for a, b in lines))
+    lines = {line for line in single.lines if line is not None and line.slope}
+    period = reduce(common_multiple, (2 / abs(line.slope) for line in lines))
+    found = set().union(*(_numbers_in_table(line, period) for line in lines))
     admitted = [w for w in sorted(found) if single.structure(w) is structure]
     if admitted and single.root is not None:
         equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
         return Congruence.make(equation, admitted, period)
-    # w and -w are the same where only w^2 is known.
+    return _classes_up_to_sign(single.square, admitted, period)
+
+
+def _classes_up_to_sign(square: FunctionPoly, admitted: Sequence[Fraction], period: Fraction) -> Statement:
+    """That w is admitted modulo the period, where only w^2 is known: w and -w are the same."""
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
         residues = [int(D * w) for w in admitted if w.denominator == denominator]
-        equation = over_parameters(single.square.field.poly([-(D**2) * single.square, 0, 1]))
+        equation = over_parameters(square.field.poly([-(D**2) * square, 0, 1]))
         statements.append(integer_roots(equation, residues, int(D * period)))
     return either(*statements)
 
 
-def _numbers_in_table(a: Fraction, b: Fraction, period: Fraction) -> set[Fraction]:
-    """The w modulo a period for which a w + b has a denominator of the table: modulo 2, one of its values."""
+def _numbers_in_table(line: _Line, period: Fraction) -> set[Fraction]:
+    """The w modulo a period at which the line has a denominator of the table: modulo 2, one of its values."""
+    step = abs(2 / line.slope)
+    steps = range(int(period / step))
     found = set()
     for denominator in range(2, LARGEST + 1):
         for k in range(2 * denominator):
             if gcd(k, denominator) > 1:
                 continue
-            first = (_F(k, denominator) - b) / a
-            found |= {(first + j * abs(2 / a)) % period for j in range(int(period * abs(a) / 2))}
+            first = (_F(k, denominator) - line.shift) / line.slope
+            found |= {(first + j * step) % period for j in steps}
     return found
 
 
@@ -519,15 +598,15 @@ class _Split:
 
 def _split(cubic: FunctionPoly) -> _Split:
     """By the factors of the cubic: those without parameters, and those with."""
-    field = cubic.field
     constants: list[Fraction | None] = []
     variable: list[Poly] = []
     for factor in _each_factor(cubic):
-        if any(field.rational_value(c) is None for c in factor):
+        if _has_parameters(factor):
             variable.append(factor)
         elif factor.degree == 1:
             constants.append(rational_square_root(-factor[0]))
         else:
             constants += [None] * factor.degree
-    is_single = len(variable) == 1 and variable[0].degree == 1
-    return _Split(constants, -variable[0][0] if is_single else None)
+    if len(variable) == 1 and variable[0].degree == 1:
+        return _Split(constants, -variable[0][0])
+    return _Split(constants, None)

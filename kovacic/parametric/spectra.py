@@ -8,11 +8,12 @@ are the same; nothing here decides anything.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import floor
+from typing import NamedTuple
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -54,7 +55,9 @@ class Notation:
 
     def function(self, function: Poly | RatFunc) -> str:
         """The shortest form of a function of the parameters and the integer."""
-        return written(function if isinstance(function, RatFunc) else over_parameters(function), self.letter)
+        if not isinstance(function, RatFunc):
+            function = over_parameters(function)
+        return written(function, self.letter)
 
     def equals(self, name: str, function: Poly | RatFunc) -> str:
         return f"`{name} = {self.function(function)}`"
@@ -63,8 +66,9 @@ class Notation:
 def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[str, RatFunc]]:
     """`(name, f)` where a polynomial in N over Q(t) vanishes exactly if a parameter, not a `fixed` one, is f(N)."""
     found: list[tuple[str, RatFunc]] = []
+    occurring = degrees(equation)
     for i, name in enumerate(equation.field.names):
-        if degrees(equation)[i] != 1 or name in fixed:
+        if occurring[i] != 1 or name in fixed:
             continue
         parts = powers_of(equation, i)
         slope = parts[1]
@@ -93,10 +97,21 @@ def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
             functions.setdefault(name, []).append(function)
         else:
             said.append(equation_text(equation, n))
-    for name, known in functions.items():
-        notes = dict.fromkeys(note for f in known for note in _notes_at_poles(_Choice(f, "", _is_natural), n))
-        said.append(_one_of(name, known, n) + (f" ({', '.join(notes)})" if notes else ""))
+    said += [_is_one_of(name, known, n) for name, known in functions.items()]
     return " or ".join(said)
+
+
+def _is_one_of(name: str, functions: Sequence[RatFunc], n: Notation) -> str:
+    """That a parameter is one of the functions at a natural number, with notes where one of them isn't defined."""
+    notes: dict[str, None] = {}
+    for f in functions:
+        choice = _Choice(f, "", _is_natural)
+        notes.update(dict.fromkeys(_notes_at_poles(choice, n)))
+    return _one_of(name, functions, n) + _in_parentheses(notes)
+
+
+def _in_parentheses(notes: Collection[str]) -> str:
+    return f" ({', '.join(notes)})" if notes else ""
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], n: Notation) -> str:
@@ -104,13 +119,27 @@ def _one_of(name: str, functions: Sequence[RatFunc], n: Notation) -> str:
     what = name
     total = _sum_in_pairs(functions)
     if total:
-        what += f"` or `{n.function(over_parameters(total - total.field.generator(name)))}"
-        pairs = [sorted((f, RatFunc(total) - f), key=str) for f in functions]
-        functions = [*dict.fromkeys(min(pair, key=lambda f: _is_negative(n, f)) for pair in pairs)]
+        other = over_parameters(total - total.field.generator(name))
+        what = f"{name}` or `{n.function(other)}"
+        functions = _one_of_each_pair(functions, RatFunc(total), n)
     texts = _with_signs(functions, n)
     if len(texts) > 2:
         texts = [", ".join(texts[:-1]), texts[-1]]
     return f"`{what} = {'` or `'.join(texts)}`"
+
+
+def _one_of_each_pair(functions: Sequence[RatFunc], total: RatFunc, n: Notation) -> list[RatFunc]:
+    """f or total - f, each once: one that isn't negative, if there is one, or the first in the order of their texts."""
+    found: dict[RatFunc, None] = {}
+    for f in functions:
+        pair = sorted((f, total - f), key=str)
+        found[_not_negative(pair, n)] = None
+    return [*found]
+
+
+def _not_negative(functions: Sequence[RatFunc], n: Notation) -> RatFunc:
+    """The first that isn't written with a minus before it, or the first."""
+    return min(functions, key=lambda f: _is_negative(n, f))
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
@@ -119,36 +148,59 @@ def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
         return None
     for other in functions[1:]:
         total = functions[0] + other
-        if not total or total.num.degree or total.den.degree or total.field.rational_value(total.num) is None:
+        if not total or not _is_number(total):
             continue
         if all(total - f in functions and 2 * f != total for f in functions):
             return over_parameters(total.num)
     return None
 
 
+def _is_free_of_n(f: RatFunc) -> bool:
+    return f.num.degree <= 0 and f.den.degree <= 0
+
+
+def _is_number(f: RatFunc) -> bool:
+    """Is it one of those that don't depend on the parameters either?"""
+    return _is_free_of_n(f) and f.field.rational_value(f.num) is not None
+
+
 def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[str]:
     """How the functions are written, with one text `c +- f` for c + f and c - f, c free of the integer."""
     texts: dict[RatFunc, str] = {}
     for f in functions:
-        other = next((g for g in texts if _have_a_center(f, g) and texts[g] == n.function(g)), None)
+        other = _partner(f, texts, n)
         if other is None:
             texts[f] = n.function(f)
-            continue
-        center = (f + other) / 2
-        value = n.function(min((other - center, f - center), key=lambda g: _is_negative(n, g)))
-        inside = re.sub(r"[({][^()]*[)}]", "", value)
-        is_sum = " + " in inside or " - " in inside
-        signed = f"+-({value})" if is_sum else f"+-{value}"
-        texts[other] = f"{n.function(center)} {signed[:2]} {signed[2:]}" if center else signed
+        else:
+            texts[other] = _with_both_signs(f, other, n)
     return [*texts.values()]
+
+
+def _partner(f: RatFunc, texts: Mapping[RatFunc, str], n: Notation) -> RatFunc | None:
+    """The first of the functions that has a center with f, and no partner yet: its text is its own."""
+    for other, text in texts.items():
+        if _have_a_center(f, other) and text == n.function(other):
+            return other
+    return None
+
+
+def _with_both_signs(f: RatFunc, other: RatFunc, n: Notation) -> str:
+    """`c +- g`, c the mean of the two functions."""
+    center = (f + other) / 2
+    value = n.function(_not_negative((other - center, f - center), n))
+    inside = re.sub(r"[({][^()]*[)}]", "", value)
+    is_sum = " + " in inside or " - " in inside
+    if is_sum:
+        value = f"({value})"
+    return f"{n.function(center)} +- {value}" if center else f"+-{value}"
 
 
 def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
     """Is their sum 0, or a function of the parameters without the integer in it?"""
     total = f + g
-    if total.num.degree > 0 or total.den.degree > 0:
-        return False
-    return not total or total.field.rational_value(over_parameters(total.num)) is None
+    if not total:
+        return True
+    return _is_free_of_n(total) and not _is_number(total)
 
 
 def _is_negative(n: Notation, f: RatFunc) -> bool:
@@ -160,63 +212,105 @@ def classes(residues: Sequence[Fraction | int], modulus: Fraction | int) -> str:
     if {-residue % modulus for residue in residues} != {*residues}:
         return ", ".join(map(str, residues))
     half = Fraction(modulus) / 2
-    signs = {residue: "" if residue in (0, half) else "+-" for residue in residues if residue <= half}
-    return ", ".join(f"{sign}{residue}" for residue, sign in signs.items())
+    texts = []
+    for residue in dict.fromkeys(residues):
+        if residue in (0, half):
+            texts.append(str(residue))
+        elif residue < half:
+            texts.append(f"+-{residue}")
+    return ", ".join(texts)
 
 
 def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: str = "") -> str:
     """What an integer in these classes is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
     name = f" `{letter}`" if letter else ""
-    if modulus == 1 and not any(residues):
+    known = [*residues]
+    if modulus == 1 and not any(known):
         return f"an integer{name}"
-    if modulus == 2 and list(residues) == [0]:
+    if modulus == 2 and known == [0]:
         return f"an even integer{name}"
-    if modulus == 2 and list(residues) == [1]:
+    if modulus == 2 and known == [1]:
         return f"an odd integer{name}"
-    if len(residues) > 1 and list(residues) == list(range(1, int(modulus))):
+    if len(known) > 1 and known == [*range(1, int(modulus))]:
         return f"an integer{name} not divisible by {modulus}"
     equation = f"{letter} = {classes(residues, modulus)} mod {modulus}"
     return f"an integer `{equation}`" if letter else f"an integer`{equation}`"
 
 
+@dataclass(frozen=True)
+class _Classes:
+    """The integers that are one of the `residues` modulo a number."""
+
+    residues: Sequence[int]
+    modulus: int
+
+    def contain(self, n: Fraction) -> bool:
+        return n.denominator == 1 and int(n) % self.modulus in self.residues
+
+    def are_one(self, *, up_to_sign: bool) -> bool:
+        """Is it a single class, or r and -r where these say the same?"""
+        first = self.residues[0]
+        if len(self.residues) == 1:
+            return True
+        return up_to_sign and {*self.residues} == {first, -first % self.modulus}
+
+    def named(self, letter: str = "") -> str:
+        return kind(self.residues, self.modulus, letter)
+
+
 def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str:
-    """That a polynomial in N over Q(t) has an integer root in these classes."""
-    best = _spectrum(equation, residues, modulus, n)
+    """That a polynomial in N over Q(t) has an integer root in these classes, as a spectrum or by square roots, or both."""
+    numbers = _Classes(residues, modulus)
+    spectrum = _spectrum(equation, numbers, n)
     roots = _roots(equation)
     if roots is None:
-        return best or f"{equation_text(equation, n)} for {kind(residues, modulus, n.letter)}"
-    mean, squares = roots
-    constant = floor(constant_term(mean) / modulus) * modulus
-    terms = [n.function(mean - constant)] if mean != constant else []
-    sum_of_roots = f"`{' +- '.join([*terms, *map(root_written, squares)])}` is {kind(residues, modulus)}"
-    if best is None:
+        return spectrum or f"{equation_text(equation, n)} for {numbers.named(n.letter)}"
+    sum_of_roots = f"{_sum_of_roots(roots, modulus, n)} is {numbers.named()}"
+    if spectrum is None:
         return sum_of_roots
-    length = len(text_of(best))
-    if len(squares) > 1:
-        return f"{sum_of_roots}, that is {best}" if length <= _BESIDE else sum_of_roots
-    return best if length <= len(text_of(sum_of_roots)) + _LONGER else sum_of_roots
+    length = len(text_of(spectrum))
+    if len(roots.squares) > 1:
+        return f"{sum_of_roots}, that is {spectrum}" if length <= _BESIDE else sum_of_roots
+    return spectrum if length <= len(text_of(sum_of_roots)) + _LONGER else sum_of_roots
 
 
-def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str | None:
+def _sum_of_roots(roots: _Roots, modulus: int, n: Notation) -> str:
+    """The mean, without multiples of the modulus, and the square roots."""
+    constant = floor(constant_term(roots.mean) / modulus) * modulus
+    terms = [n.function(roots.mean - constant)] if roots.mean != constant else []
+    terms += map(root_written, roots.squares)
+    return f"`{' +- '.join(terms)}`"
+
+
+class _Way(NamedTuple):
+    """A way to say it: which parameter is solved for, the choice of n, and what it costs to read that, in characters."""
+
+    name: str
+    choice: _Choice
+    cost: int
+
+
+def _spectrum(equation: FunctionPoly, numbers: _Classes, n: Notation) -> str | None:
     """`name = f(n)` and what is said of n, by the shortest of the ways to choose n; None where no parameter is linear."""
     known = families(equation, n.fixed)
     energies = [(name, f) for name, f in known if name == ENERGY]
-    best: tuple[str, _Choice] | None = None
-    shortest = 0
+    ways: list[_Way] = []
     for k, (name, f) in enumerate(energies or known):
-        for choice in _choices(equation, f, residues, modulus, n):
-            length = _LATER * k + _WEIGHT * shortest_length(choice.f, n.letter) + len(text_of(choice.what))
-            if choice.what.startswith(n.some):
-                length += _NO_INTEGER
-            if best is None or length < shortest:
-                best = (name, choice)
-                shortest = length
-    if best is None:
+        choices = _choices(equation, f, numbers, n)
+        ways += [_Way(name, choice, _LATER * k + _cost(choice, n)) for choice in choices]
+    if not ways:
         return None
-    name, choice = best
-    notes = _notes_at_poles(choice, n)
-    note = f" ({', '.join(notes)})" if notes else ""
-    return f"{n.equals(name, choice.f)}{note}{choice.what}"
+    best = min(ways, key=lambda way: way.cost)
+    notes = _notes_at_poles(best.choice, n)
+    return f"{n.equals(best.name, best.choice.f)}{_in_parentheses(notes)}{best.choice.what}"
+
+
+def _cost(choice: _Choice, n: Notation) -> int:
+    """Of reading it, in characters."""
+    length = _WEIGHT * shortest_length(choice.f, n.letter) + len(text_of(choice.what))
+    if choice.what.startswith(n.some):
+        length += _NO_INTEGER
+    return length
 
 
 def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
@@ -232,15 +326,17 @@ def _notes_at_poles(choice: _Choice, n: Notation) -> list[str]:
         number = f.field.rational_value(root)
         if number is not None and not choice.is_possible(number):
             continue
-        value = over_parameters(f.num(root))
-        zeros = [n.function(zero) for zero in irreducible_factors(value)]
-        if not zeros:
-            continue
-        zero = zeros[0]
-        if len(zeros) > 1:
-            zero = "*".join(map(in_product, zeros))
-        notes.append(f"`{zero} = 0` where `{n.letter} = {n.function(root)}`")
+        zeros = irreducible_factors(f.num(root))
+        if zeros:
+            notes.append(f"`{_product(zeros, n)} = 0` where `{n.letter} = {n.function(root)}`")
     return notes
+
+
+def _product(factors: Sequence[FunctionPoly], n: Notation) -> str:
+    texts = [n.function(factor) for factor in factors]
+    if len(texts) == 1:
+        return texts[0]
+    return "*".join(map(in_product, texts))
 
 
 @dataclass(frozen=True)
@@ -260,31 +356,38 @@ def _is_natural(n: Fraction) -> bool:
     return n.denominator == 1 and n >= 0
 
 
-def _choices(
-    equation: FunctionPoly, f: RatFunc, residues: Sequence[int], modulus: int, n: Notation
-) -> Iterator[_Choice]:
+def _choices(equation: FunctionPoly, f: RatFunc, numbers: _Classes, n: Notation) -> Iterator[_Choice]:
     """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters."""
     N = equation.field.poly([0, 1])
-    mirrored = equation(-N) == (-1) ** equation.degree * equation
-    single = len(residues) == 1 or (mirrored and {*residues} == {residues[0], -residues[0] % modulus})
-    if equation.degree > 1 or not single:
-        what = f" for {kind(residues, modulus, n.letter)}"
-        yield _Choice(f, what, lambda n: _is_integer(n) and int(n) % modulus in residues)
-    if single and (modulus < 3 or not mirrored):
-        signs, shifts = ((1, -1), (0, -1, 1)) if modulus == 1 else ((1,), (0, -1))
-        for sign, shift in product(signs, shifts):
-            chosen = RatFunc(N * (sign * modulus) + residues[0] + modulus * shift)
-            yield _Choice(f(chosen), f" for an integer `{n.letter}`", _is_integer)
+    is_mirrored = equation(-N) == (-1) ** equation.degree * equation
+    is_single = numbers.are_one(up_to_sign=is_mirrored)
+    if equation.degree > 1 or not is_single:
+        yield _Choice(f, f" for {numbers.named(n.letter)}", numbers.contain)
+    if is_single and (numbers.modulus < 3 or not is_mirrored):
+        yield from _by_any_integer(f, numbers, n)
     center = _center(equation, f)
     if center is None:
         return
-    u = over_parameters((center - residues[0]) / modulus)
-    if single:
-        yield _centered(f(RatFunc(N * modulus + center)), u, n)
-    if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
+    u = over_parameters((center - numbers.residues[0]) / numbers.modulus)
+    if is_single:
+        yield _centered(f(RatFunc(N * numbers.modulus + center)), u, n)
+    has_fraction = constant_term(center).denominator > 1 or int(u.den.content()) > 1
+    if has_fraction or not is_single:
         form = over_parameters(N + center)
-        what = f"{n.some} `{n.function(form)}` {kind(residues, modulus)}"
+        what = f"{n.some} `{n.function(form)}` {numbers.named()}"
         yield _Choice(f(RatFunc(form)), what, lambda n: True)
+
+
+def _by_any_integer(f: RatFunc, numbers: _Classes, n: Notation) -> Iterator[_Choice]:
+    """f(s n + r) for an integer n, with the residue and its neighbours for r, and with both signs for the modulus 1."""
+    N = f.field.poly([0, 1])
+    modulus = numbers.modulus
+    lines = [(1, 0), (1, -1)]
+    if modulus == 1:
+        lines = list(product((1, -1), (0, -1, 1)))
+    for sign, shift in lines:
+        chosen = RatFunc(N * (sign * modulus) + numbers.residues[0] + modulus * shift)
+        yield _Choice(f(chosen), f" for an integer `{n.letter}`", _is_integer)
 
 
 def _centered(f: RatFunc, u: FunctionPoly, n: Notation) -> _Choice:
@@ -301,31 +404,55 @@ def _centered(f: RatFunc, u: FunctionPoly, n: Notation) -> _Choice:
 
 def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:
     """Where f has its only pole, or the mean of the equation's roots; None where that is a number."""
-    field = equation.field
     if equation.degree < 2:
         return None
-    poles = field.factor(f.den) if f.den.degree else []
-    if len(poles) == 1 and poles[0][0].degree == 1:
-        center = -poles[0][0][0]
-    else:
-        center = -equation[equation.degree - 1] / (equation.lc * equation.degree)
-    return None if field.rational_value(center) is not None else center
+    center = _only_pole(f)
+    if center is None:
+        center = _mean_of_roots(equation)
+    return center if equation.field.rational_value(center) is None else None
 
 
-def _roots(equation: FunctionPoly) -> tuple[FunctionPoly, list[Poly]] | None:
-    """`(r, squares)` where the roots are r +- the roots of one, two or three squares; None where they aren't."""
-    field = equation.field
-    k = equation.degree
-    if k not in (2, 4, 8):
+def _only_pole(f: RatFunc) -> Poly | None:
+    """The root of the denominator where there is one, in the field of f."""
+    if not f.den.degree:
         return None
-    mean = over_parameters(-equation[k - 1] / (equation.lc * k))
-    shifted = equation(field.poly([0, 1]) + mean) / equation.lc
+    factors = [factor for factor, _ in f.field.factor(f.den)]
+    if len(factors) > 1 or factors[0].degree > 1:
+        return None
+    return -factors[0][0]
+
+
+def _mean_of_roots(equation: Poly) -> Poly:
+    k = equation.degree
+    return -equation[k - 1] / (equation.lc * k)
+
+
+@dataclass(frozen=True)
+class _Roots:
+    """The roots of an equation: the mean +- the square roots of one, two or three squares."""
+
+    mean: FunctionPoly
+    squares: list[Poly]
+
+
+def _roots(equation: FunctionPoly) -> _Roots | None:
+    """The roots, where they are such sums for an equation of degree 2, 4 or 8."""
+    if equation.degree not in (2, 4, 8):
+        return None
+    mean = over_parameters(_mean_of_roots(equation))
+    shifted = equation(equation.field.poly([0, 1]) + mean) / equation.lc
+    squares = _squares(shifted)
+    return None if squares is None else _Roots(mean, squares)
+
+
+def _squares(shifted: Poly) -> list[Poly] | None:
+    """Those of which the roots of a monic even polynomial are sums, with all signs, of square roots."""
+    k = shifted.degree
     if any(shifted[i] for i in range(1, k, 2)):
         return None
     if k == 2:
-        return mean, [-shifted[0]]
-    squares = _two_squares(shifted) if k == 4 else _three_squares(shifted)
-    return None if squares is None else (mean, squares)
+        return [-shifted[0]]
+    return _two_squares(shifted) if k == 4 else _three_squares(shifted)
 
 
 def _two_squares(shifted: Poly) -> list[Poly] | None:
