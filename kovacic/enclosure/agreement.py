@@ -142,39 +142,60 @@ def _angles(group: Group) -> dict[Fraction, int] | None:
 
 def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Group) -> Agreement:
     """A finite group: its elements by their traces."""
-    traces = {angle: _cosine(angle) for angle in angles}
-    order = sum(angles.values())
-    elements = [acb_mat([[1, 0], [0, 1]])]
-    found = Counter([Fraction(0)])
-    for element in elements:  # which grows meanwhile
+    enumeration = _Enumeration(group, angles)
+    for element in enumeration.elements:  # which grows meanwhile
         for generator in generators:
-            candidate = generator * element
-            own = [angle for angle, value in traces.items() if candidate.trace().overlaps(value)]
-            if not own:
-                return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
-            quotients = [candidate * _inverse(other) for other in elements]
-            equal = [_is_identity(quotient, traces) for quotient in quotients]
-            if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
-                return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
-            is_known = True in equal
-            if len(own) > 1 or (None in equal and not is_known):
-                return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
-            if is_known:
-                continue
-            elements.append(candidate)
-            found[own[0]] += 1
-            if len(elements) > order:
-                return Agreement(False, f"the monodromy group has more elements than {group}")
-    if found != Counter(angles):
-        return Agreement(False, f"the monodromy group has {len(elements)} elements, with other traces than {group}")
-    plural = "element" if order == 1 else "elements"
-    return Agreement(True, f"the monodromy group has {order} {plural}, with the traces of {group}")
+            verdict = enumeration.add(generator * element)
+            if verdict is not None:
+                return verdict
+    return enumeration.verdict()
+
+
+class _Enumeration:
+    """The elements of the monodromy group that are known, under the claim that it is the group with these angles."""
+
+    def __init__(self, group: Group, angles: dict[Fraction, int]) -> None:
+        self.group = group
+        self.angles = angles
+        self.traces = {angle: _cosine(angle) for angle in angles}
+        self.order = sum(angles.values())
+        self.elements = [acb_mat([[1, 0], [0, 1]])]
+        self.found = Counter([Fraction(0)])
+
+    def add(self, candidate: acb_mat) -> Agreement | None:
+        """Another product of generators; a verdict where it contradicts the claim, or can't be told from other elements."""
+        angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
+        if not angles:
+            return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
+        quotients = [candidate * _inverse(element) for element in self.elements]
+        equal = [_is_identity(quotient, self.traces) for quotient in quotients]
+        if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
+            return Agreement(False, f"the monodromy group has a unipotent element, unlike {self.group}")
+        is_known = True in equal
+        is_unclear = None in equal and not is_known
+        if is_unclear or len(angles) > 1:
+            return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
+        if is_known:
+            return None
+        self.elements.append(candidate)
+        self.found[angles[0]] += 1
+        if len(self.elements) > self.order:
+            return Agreement(False, f"the monodromy group has more elements than {self.group}")
+        return None
+
+    def verdict(self) -> Agreement:
+        """That on all elements: no product of generators is a new one."""
+        count = len(self.elements)
+        if self.found != Counter(self.angles):
+            return Agreement(False, f"the monodromy group has {count} elements, with other traces than {self.group}")
+        plural = "element" if count == 1 else "elements"
+        return Agreement(True, f"the monodromy group has {count} {plural}, with the traces of {self.group}")
 
 
 def _is_identity(element: acb_mat, traces: dict[Fraction, acb]) -> bool | None:
     """Is an element the identity, if its trace is one of these?  None where the ball leaves that open."""
     trace = element.trace()
-    if not trace.overlaps(traces[Fraction(0)]):
+    if not trace.overlaps(_TWO):
         return False
     others = [value for angle, value in traces.items() if angle]
     return None if any(trace.overlaps(value) for value in others) else True
@@ -271,8 +292,22 @@ def _may_have_order(m: acb_mat, k: int) -> bool:
 
 def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
-    primes = [p for p in range(2, n + 1) if n % p == 0 and all(p % q for q in range(2, p))] if n <= _LARGEST else []
-    return any(all((word ** (n // p)).trace().real > _cosine(Fraction(1, p)).real for word in words) for p in primes)
+    if n > _LARGEST:
+        return False
+    return any(_have_order(words, n // p, p) for p in range(2, n + 1) if n % p == 0 and _is_prime(p))
+
+
+def _is_prime(p: int) -> bool:
+    return all(p % q for q in range(2, p))
+
+
+def _have_order(words: list[acb_mat], k: int, p: int) -> bool:
+    """Are the eigenvalues, k p-th roots of unity with p prime, provably k-th ones?
+
+    Their k-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
+    """
+    bound = _cosine(Fraction(1, p)).real
+    return all((word**k).trace().real > bound for word in words)
 
 
 def _words(generators: list[acb_mat]) -> list[acb_mat]:

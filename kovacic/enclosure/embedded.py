@@ -1,6 +1,6 @@
 """Equations whose constants are known by balls: algebraic constants such as sqrt(2), and parameters with irrational values.
 
-The guarantee: `Embedded.coefficients` are (Gaussian) integers and a radius, such that every coefficient of the exact equation,
+The guarantee: `Embedded.system` has (Gaussian) integers and a radius, such that every coefficient of the exact equation,
 scaled by the same power of two, differs from its integer by at most that radius.  What this means for the solutions is bounded
 disc by disc (`kovacic.enclosure.frame`), so the exact solution of the exact equation lies in the balls.
 
@@ -25,11 +25,11 @@ from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
 from kovacic.enclosure.log_derivative import LogDerivative, sharp_roots
 from kovacic.enclosure.points import floor, working_precision
+from kovacic.enclosure.system import System
 from kovacic.errors import InputError, LimitExceeded
 
 # Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near
 _EXTRA = 256
-Integers = tuple[int, ...]
 _UNDEFINED = "the equation isn't defined at these values of the parameters, as far as they are known"
 
 
@@ -46,29 +46,34 @@ class Embedded:
         """True if every precision can be had."""
         return not any(getattr(value, "fixed", False) for value in self.values.values())
 
-    def coefficients(self, prec: int) -> tuple[Integers, Integers, int, tuple[Integers, Integers] | None]:
-        """Numerator and denominator of S times the same power of two, rounded to integers, the radius, and the imaginary parts
-        where there are any."""
+    def system(self, prec: int) -> System:
+        """Numerator and denominator of S times the same power of two, rounded to integers, with the radius of the rounding."""
         bits = 2 * prec + _EXTRA
         with working_precision(2 * bits):
-            scaled = [[c * arb((1, bits)) for c in part.coeffs()] for part in self.polynomials()]
-            values = [*scaled[0], *scaled[1]]
-            if not all(c.is_finite() for c in values) or not scaled[1][-1].real != 0:
+            num, den = ([c * arb((1, bits)) for c in part.coeffs()] for part in self.polynomials())
+            values = [*num, *den]
+            if not all(c.is_finite() for c in values) or not den[-1].real != 0:
                 raise InputError(_UNDEFINED)
-            num, den = ([floor(c.real.mid()) for c in part] for part in scaled)
-            num_i, den_i = ([floor(c.imag.mid()) for c in part] for part in scaled)
-            den[-1] = den[-1] or 1
-            rounded = zip([*num, *den], [*num_i, *den_i], strict=True)
-            errors = [abs(c - acb(x, y)).upper() for c, (x, y) in zip(values, rounded, strict=True)]
+            num_re, num_im = _rounded(num)
+            den_re, den_im = _rounded(den)
+            den_re[-1] = den_re[-1] or 1  # which makes the radius larger
+            integers = map(acb, [*num_re, *den_re], [*num_im, *den_im])
+            errors = [abs(c - integer).upper() for c, integer in zip(values, integers, strict=True)]
             radius = max((floor(error) + 1 for error in errors), default=0)
-            imaginary = None if all(c.imag.is_zero() for c in values) else (tuple(num_i), tuple(den_i))
-            return tuple(num), tuple(den), radius, imaginary
+            imaginary = None
+            if not all(c.imag.is_zero() for c in values):
+                imaginary = (tuple(num_im), tuple(den_im))
+            return System(tuple(num_re), tuple(den_re), radius, imaginary)
 
     def is_real(self, others: Iterable[RatFunc] = ()) -> bool:
         """Are the coefficients of S, of the gauge and of other functions real?"""
-        functions = (self.S, *([self.gauge] if self.gauge is not None else []), *others)
-        parts = (self._embed(part) for function in functions for part in (function.num, function.den))
-        return all(c.imag.is_zero() for part in parts for c in part.coeffs())
+        functions = [self.S, *others]
+        if self.gauge is not None:
+            functions.append(self.gauge)
+        return all(self._is_real(part) for function in functions for part in (function.num, function.den))
+
+    def _is_real(self, poly: Poly) -> bool:
+        return all(c.imag.is_zero() for c in self._embed(poly).coeffs())
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
         """Numerator and denominator of S, at the working precision in force."""
@@ -123,9 +128,17 @@ class Embedded:
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
 
 
+def _rounded(coefficients: list[acb]) -> tuple[list[int], list[int]]:
+    """The integers below the midpoints of the real and of the imaginary parts."""
+    re = [floor(c.real.mid()) for c in coefficients]
+    im = [floor(c.imag.mid()) for c in coefficients]
+    return re, im
+
+
 def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
     """Raise InputError unless it is certain that none of these singular points lies on the straight segment."""
     ratios = ((b - point) / (a - point) for point in points)
+    # (b - z)/(a - z) is negative or 0 for z on the segment only
     if not all(ratio.real > 0 or not ratio.imag.contains(0) for ratio in ratios):
         raise InputError(
             "the path runs through a singular point of the equation, or so near that its constants don't tell",

@@ -83,19 +83,21 @@ class Journey:
                 self._begun.clear()
             self._begun[key] = self._begin(closed, prec)
         traveller, start = self._begun[key]
-        stops = [middle(target) for target in targets]
+        states = self._visited(traveller, [middle(target) for target in targets], start)
+        return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
+
+    def _visited(self, traveller: Traveller, stops: list[ExactPoint], start: State) -> list[State]:
+        """The states at the stops: one after the other, or along straight lines, or on one side of the real axis."""
         if self.chain:
             one = replace(traveller)
-            states = [one.visit(stop, start) for stop in stops]
-        elif self.side is None:
-            states = traveller.fan(stops, start)
-        else:
-            found: dict[int, State] = {}
-            for ray in _rays(traveller.here, stops):
-                states = replace(traveller).around([stops[i] for i in ray], start, self.side)
-                found |= zip(ray, states, strict=True)
-            states = [found[i] for i in range(len(stops))]
-        return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
+            return [one.visit(stop, start) for stop in stops]
+        if self.side is None:
+            return traveller.fan(stops, start)
+        found: dict[int, State] = {}
+        for numbers in _rays(traveller.here, stops):
+            states = replace(traveller).around([stops[i] for i in numbers], start, self.side)
+            found |= zip(numbers, states, strict=True)
+        return [found[i] for i in range(len(stops))]
 
     def knows(self, targets: Sequence[Number], prec: int) -> bool:
         """Do the ways that were gone by Taylor's method at this precision lead to all of the targets?"""
@@ -122,19 +124,51 @@ class Journey:
         problem = self.problem.at(prec)
         place = self.start.place
         start = self.start.state(problem, prec)
-        traveller = Traveller.at(problem, place if isinstance(place, Singular) else middle(place), closed, prec)
+        here = place if isinstance(place, Singular) else middle(place)
+        traveller = Traveller.at(problem, here, closed, prec)
         for vertex in self.vertices:
             traveller.go(middle(vertex), start)
         return traveller, start
 
 
 def _rays(here: ExactPoint | Singular, stops: Sequence[ExactPoint]) -> list[list[int]]:
-    """The stops on the same side on the real axis in the order of visit, others alone: straight ways that are shared."""
-    origin, inverted = (here.near, here.inverted) if isinstance(here, Singular) else (here, False)
-    keys = {i: stop.x - origin.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
-    right = sorted((i for i, key in keys.items() if key >= 0), key=keys.__getitem__, reverse=inverted)
-    left = sorted((i for i, key in keys.items() if key < 0), key=keys.__getitem__, reverse=not inverted)
-    return [ray for ray in (right, left, *([i] for i in range(len(stops)) if i not in keys)) if ray]
+    """The numbers of the stops, by straight ways that are shared: those on the same side on the real axis, in the order of
+    visit (from infinity the farthest first), and each of the others alone."""
+    origin = here.near if isinstance(here, Singular) else here
+    inverted = isinstance(here, Singular) and here.inverted
+    steps = {i: stop.x - origin.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
+    right = sorted((i for i, step in steps.items() if step >= 0), key=steps.__getitem__, reverse=inverted)
+    left = sorted((i for i, step in steps.items() if step < 0), key=steps.__getitem__, reverse=not inverted)
+    alone = [[i] for i in range(len(stops)) if i not in steps]
+    return [numbers for numbers in (right, left, *alone) if numbers]
+
+
+@dataclass(frozen=True)
+class _Detour:
+    """Around the singular point `place` of the real axis: by a triangle over `centre`, a short number beside it.
+
+    `sign` is the direction: 1 to the right, -1 to the left.
+    """
+
+    place: Any
+    centre: Any
+    radius: Any
+    sign: int
+
+    @property
+    def begin(self) -> Any:
+        """Where the axis is left."""
+        return self.centre - self.sign * self.radius
+
+    @property
+    def end(self) -> Any:
+        """Where it is reached again."""
+        return self.centre + self.sign * self.radius
+
+    def top(self, side: str) -> ExactPoint:
+        """The corner "above" or "below" the axis."""
+        height = self.radius if side == "above" else -self.radius
+        return ExactPoint(self.centre, height)
 
 
 @dataclass
@@ -189,17 +223,22 @@ class Traveller:
         if self.closed is not None:
             self.product = self.product.after(self._closed_matrix(self.closed, stop, start))
         else:
-            self._check_gauge(self.here, stop)
-            if self.forcing is not None:
-                self.forcing.check(self.here, stop)
-            for leg in walk(self.problem.system, self.here, stop, self.prec, self.forcing is not None):
-                if self.forcing is not None:
-                    change = self.forcing.step(leg, self._inverse_growth)
-                    y, dy = self.particular
-                    self.particular = apply(leg.matrix, (y + change[0], dy + change[1]))
-                self.product = self.product.after(leg.matrix)
+            self._walk(self.here, stop)
         self.growth *= self._growth(stop)
         self._arrive(stop)
+
+    def _walk(self, here: ExactPoint, stop: ExactPoint) -> None:
+        """The legs of a straight way by Taylor's method."""
+        self._check_gauge(here, stop)
+        forcing = self.forcing
+        if forcing is not None:
+            forcing.check(here, stop)
+        for leg in walk(self.problem.system, here, stop, self.prec, targets=int(forcing is not None)):
+            if forcing is not None:
+                y, dy = self.particular
+                change, slope_change = forcing.step(leg, self._inverse_growth)
+                self.particular = apply(leg.matrix, (y + change, dy + slope_change))
+            self.product = self.product.after(leg.matrix)
 
     def fan(self, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """The user's (z, z') at the ends of straight lines from here."""
@@ -246,23 +285,30 @@ class Traveller:
 
     def _by_discs(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
-        system = self.problem.system
         origin = to_double(here)
         places = [to_double(stop) for stop in stops]
         found = {i: self.state(start) for i, stop in enumerate(stops) if stop == here}
-        waiting = sorted((i for i in range(len(stops)) if i not in found), key=lambda i: abs(places[i] - origin))
+        waiting = [i for i in range(len(stops)) if i not in found]
+        waiting.sort(key=lambda i: abs(places[i] - origin))
         while waiting:
-            last = stops[waiting[-1]]
-            way = self.product
-            for leg in walk(system, here, last, self.prec, len(waiting)):
-                served = [*leg.disc.served(system, here, [(i, places[i], stops[i]) for i in waiting])]
-                if served:
-                    states = self._at_ends(here, leg, way.apply(start), [stops[i] for i in served])
-                    found |= zip(served, states, strict=True)
-                    waiting = [i for i in waiting if i not in found]
-                if leg.disc.leave != last:
-                    way = way.after(leg.matrix)
+            farthest = stops[waiting[-1]]
+            for leg, way in self._legs(here, farthest, len(waiting)):
+                candidates = [(i, places[i], stops[i]) for i in waiting]
+                served = [*leg.disc.served(self.problem.system, here, candidates)]
+                if not served:
+                    continue
+                states = self._at_ends(here, leg, way.apply(start), [stops[i] for i in served])
+                found |= zip(served, states, strict=True)
+                waiting = [i for i in waiting if i not in found]
         return [found[i] for i in range(len(stops))]
+
+    def _legs(self, here: ExactPoint, stop: ExactPoint, targets: int) -> Iterator[tuple[Leg, MatrixProduct]]:
+        """The legs of the straight line to a stop, each with the map from the start's coordinates to where it begins."""
+        way = self.product
+        for leg in walk(self.problem.system, here, stop, self.prec, targets):
+            yield leg, way
+            if leg.disc.leave != stop:  # the matrix of the last leg isn't needed
+                way = way.after(leg.matrix)
 
     def _at_ends(self, here: ExactPoint, leg: Leg, entering: State, ends: list[ExactPoint]) -> list[State]:
         """The user's (z, z') at points that a disc serves, from the state where it is entered."""
@@ -277,9 +323,13 @@ class Traveller:
         count_work(self.prec)
         here = self.here
         if isinstance(here, Singular):
-            return limit(here, start) if here.is_at(stop) else apply(self._closed_matrix(closed, stop, start), start)
+            if here.is_at(stop):
+                return limit(here, start)
+            return apply(self._closed_matrix(closed, stop, start), start)
         state = self.product.apply(start)
-        return self._given(state if stop == here else apply(self._closed_matrix(closed, stop, start), state), stop)
+        if stop != here:
+            state = apply(self._closed_matrix(closed, stop, start), state)
+        return self._given(state, stop)
 
     def _closed_matrix(self, closed: Closed, stop: ExactPoint, start: State) -> Matrix:
         if isinstance(self.here, Singular):
@@ -322,31 +372,21 @@ class Traveller:
         solutions are as large as exp(1/distance).  Stops that are nearer to it are reached along the axis from its ends.
         """
         result: list[State] = []
-        for sign, cut, place, unit in self._cuts(stops[-1]):
-            first = ExactPoint(cut - sign * unit)
-            top = ExactPoint(cut, unit if side == "above" else -unit)
-            last = cut + sign * unit
-            far, near, behind = (
-                [stop for stop in stops[len(result) :] if sign * (stop.x - mark) <= 0]
-                for mark in (first.x, place, last)
-            )
-            result += self.fan(far, start)
-            self.go(first, start)
-            result += self.fan(near[len(far) :], start)
-            self.go(top, start)
-            self.go(ExactPoint(last), start)
-            result += self.fan(behind[len(near) :], start)
+        for detour in self._detours(stops[-1]):
+            begin = ExactPoint(detour.begin)
+            end = ExactPoint(detour.end)
+            top = detour.top(side)
+            for mark, onward in ((detour.begin, [begin]), (detour.place, [top, end]), (detour.end, [])):
+                nearer = [stop for stop in stops[len(result) :] if detour.sign * (stop.x - mark) <= 0]
+                result += self.fan(nearer, start)
+                for point in onward:
+                    self.go(point, start)
         return [*result, *self.fan(stops[len(result) :], start)]
 
-    def _cuts(self, last: ExactPoint) -> Iterator[tuple[int, Any, Any, Any]]:
-        """The detours on the way to `last`: direction, a short number beside the singular point, the point, and radius."""
-        here = self.here
+    def _detours(self, last: ExactPoint) -> Iterator[_Detour]:
+        """Those on the way to `last`, in order."""
         singular = self.problem.singular_points(256)
-        if isinstance(here, Singular) and here.inverted:
-            far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
-            here = ExactPoint(far if last.x > 0 else -far)
-        elif isinstance(here, Singular):
-            here = here.near
+        here = self._beginning(last, singular)
         if not (here.is_real() and last.is_real()):
             raise InputError(
                 "a side of the real axis needs a start and points on it",
@@ -354,12 +394,24 @@ class Traveller:
                 shell="leave --path out, where the straight line meets no singular point",
             )
         sign = 1 if last.x > here.x else -1
-        cuts = {p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < sign * (last.x - here.x)}
-        for cut in sorted(cuts, reverse=sign < 0):
-            squares = [(p - ExactPoint(cut)).norm_squared() / 4 for p in singular if p != ExactPoint(cut)]
-            square = min([*squares, (here - ExactPoint(cut)).norm_squared()])
-            unit = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
-            yield sign, (cut / unit * 16).floor() * unit / 16, cut, unit
+        places = {p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < sign * (last.x - here.x)}
+        for place in sorted(places, reverse=sign < 0):
+            point = ExactPoint(place)
+            squares = [(other - point).norm_squared() / 4 for other in singular if other != point]
+            square = min([*squares, (here - point).norm_squared()])
+            radius = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
+            centre = (place / radius * 16).floor() * radius / 16
+            yield _Detour(place, centre, radius, sign)
+
+    def _beginning(self, last: ExactPoint, singular: Sequence[ExactPoint]) -> ExactPoint:
+        """Where a way on the real axis to `last` begins; from infinity beyond all singular points."""
+        here = self.here
+        if isinstance(here, ExactPoint):
+            return here
+        if not here.inverted:
+            return here.near
+        far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
+        return ExactPoint(far) if last.x > 0 else ExactPoint(-far)
 
     def _leave(self, point: Singular, stop: ExactPoint, start: State) -> None:
         """Out of the disc around a singular point, or to the stop itself."""

@@ -84,8 +84,11 @@ class NumericProblem:
             return False
         if self.embedded is None:
             return True
+        others = []
+        if given is not None:
+            others = [given.f / given.a, 1 / given.a]
         with working_precision(_BITS):
-            return self.embedded.is_real(() if given is None else (given.f / given.a, 1 / given.a))
+            return self.embedded.is_real(others)
 
     @property
     def is_exact(self) -> bool:
@@ -121,7 +124,7 @@ class NumericProblem:
         """With the constants to this precision."""
         if self.embedded is None:
             return self
-        return replace(self, system=System(*self.embedded.coefficients(prec)))
+        return replace(self, system=self.embedded.system(prec))
 
     def poles(self, prec: int) -> Zeros:
         """Enclosures of the poles of S at about `prec` bits, with their multiplicities."""
@@ -153,15 +156,7 @@ def as_problem(
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {equation.variable} here")
     if isinstance(equation, System):
         return NumericProblem(equation)
-    if params is None and isinstance(equation, str):
-        known = _of_text(equation)
-        if isinstance(known, NotRational):
-            raise known.with_traceback(None)
-        found = known
-    elif params is None and isinstance(equation, Answer):
-        found = problem_of(equation)
-    else:
-        found = read_problem(equation, params)
+    found = _looked_up(equation) if params is None else read_problem(equation, params)
     if found.right is not None and not forced:
         raise InputError("an equation without a right-hand side is needed here")
     if found.embedded is not None and not constants:
@@ -174,6 +169,18 @@ def change_of(equation: object) -> Change | None:
     if isinstance(equation, Answer | Parsed) and equation.equation is not None:
         return equation.equation.change
     return None
+
+
+def _looked_up(equation: object) -> NumericProblem:
+    """The problem without values of parameters; text and answers are read once."""
+    if isinstance(equation, Answer):
+        return problem_of(equation)
+    if not isinstance(equation, str):
+        return read_problem(equation)
+    known = _of_text(equation)
+    if isinstance(known, NotRational):
+        raise known.with_traceback(None)
+    return known
 
 
 @computed_once
@@ -197,27 +204,56 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     given = found.equation
     if given is not None and given.change is not None:
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {given.change.variable} here")
-    S = found.S
-    gauge = None if given is None else given.gauge or None
-    right = None if given is None or given.is_homogeneous else given
-    names = _parameters(S, given, right)
-    numbers = values_of_parameters(names, params or {}) if params is not None or names else {}
+    functions = _Functions.of(found)
+    names = _parameters(found, functions.right)
+    numbers = {}
+    if params is not None or names:
+        numbers = values_of_parameters(names, params or {})
     values = {name: value.re for name, value in numbers.items() if isinstance(value, ExactPoint) and value.is_real()}
-    if len(values) < len(numbers) or _has_algebraic_constants(S, gauge, right):
-        return NumericProblem(System((), (1,)), right=right, embedded=Embedded(S, gauge, numbers)).at(_BITS)
-    if not numbers:
-        decision = found.decision if isinstance(found, Answer) else None
-        return NumericProblem(System.of(S), S, decision, gauge, right)
-    S = _specialised(S, values)
-    gauge = None if gauge is None else _specialised(gauge, values)
-    right = None if right is None else _right_at(right, values)
-    return NumericProblem(System.of(S), S, None, gauge, right)  # a decision was that for generic values
+    if len(values) < len(numbers) or functions.have_algebraic_constants:
+        embedded = Embedded(functions.S, functions.gauge, numbers)
+        return NumericProblem(System((), (1,)), right=functions.right, embedded=embedded).at(_BITS)
+    decision = None
+    if numbers:  # the decision of an answer is that for generic values
+        functions = functions.at(values)
+    elif isinstance(found, Answer):
+        decision = found.decision
+    return NumericProblem(System.of(functions.S), functions.S, decision, functions.gauge, functions.right)
 
 
-def _has_algebraic_constants(S: RatFunc, gauge: RatFunc | None, right: Equation | None) -> bool:
-    """Are there constants that are neither rational nor parameters?"""
-    functions = [S, gauge, None if right is None else right.f]
-    return any(isinstance(f.field, AlgebraicField) for f in functions if f is not None)
+@dataclass(frozen=True)
+class _Functions:
+    """S, the gauge unless it is zero, and the user's equation where it has a right-hand side."""
+
+    S: RatFunc
+    gauge: RatFunc | None = None
+    right: Equation | None = None
+
+    @classmethod
+    def of(cls, found: Answer | Parsed) -> _Functions:
+        """Those of an equation that was read."""
+        given = found.equation
+        if given is None:
+            return cls(found.S)
+        right = None if given.is_homogeneous else given
+        return cls(found.S, given.gauge or None, right)
+
+    @property
+    def have_algebraic_constants(self) -> bool:
+        """Are there constants that are neither rational nor parameters?"""
+        fields = [self.S.field]
+        if self.gauge is not None:
+            fields.append(self.gauge.field)
+        if self.right is not None:
+            fields.append(self.right.f.field)
+        return any(isinstance(field, AlgebraicField) for field in fields)
+
+    def at(self, values: dict[str, Fraction]) -> _Functions:
+        """The same at values of the parameters."""
+        S = _specialised(self.S, values)
+        gauge = None if self.gauge is None else _specialised(self.gauge, values)
+        right = None if self.right is None else _right_at(self.right, values)
+        return _Functions(S, gauge, right)
 
 
 def _read(equation: object) -> Answer | Parsed:
@@ -228,9 +264,13 @@ def _read(equation: object) -> Answer | Parsed:
     return read_input(equation)
 
 
-def _parameters(S: RatFunc, given: Equation | None, right: Equation | None) -> tuple[str, ...]:
+def _parameters(found: Answer | Parsed, right: Equation | None) -> tuple[str, ...]:
     """The names of the parameters, those of a right-hand side that isn't rational among them."""
-    names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
+    given = found.equation
+    field = found.S.field
+    if given is not None:
+        field = (given.a + given.b + given.c).field
+    names = parameters_of(field)
     if right is None or right.h is None:
         return names
     symbols = {symbol.name for symbol in right.h.free_symbols}
@@ -240,30 +280,36 @@ def _parameters(S: RatFunc, given: Equation | None, right: Equation | None) -> t
 def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:
     """The equation with a right-hand side at values of its parameters."""
     a, b, c, f = (_specialised(part, values) for part in (right.a, right.b, right.c, right.f))
-    h = None if right.h is None else right.h.subs({name: as_text(value) for name, value in values.items()})
+    h = right.h
+    if h is not None:
+        h = h.subs({name: as_text(value) for name, value in values.items()})
     return replace(right, a=a, b=b, c=c, f=f, h=h)
 
 
 def values_of_parameters(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
     """The values of the parameters; raises InputError unless there is one for each.  pi and e have theirs."""
-    own = {name: text for name, text in ((PI, "pi"), (EULER, "exp(1)")) if name in names}
-    given = {str(name): as_number(value, f"the parameter {name}") for name, value in (own | dict(params)).items()}
-    if set(given) != set(names):
-        wanted = ", ".join(names) or "no parameter"
-        raise InputError(
-            f"values are needed for {wanted}; given are {', '.join(given) or 'none'}",
-            hint=f"params={dict.fromkeys(names, 3)}, for instance" if names else "leave params out",
-            shell=" ".join(f"--param {name}=3" for name in names) + ", for instance" if names else "leave --param out",
-        )
-    return given
+    constants = {name: text for name, text in ((PI, "pi"), (EULER, "exp(1)")) if name in names}
+    values = constants | dict(params)
+    given = {str(name): as_number(value, f"the parameter {name}") for name, value in values.items()}
+    if set(given) == set(names):
+        return given
+    wanted = ", ".join(names) or "no parameter"
+    hint = "leave params out"
+    shell = "leave --param out"
+    if names:
+        hint = f"params={dict.fromkeys(names, 3)}, for instance"
+        shell = " ".join(f"--param {name}=3" for name in names) + ", for instance"
+    raise InputError(f"values are needed for {wanted}; given are {', '.join(given) or 'none'}", hint=hint, shell=shell)
 
 
 def _specialised(function: RatFunc, values: dict[str, Fraction]) -> RatFunc:
     """A rational function at these values of its parameters."""
-    parts = [part for part in (function.num, function.den) if isinstance(part, FunctionPoly)]
+    num = function.num
+    den = function.den
+    if not isinstance(num, FunctionPoly) or not isinstance(den, FunctionPoly):
+        return function
+    point = [values[name] for name in num.field.names]
     try:
-        return (
-            RatFunc(*(p.value_at([values[name] for name in p.field.names], QQ) for p in parts)) if parts else function
-        )
+        return RatFunc(num.value_at(point, QQ), den.value_at(point, QQ))
     except ZeroDivisionError:
         raise InputError("the equation isn't defined at these values of the parameters") from None
