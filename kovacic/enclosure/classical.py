@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from typing import Any
@@ -59,7 +59,8 @@ def classical_of(S: RatFunc, work: int | None) -> Classical | None:
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
     budget = Budget(Limits(constants=1))
-    with nullcontext() if work is None else bounded_work(work):
+    bound: AbstractContextManager[object] = nullcontext() if work is None else bounded_work(work)
+    with bound:
         search = find(S, budget, extended=False)
     if search.stopped and budget.seconds_left <= 0:  # an exception isn't kept
         raise LimitExceeded(search.stopped, limit="seconds")
@@ -91,7 +92,10 @@ class Classical:
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""
-        return digits <= (max(self.cost.most, _MOST_FROM_ZERO) if from_zero else self.cost.most)
+        most = self.cost.most
+        if from_zero:
+            most = max(most, _MOST_FROM_ZERO)
+        return digits <= most
 
     def coordinate(self, point: ExactPoint) -> int:
         """That of the standard equation which serves best there."""
@@ -125,7 +129,9 @@ class Classical:
         if zero is None:
             return multiply(start.at(b), start.coordinates)
         basis = _start(self, zero, True)
-        return multiply(basis.at(b), basis.coordinates if a == zero else inverse(basis.at(a)))
+        there = basis.at(b)
+        coordinates = basis.coordinates if a == zero else inverse(basis.at(a))
+        return multiply(there, coordinates)
 
 
 Closed = CaseOneForm | Classical
@@ -146,7 +152,8 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
 def _start(classical: Classical, a: ExactPoint, is_zero: bool) -> Solutions:
     """The solutions from a, perhaps an ordinary zero of f, on."""
     form = _form(classical, classical.coordinate(a))
-    return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
+    exponents = (fmpq(0), fmpq(1)) if is_zero else None
+    return Solutions.make(form, a, exponents)
 
 
 @kept_at_precision(maxsize=16)
@@ -162,7 +169,9 @@ def _frobenius(classical: Classical, point: Singular, gauge: RatFunc | None, nee
         x0 = point.near.x
         (lower, upper) = point.exponents()
         form = _form(classical, classical.coordinate(point.near))
-    if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
+    if form.n(x0) != 0 or form.d(x0) == 0:  # f isn't zero there
+        raise NotServed
+    if form.powers[0][0] == 0 or not acb(upper).imag.is_zero():
         raise NotServed
     if needed[0] and point.difference is not None:
         raise NotServed
@@ -179,10 +188,15 @@ def _without_pole(gauge: RatFunc, point: ExactPoint) -> RatFunc | None:
 
 def _ordinary_zero(form: StandardForm, a: ExactPoint, b: ExactPoint) -> ExactPoint | None:
     """A zero of f on a real leg that is an ordinary point of y'' = S y: where f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
-    if form.n.degree() < 2 or not a.is_real() or not b.is_real() or form.powers[0][0] == 0:
+    if form.n.degree() < 2 or form.powers[0][0] == 0:
         return None
-    doubled = 2 * form.powers[0][0] - 1
-    zeros = [z for z, k in form.n.roots() if k > 1 and k * doubled == 1 and min(a.x, b.x) <= z <= max(a.x, b.x)]
+    if not a.is_real() or not b.is_real():
+        return None
+    low = min(a.x, b.x)
+    high = max(a.x, b.x)
+    doubled = 2 * form.powers[0][0] - 1  # 2 mu, or -2 mu
+    ordinary = [z for z, k in form.n.roots() if k > 1 and k * doubled == 1]
+    zeros = [z for z in ordinary if low <= z <= high]
     return ExactPoint(zeros[0]) if zeros else None
 
 
@@ -273,7 +287,8 @@ class Solutions:
             rate = theta.value(to_acb(x))
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):
-            y, dy = y * growth, (dy + (exponent / t + rate) * y) * growth
+            dy = (dy + (exponent / t + rate) * y) * growth
+            y = y * growth
             if x.is_real():
                 y = acb(y.real)
                 dy = acb(dy.real)
@@ -316,7 +331,8 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
             raise NotServed
         angle = sum((quotient.log().imag * k for quotient, k in quotients), arb(0))
     back = ratio.real.mid() < 0
-    log = (-ratio if back else ratio).log()
+    beside = -ratio if back else ratio  # away from the cut of the principal logarithm
+    log = beside.log()
     turns = ((angle - log.imag) / arb.pi()).unique_fmpz()
     if turns is None or bool(turns % 2) is not back:
         raise NotServed
@@ -347,10 +363,9 @@ def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool
 
     On the real axis z and 1 - z keep their signs, since their numerators and denominators have no zeros (`_followed`).
     """
-    slits = (form.slits[0] if needed[0] else None, form.slits[1])
     tops = (form.n, form.d - form.n)
-    for c, top in zip(slits, tops, strict=True):
-        if c is None:
+    for c, top, is_met in zip(form.slits, tops, (needed[0], True), strict=True):
+        if c is None or not is_met:
             continue
         if a.is_real() and b.is_real():
             if top(a.x) / form.d(a.x) <= 0:

@@ -56,18 +56,26 @@ def as_number(value: Any, name: str) -> Number:
     try:
         return as_point(value, name)
     except InputError:
-        expression = value
-        if isinstance(value, str):
-            from kovacic.reading.symbolic import read_expression
-
-            expression = read_expression(value, names={}, what=name)
-            if expression.is_number and all(part.is_Rational for part in expression.expand().as_real_imag()):
-                return as_point(expression.expand(), name)
-        if not getattr(expression, "is_number", False) or getattr(expression, "is_finite", None) is False:
+        found = _symbolic(value, name)
+        if found is None:
             raise
-        number = Constant(plain_text(value), lambda: in_balls(expression, {}))
-        number.value()
-        return number
+        return found
+
+
+def _symbolic(value: Any, name: str) -> Number | None:
+    """The number that a SymPy expression or a text stands for; None for anything else."""
+    expression = value
+    if isinstance(value, str):
+        from kovacic.reading.symbolic import read_expression
+
+        expression = read_expression(value, names={}, what=name)
+        if expression.is_number and all(part.is_Rational for part in expression.expand().as_real_imag()):
+            return as_point(expression.expand(), name)
+    if not getattr(expression, "is_number", False) or getattr(expression, "is_finite", None) is False:
+        return None
+    number = Constant(plain_text(value), lambda: in_balls(expression, {}))
+    number.value()  # raises for functions that aren't known
+    return number
 
 
 def _given_ball(value: Any) -> acb | None:
@@ -76,15 +84,21 @@ def _given_ball(value: Any) -> acb | None:
         return acb(value.to_flint())
     if isinstance(value, arb | acb):
         return acb(value)
-    intervals = getattr(value, "_mpci_", None) or ((value._mpi_,) if hasattr(value, "_mpi_") else ())
-    parts = []
-    for interval in intervals:
-        if any(not mantissa and exponent for _, mantissa, exponent, _ in interval):
-            raise InputError("an interval isn't finite")
-        e = min(exponent for _, _, exponent, _ in interval)
-        low, high = ((-1) ** sign * (int(mantissa) << (exponent - e)) for sign, mantissa, exponent, _ in interval)
-        parts.append(arb((low + high, e - 1), (high - low, e - 1)))
-    return acb(*parts) if parts else None
+    if getattr(value, "_mpci_", None):  # mpmath's complex intervals
+        re, im = value._mpci_
+        return acb(_of_interval(re), _of_interval(im))
+    if hasattr(value, "_mpi_"):
+        return acb(_of_interval(value._mpi_))
+    return None
+
+
+def _of_interval(interval: Any) -> arb:
+    """The ball with the ends of an mpmath interval, (sign, mantissa, exponent, bits) each."""
+    if any(not mantissa and exponent for _, mantissa, exponent, _ in interval):
+        raise InputError("an interval isn't finite")
+    e = min(exponent for _, _, exponent, _ in interval)
+    low, high = ((-1) ** sign * (int(mantissa) << (exponent - e)) for sign, mantissa, exponent, _ in interval)
+    return arb((low + high, e - 1), (high - low, e - 1))
 
 
 def to_ball(number: Number) -> acb:

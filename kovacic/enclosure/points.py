@@ -170,6 +170,12 @@ def midpoint(ball: acb) -> ExactPoint:
     return ExactPoint(*(_exact(part.mid()) for part in (ball.real, ball.imag)))
 
 
+def around_zero(radius: arb, *, real: bool) -> acb:
+    """The ball of all errors up to this radius; of the real ones only, if `real`."""
+    error = arb(0, radius)
+    return acb(error) if real else acb(error, error)
+
+
 def floor(number: arb) -> int:
     """The integer below a number that is known exactly."""
     return int(_exact(number).floor())

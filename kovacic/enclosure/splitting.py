@@ -46,13 +46,12 @@ from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 
 from kovacic.enclosure.frame import Frame, GaussianParts, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
-from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, around_zero, to_acb, working_precision
 from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
-Gauss = tuple[Any, Any]  # a matrix, or number, over Z[i]: real and imaginary part (None: zero)
 LEAF = 8  # steps whose product is formed once, with polynomials in m as entries
 _BLOCK = 1.5  # length of the integers of a block, by the bits that are still needed (the first block: 1)
 _LOWEST = 1500
@@ -66,6 +65,45 @@ _FEW = 128  # terms that the last step of a chain may have: it goes term by term
 
 
 @dataclass(frozen=True)
+class Gauss:
+    """A matrix, or a number, over Z[i]: real and imaginary part (None: zero)."""
+
+    re: Any
+    im: Any = None
+
+    def __mul__(self, other: Gauss) -> Gauss:
+        if self.im is None and other.im is None:
+            return Gauss(self.re * other.re)
+        if self.im is None:
+            return Gauss(self.re * other.re, self.re * other.im)
+        if other.im is None:
+            return Gauss(self.re * other.re, self.im * other.re)
+        # three products instead of four
+        x = self.re * other.re
+        y = self.im * other.im
+        return Gauss(x + y * -1, (self.re + self.im) * (other.re + other.im) + (x + y) * -1)
+
+    def __add__(self, other: Gauss) -> Gauss:
+        re = self.re + other.re
+        if self.im is None:
+            return Gauss(re, other.im)
+        if other.im is None:
+            return Gauss(re, self.im)
+        return Gauss(re, self.im + other.im)
+
+    def at(self, m: int) -> Gauss:
+        """The matrix of integers for a matrix of polynomials."""
+        im = None if self.im is None else self.im.at(m)
+        return Gauss(self.re.at(m), im)
+
+    def in_balls(self) -> Any:
+        """The matrix of balls for a matrix of integers, at the working precision in force."""
+        if self.im is None:
+            return arb_mat(self.re)
+        return acb_mat(self.re) + acb_mat(self.im) * acb(0, 1)
+
+
+@dataclass(frozen=True)
 class Run:
     """A run of steps: D V' = C V, D (Y, Y')' = D (Y, Y') + R V."""
 
@@ -75,31 +113,11 @@ class Run:
 
     def at(self, m: int) -> Run:
         """The run of integers for a run of polynomials."""
-        C, R = ((re.at(m), None if im is None else im.at(m)) for re, im in (self.C, self.R))
-        return Run(C, R, self.D(m))
+        return Run(self.C.at(m), self.R.at(m), self.D(m))
 
     def after(self, first: Run) -> Run:
         """`first`, then this."""
-        return Run(
-            _times(self.C, first.C), _plus(_times(self.R, first.C), _times(first.R, (self.D, None))), self.D * first.D
-        )
-
-
-def _times(a: Gauss, b: Gauss) -> Gauss:
-    (ar, ai), (br, bi) = a, b
-    if ai is None:
-        return ar * br, None if bi is None else ar * bi
-    if bi is None:
-        return ar * br, ai * br
-    x = ar * br
-    y = ai * bi
-    return x + y * -1, (ar + ai) * (br + bi) + (x + y) * -1
-
-
-def _plus(a: Gauss, b: Gauss) -> Gauss:
-    if a[1] is None:
-        return a[0] + b[0], b[1]
-    return a[0] + b[0], a[1] if b[1] is None else a[1] + b[1]
+        return Run(self.C * first.C, self.R * first.C + first.R * Gauss(self.D), self.D * first.D)
 
 
 class PolynomialMatrix:
@@ -167,15 +185,19 @@ class Recurrence:
 
         def tables(p: list[int], q: list[int], diagonal: fmpz_poly) -> tuple[PolynomialMatrix, PolynomialMatrix]:
             last = [coefficient(p, q, j) for j in range(r, 0, -1)]
-            shift = [[diagonal if k == n + 1 else zero for k in range(r)] for n in range(r - 1)]
-            factors = [fmpz_poly([1]), m, fmpz_poly([(-1) ** i]), m * (-1) ** (i + 1)][: 4 if mirror else 2]
+            shift = [[zero] * r for _ in range(r - 1)]
+            for n in range(r - 1):
+                shift[n][n + 1] = diagonal
+            factors = [fmpz_poly([1]), m]
+            if mirror:
+                factors += [fmpz_poly([(-1) ** i]), m * (-1) ** (i + 1)]
             return PolynomialMatrix([*shift, last]), PolynomialMatrix([[f * entry for entry in last] for f in factors])
 
         C, R = tables(self.P[0], self.Q[0], D)
         if self.is_real:
-            return Run((C, None), (R, None), D)
+            return Run(Gauss(C), Gauss(R), D)
         C_im, R_im = tables(self.P[1] or [], self.Q[1] or [], zero)
-        return Run((C, C_im), (R, R_im), D)
+        return Run(Gauss(C, C_im), Gauss(R, R_im), D)
 
 
 def make_block(leaf: Run, m: int, leaves: int) -> Run:
@@ -202,7 +224,10 @@ def _sum_series(
     matrix, number = (arb_mat, arb) if steps.is_real else (acb_mat, acb)
     with working_precision(full):
         V = matrix([[0, 0]] * (r - 2) + [[1, 0], [0, 1]])
-        sums = matrix([[1, 1], [0, 1], [1, -1], [0, 1]][: 4 if mirror else 2])
+        first_sums = [[1, 1], [0, 1]]  # of b_0 and b_1
+        if mirror:
+            first_sums += [[1, -1], [0, 1]]
+        sums = matrix(first_sums)
         length = abs(to_acb(z)).upper()
         ratio = arb(frame.q[0][0]) / steps.Q[0][0] / abs(to_acb(z)).lower() ** 2
         before: tuple[int, int] | None = None
@@ -217,11 +242,12 @@ def _sum_series(
             needed = max(64, full + 33 + int(max(map(log2, heights))))
             leaves = _leaves(steps, m, needed, before)
             block = make_block(leaf, m, leaves)
-            m, before = m + leaves * LEAF, (m, needed)
+            before = (m, needed)
+            m += leaves * LEAF
             with working_precision(needed):
                 inverse = number(1) / number(block.D)
-                change = _balls(block.R) * V * inverse
-                V = _balls(block.C) * V * inverse
+                change = block.R.in_balls() * V * inverse
+                V = block.C.in_balls() * V * inverse
             sums = sums + change
 
 
@@ -240,17 +266,16 @@ def _leaves(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | No
     return max(1, math.ceil(min(_BLOCK * max(needed, _LEAST) / each, steps_left) / LEAF))
 
 
-def _balls(a: Gauss) -> Any:
-    return arb_mat(a[0]) if a[1] is None else acb_mat(a[0]) + acb_mat(a[1]) * acb(0, 1)
-
-
 def is_split(system: System, prec: int) -> bool:
     """True if splitting is the cheaper way at this precision: by the order of the recurrence, as measured.
 
     (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
+    if system.radius:
+        return False
     order = max(2, len(system.num) + 1, len(system.den) - 1)
-    return not system.radius and prec > max(_LOWEST, (_ENTIRE if len(system.den) == 1 else _SINGULAR) * order**3)
+    factor = _ENTIRE if len(system.den) == 1 else _SINGULAR
+    return prec > max(_LOWEST, factor * order**3)
 
 
 def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, mirror: bool = False) -> list[Matrix]:
@@ -261,13 +286,14 @@ def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, m
     offset = target - frame.centre
     sums, errors = _sum_series(system, frame, frame.seen(target), mirror, prec)
     real = offset.is_real() and frame.centre.is_real()
+    first_rows = (0, 2) if mirror else (0,)
     with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(offset)
-        balls = [[arb(0, error) for error in pair] for pair in errors]
         matrices = []
-        for row in (0, 2) if mirror else (0,):
-            y1, d1, y2, d2 = (
-                acb(sums[row + i, k]) + acb(balls[k][i], 0 if real else balls[k][i]) for k in (0, 1) for i in (0, 1)
+        for row in first_rows:
+            (y1, d1), (y2, d2) = (
+                [acb(sums[row + i, k]) + around_zero(error, real=real) for i, error in enumerate(errors[k])]
+                for k in (0, 1)
             )
             matrices.append((y1, y2 * h, d1 / h, d2))
         return matrices
@@ -294,7 +320,8 @@ def bit_burst(system: System, frame: Frame, target: ExactPoint, prec: int) -> li
         inner = make_frame(system, stop, frame.e - step)
         assert inner is not None  # the points of the chain lie within 2^-16 scales of a disc without singular points
         frame = inner
-        length, step = 2 * length, length
+        step = length
+        length = 2 * length
     return matrices
 
 

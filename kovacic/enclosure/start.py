@@ -25,7 +25,7 @@ from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
-from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, around_zero, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System
@@ -51,9 +51,10 @@ class Start:
         if self.decaying:
             assert not isinstance(self.place, Singular)
             x = middle(self.place)
-            gauge = problem.gauge
             slope = logarithmic_derivative(problem.system, x, prec)
-            dy = y * (slope if gauge is None else slope + value(gauge, None, to_acb(x)))
+            if problem.gauge is not None:
+                slope += value(problem.gauge, None, to_acb(x))
+            dy = y * slope
         return spread(problem, self.place, (y, dy))
 
 
@@ -72,7 +73,8 @@ def spread(problem: NumericProblem, number: Number | Singular, state: State) -> 
         else:
             a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
             size = (abs(b / a) + abs(c / a)).upper()
-        return size, arb(0) if forcing is None else abs(forcing.value(ball)).upper()
+        largest = arb(0) if forcing is None else abs(forcing.value(ball)).upper()
+        return size, largest
 
     return spread_by(bounds, number, state, problem.is_real)
 
@@ -87,31 +89,40 @@ def spread_by(bounds: Callable[[acb], tuple[arb, arb]], number: object, state: S
     largest = max(abs(v).upper() for v in state) + forcing
     change = (max(arb(1), size) * abs(ball - to_acb(middle(number))).upper()).expm1() * largest
     real = real and all(v.imag.is_zero() for v in (ball, *state))
-    error = acb(arb(0, change.upper()), arb(0, 0 if real else change.upper()))
+    error = around_zero(change.upper(), real=real)
     return state[0] + error, state[1] + error
 
 
 def read_start(
-    problem: NumericProblem, x0: object, y0: object, dy0: object, frobenius: Sequence[object] | None, which: str | None
+    problem: NumericProblem,
+    x0: object,
+    *,
+    y0: object,
+    dy0: object,
+    frobenius: Sequence[object] | None,
+    which: str | None,
 ) -> Start:
     """The start that the arguments of `evaluate` describe."""
     if which not in (None, "regular", "decaying"):
         raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
     has_values = y0 is not None or dy0 is not None
-    if which is not None or frobenius is not None:
+    has_coordinates = frobenius is not None
+    if which is not None or has_coordinates:
         _check_frobenius_allowed(problem)
     if which == "decaying":
-        if dy0 is not None or frobenius is not None:
+        if dy0 is not None or has_coordinates:
             raise InputError("the decaying solution is given by y0 alone")
-        return Start(as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), ExactPoint(0)), True)
-    if has_values + (frobenius is not None) + (which is not None) != 1:
+        place = as_number(x0, "x0")
+        y = ExactPoint(1) if y0 is None else as_number(y0, "y0")
+        return Start(place, (y, ExactPoint(0)), decaying=True)
+    if [has_values, has_coordinates, which == "regular"].count(True) != 1:
         raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
     if has_values:
         if y0 is None or dy0 is None:
             raise InputError("both y0 and dy0 are needed", hint=_STARTS, shell=_SHELL_STARTS)
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
-    place = place_of(problem, x0, "x0")
-    return Start(place, _frobenius_coordinates(place, frobenius))
+    singular = place_of(problem, x0, "x0")
+    return Start(singular, _frobenius_coordinates(singular, frobenius))
 
 
 def _check_frobenius_allowed(problem: NumericProblem) -> None:
@@ -157,7 +168,8 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
     more slowly than 1/x^2.
     """
-    if not system.num or system.num[-1] * system.den[-1] < 0 or len(system.num) - len(system.den) < -1:
+    is_positive = bool(system.num) and system.num[-1] * system.den[-1] > 0
+    if not is_positive or len(system.num) - len(system.den) < -1:
         raise InputError(
             "no solution decays for large x: S must be positive there, and x^2 S unbounded",
             hint="for a regular singular point at infinity: x0='oo', which='regular'",
@@ -178,7 +190,9 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
         growth += (num(x) / den(x)).real.sqrt() * step / 2
         if step > 1 << 200:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
-    m, n, _dm, dn = product(piece_matrices(system, ExactPoint(first + step), x0, prec + 20))
-    n = -n
-    dn = -dn
-    return dn / n + acb(arb(0.5, 0.5)) / (n * (n + acb(arb(0.5, 0.5)) * (m - n)))
+    matrix = product(piece_matrices(system, ExactPoint(first + step), x0, prec + 20))
+    m = matrix[0]
+    n = -matrix[1]
+    dn = -matrix[3]
+    s = acb(arb(0.5, 0.5))  # all that is known of it: 0 < s < 1
+    return dn / n + s / (n * (n + s * (m - n)))

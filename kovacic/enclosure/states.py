@@ -130,7 +130,7 @@ def journey_of(
         raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
     polygon = () if path is None or isinstance(path, str) else path
     vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
-    start = read_start(problem, x0, y0, dy0, frobenius, which)
+    start = read_start(problem, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
     return Journey(problem, start, vertices, path == "chain", path if path in ("above", "below") else None)
 

@@ -53,8 +53,10 @@ class System:
         q = fmpz_poly(list(den))
         if q == 0:
             raise InputError("the denominator of S is zero")
-        g = p.gcd(q) * (-1 if q.leading_coefficient() < 0 else 1)
-        num, den = (tuple(int(c) for c in (part // g).coeffs()) for part in (p, q))
+        common = p.gcd(q)
+        if q.leading_coefficient() < 0:
+            common = common * -1
+        num, den = (tuple(int(c) for c in (part // common).coeffs()) for part in (p, q))
         return cls(num, den)
 
     @classmethod
@@ -71,17 +73,25 @@ class System:
         whole = (p.numer() * q.denom(), q.numer() * p.denom())
         return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
 
+    def _parts(self, which: Which) -> tuple[tuple[int, ...], tuple[int, ...] | None]:
+        """The real and the imaginary parts of the coefficients (None: all zero)."""
+        num_im, den_im = self.imaginary or (None, None)
+        return (self.num, num_im) if which == "num" else (self.den, den_im)
+
     def polynomial(self, which: Which) -> acb_poly:
         """Numerator or denominator, at the working precision in force."""
-        re = acb_poly(list(getattr(self, which)))
-        return re if self.imaginary is None else re + acb_poly(list(self.imaginary[which == "den"])) * acb(0, 1)
+        re, im = self._parts(which)
+        if im is None:
+            return acb_poly(list(re))
+        return acb_poly(list(re)) + acb_poly(list(im)) * acb(0, 1)
 
     def along(self, which: Which, a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
         """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q."""
-        real, imag = _along(getattr(self, which), a, step)
-        if self.imaginary is None:
+        re, im = self._parts(which)
+        real, imag = _along(re, a, step)
+        if im is None:
             return real, imag
-        first, second = _along(self.imaginary[which == "den"], a, step)
+        first, second = _along(im, a, step)  # to be multiplied by i
         return real - second, imag + first
 
     def roots(self, which: Which, prec: int) -> Zeros:
@@ -90,11 +100,12 @@ class System:
         Where coefficients aren't real, multiplicities may be too large, and zeros of the conjugate polynomial among them.
         """
         prec = max(64, 1 << (prec - 1).bit_length())
-        if self.imaginary is None:
-            return _isolated(getattr(self, which), prec)
-        re = fmpz_poly(list(getattr(self, which)))
-        im = fmpz_poly(list(self.imaginary[which == "den"]))
-        found = _isolated(tuple(int(c) for c in (re * re + im * im).coeffs()), prec)
+        re, im = self._parts(which)
+        if im is None:
+            return _isolated(re, prec)
+        real = fmpz_poly(list(re))
+        imag = fmpz_poly(list(im))
+        found = _isolated(tuple(int(c) for c in (real * real + imag * imag).coeffs()), prec)
         with working_precision(prec):
             return tuple((z, k) for z, k in found if self.polynomial(which)(z).contains(0))
 
@@ -116,16 +127,18 @@ def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
 
 
 def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
+    """The real and the imaginary part of the polynomial at a + t step, by Horner's rule."""
     bits = max((c.bit_length() for c in coefficients), default=0)
     foresee_move(len(coefficients), bits, max(a.height_bits(), step.height_bits()))
-    lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
-    if lines[1] == 0:
-        return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
+    x = fmpq_poly([a.x, step.x])
+    y = fmpq_poly([a.y, step.y])
+    if y == 0:
+        return fmpq_poly(list(coefficients))(x), fmpq_poly([])
     real = fmpq_poly([])
     imag = fmpq_poly([])
     for c in reversed(coefficients):
         check_time()
-        real, imag = real * lines[0] - imag * lines[1] + c, real * lines[1] + imag * lines[0]
+        real, imag = real * x - imag * y + c, real * y + imag * x
     return real, imag
 
 
@@ -160,16 +173,13 @@ def is_apart(system: System, *points: ExactPoint) -> bool:
             for x, y in ((b.x - a.x, b.y - a.y), (a.y - b.y, b.x - a.x)):
                 reach = [x * p.x + y * p.y for p in points]
                 low, high, along, across = map(arb, (min(reach), max(reach), x, y))
-                left = [z for z in left if not (low > (s := along * z.real + across * z.imag) or s > high)]
+                places = [along * z.real + across * z.imag for z in left]
+                left = [z for z, place in zip(left, places, strict=True) if not (low > place or place > high)]
     return not left and not system.radius
 
 
 def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
-    """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances.
-
-    Exact: with z = x or, on a vertical line, z = iy for its points, den(z + ...) = A + i B with A, B in Q[x] or Q[y]; the line
-    is singular where gcd(A, B), on the real axis the denominator itself, has a real zero.
-    """
+    """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances."""
     for name, point in (("start", a), ("end", b)):
         if system.is_singular(point):
             raise InputError(
@@ -178,31 +188,51 @@ def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
             )
     if a == b or is_apart(system, a, b):
         return
+    meeting = _first_meeting(system, a, b)
+    if meeting is None:
+        return
+    distance = meeting.share * math.sqrt(to_fraction((b - a).norm_squared()))
+    raise InputError(
+        f"the path from {a} to {b} runs through the singular point {meeting.name} "
+        f"(distance 0; {distance:.6g} from the start)",
+        hint="go around it through the complex plane: path='above' or 'below', or path=[...] with a vertex off "
+        "the axis; the result depends on the side",
+        shell="go around it through the complex plane: --path above or --path below; the result depends on the side",
+    )
+
+
+@dataclass(frozen=True)
+class _Meeting:
+    """Where a segment meets a singular point: the name of the point, and the share of the way to it."""
+
+    name: str
+    share: float
+
+
+def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> _Meeting | None:
+    """The first singular point on the segment, whose ends aren't singular; None where there is none.
+
+    Exact: with z = x or, on a vertical line, z = iy for its points, den(z + ...) = A + i B with A, B in Q[x] or Q[y]; the line
+    is singular where gcd(A, B), on the real axis the denominator itself, has a real zero.
+    """
     step = b - a
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
     unit = step.scaled(1 / length)
     real, imaginary = system.along("den", a - unit.scaled(first), unit)
-    poly = real.gcd(imaginary).numer()
+    common = real.gcd(imaginary).numer()
     prec = 128
-    while poly.degree() > 0:
-        roots = _isolated(tuple(int(c) for c in poly.coeffs()), prec)
+    while common.degree() > 0:
+        roots = _isolated(tuple(int(c) for c in common.coeffs()), prec)
         with working_precision(prec):
-            inside = [(z.real - first) / length for z, _ in roots if z.imag.is_zero()]
-            inside = [t for t in inside if not (t < 0 or t > 1)]
+            on_line = [(z.real - first) / length for z, _ in roots if z.imag.is_zero()]
+            inside = [t for t in on_line if not (t < 0 or t > 1)]
             if not inside:
-                return
+                return None
             t = min(inside, key=lambda t: float(t.mid()))
             if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
-                distance = float(t.mid()) * math.sqrt(to_fraction(step.norm_squared()))
-                raise InputError(
-                    f"the path from {a} to {b} runs through the singular point {name_of(system, to_acb(a) + to_acb(step) * t)} "
-                    f"(distance 0; {distance:.6g} from the start)",
-                    hint="go around it through the complex plane: path='above' or 'below', or path=[...] with a vertex off "
-                    "the axis; the result depends on the side",
-                    shell="go around it through the complex plane: --path above or --path below; the result depends on "
-                    "the side",
-                )
+                return _Meeting(name_of(system, to_acb(a) + to_acb(step) * t), float(t.mid()))
         prec *= 2
+    return None
 
 
 def name_of(system: System, point: acb) -> str:
