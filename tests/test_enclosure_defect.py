@@ -46,7 +46,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
     parts: tuple[GaussianParts, GaussianParts] = (p, None), ([q_0], None)
     re, im = _recurrence(*parts, 1500, start, 1)
     assert len(re) > 100
-    bound = _proven_defect(*parts, 0, re, im, 1)
+    bound = _proven_defect(*parts, (re, im), 0, 1)
     exact = exact_defect(*parts, re, im)
     assert q_0 * len(re) ** 3 // 40 < exact <= bound
 
@@ -69,7 +69,7 @@ def test_the_last_terms_are_counted(p: GaussianParts, q: GaussianParts, bits: in
     quiet = bits + 6
     re, im = _recurrence(p, q, 200, start, 1 << quiet)
     exact = exact_defect(p, q, re, im)
-    assert exact <= _proven_defect(p, q, 0, re, im, 1 << quiet)
+    assert exact <= _proven_defect(p, q, (re, im), 0, 1 << quiet)
     if bits and len(q[0]) > 1 and p[0]:
         assert exact > 2 * len(re) ** 3 * q[0][0]  # the last terms are most of it
 
@@ -86,7 +86,7 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
     trimmed = _cut(p, excess), _cut(q, excess)
     re, im = _recurrence(*trimmed, 150, start, 1 << 8)
     exact = exact_defect(p, q, re, im)
-    assert exact <= _proven_defect(*trimmed, excess, re, im, 1 << 8)
+    assert exact <= _proven_defect(*trimmed, (re, im), excess, 1 << 8)
     assert exact > len(re) ** 3 * q[0][0] << 60  # what was cut off is most of it
 
 

@@ -101,7 +101,8 @@ class Route:
 
     def __str__(self) -> str:
         way = "Taylor's method" if self.method == "taylor" else "a closed form"
-        return f"{way}, {self.bits} bits, {self.runs} run{'s' if self.runs > 1 else ''}"
+        runs = "run" if self.runs == 1 else "runs"
+        return f"{way}, {self.bits} bits, {self.runs} {runs}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,7 +281,7 @@ class Ball:
         >>> Ball.of("pi").overlaps("22/7"), Ball.of("sqrt(2)").overlaps(Ball.of("2^(1/2)"))
         (False, True)
         """
-        return _reaches(self, other if isinstance(other, Ball) else Ball.of(other), 1)
+        return _reaches(self, _as_ball(other), 1)
 
     @property
     def digits(self) -> float:
@@ -338,9 +339,11 @@ class Ball:
         """
         import mpmath
 
-        parts = [_ends(part, self.rad) for part in ((self.re,) if self.real else (self.re, self.im))]
-        made = [mpmath.iv.make_mpf(tuple(mpmath.libmp.from_man_exp(m, e) for m, e in ends)) for ends in parts]
-        return made[0] if self.real else mpmath.iv.mpc(*made)
+        def interval(middle: Dyadic) -> Any:
+            low, high = (mpmath.libmp.from_man_exp(m, e) for m, e in _ends(middle, self.rad))
+            return mpmath.iv.make_mpf((low, high))
+
+        return interval(self.re) if self.real else mpmath.iv.mpc(interval(self.re), interval(self.im))
 
     def to_flint(self) -> arb | acb:
         """The ball as python-flint's: arb where `real`, else an acb that contains it.
@@ -373,8 +376,7 @@ class Ball:
         >>> Ball((3, -1), rad=(1, -30)).to_dict()
         {'re': '1.500000000000', 'im': '0', 'radius': '9.4e-10'}
         """
-        shown = int(_SHOWN if self.is_exact() else max(3.0, self.digits + 4))
-        re, im, radius = self._decimal_disc(shown)
+        re, im, radius = self._decimal_disc(self._shown_digits(4))
         return {"re": re, "im": im, "radius": radius}
 
     @property
@@ -395,7 +397,7 @@ class Ball:
     def _combined(self, other: object, compute: Callable[[acb, acb], acb]) -> Ball:
         """The ball of `compute(self, other)`, with as many bits as the operands have, and 32 more."""
         try:
-            second = other if isinstance(other, Ball) else Ball.of(other)
+            second = _as_ball(other)
         except InputError:
             return NotImplemented  # type: ignore[no-any-return]
         bits = max(part[0].bit_length() for ball in (self, second) for part in (ball.re, ball.im))
@@ -420,7 +422,9 @@ class Ball:
 
     def __pow__(self, other: object) -> Ball:
         """Principal powers; whole ones of anything."""
-        return self._combined(other, lambda x, y: x ** (other if isinstance(other, int) else y))
+        if isinstance(other, int):
+            return self._combined(other, lambda x, _: x**other)
+        return self._combined(other, lambda x, y: x**y)
 
     def __lt__(self, other: object) -> bool | None:
         """True or False where that is certain for all numbers of the balls, else None; so for <=, > and >=."""
@@ -436,13 +440,16 @@ class Ball:
         return None if (found := self <= other) is None else not found
 
     def _order(self, other: object, *, strict: bool) -> bool | None:
-        second = other if isinstance(other, Ball) else Ball.of(other)
+        second = _as_ball(other)
         self._demand_real()
         second._demand_real()
-        (low, high), (other_low, other_high) = _ends(self.re, self.rad), _ends(second.re, second.rad)
+        low, high = _ends(self.re, self.rad)
+        other_low, other_high = _ends(second.re, second.rad)
         if arb(high) < arb(other_low) or (not strict and high == other_low):
             return True
-        return False if arb(other_high) < arb(low) or (strict and other_high == low) else None
+        if arb(other_high) < arb(low) or (strict and other_high == low):
+            return False
+        return None
 
     def equals(self, other: object) -> bool | None:
         """Is the exact value that number?
@@ -462,8 +469,10 @@ class Ball:
         >>> Ball.exact(1, -1).equals("1/2"), Ball.of("pi").equals(3), Ball.of("pi").equals("pi")
         (True, False, None)
         """
-        second = other if isinstance(other, Ball) else Ball.of(other)
-        return (self.is_exact() and second.is_exact()) or None if self.overlaps(second) else False
+        second = _as_ball(other)
+        if not self.overlaps(second):
+            return False
+        return True if self.is_exact() and second.is_exact() else None
 
     def __format__(self, spec: str) -> str:
         """The midpoint in the format of a Decimal (".30f"), real and imaginary part; without a format as `str`."""
@@ -474,7 +483,7 @@ class Ball:
 
     def __str__(self) -> str:
         """All digits that are known, and a radius that covers what was rounded; 40 digits of an exact number."""
-        re, im, radius = self._decimal_disc(int(_SHOWN if self.is_exact() else max(3.0, self.digits + 2)))
+        re, im, radius = self._decimal_disc(self._shown_digits(2))
         middle = self._as_number(re, im)
         return middle if radius == "0" else f"{middle} ± {radius}"
 
@@ -495,12 +504,20 @@ class Ball:
         sign = "-" if im.startswith("-") else "+"
         return f"({re} {sign} {im.lstrip('-')}j)"
 
+    def _shown_digits(self, more: int) -> int:
+        """So many more than are known, three at least; 40 of an exact number."""
+        return _SHOWN if self.is_exact() else int(max(3.0, self.digits + more))
+
     def _decimal_disc(self, digits: int) -> tuple[str, str, str]:
         """A disc around this one in decimals: its midpoint is that of the ball to so many digits, its radius covers that."""
         with working_precision(int(digits * 3.33) + 100):
             re, im = (arb(part).str(digits, radius=False) for part in (self.re, self.im))
             radius = arb(self.rad) + abs(arb(re) - arb(self.re)) + abs(arb(im) - arb(self.im))
             return re, im, _rounded_up(radius.upper())
+
+
+def _as_ball(number: object) -> Ball:
+    return number if isinstance(number, Ball) else Ball.of(number)
 
 
 def _rounded_up(radius: arb) -> str:
@@ -534,7 +551,8 @@ def _decimal(number: Dyadic) -> Decimal:
     mantissa, exponent = number
     if abs(exponent) > _DECIMAL_BITS:
         raise OverflowError(f"a number near 2^{exponent} isn't written out in decimals")
-    scaled = abs(mantissa) * (5**-exponent if exponent < 0 else 2**exponent)
+    # m 2^e = (m 5^-e) 10^e for negative e
+    scaled = abs(mantissa) * 5**-exponent if exponent < 0 else abs(mantissa) * 2**exponent
     return Decimal((int(mantissa < 0), tuple(map(int, str(scaled))), min(exponent, 0)))
 
 
@@ -559,13 +577,16 @@ def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None
     """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not finite)."""
     if not value.is_finite():
         return None
-    re, im = (value.real, value.imag) if isinstance(value, acb) else (value, None)
-    if im is None or im.is_zero():
+    z = acb(value)
+    re = z.real
+    im = z.imag
+    if im.is_zero():
         return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True, route)
     with working_precision(60):
         a = re.rad()
         b = im.rad()
-        rad = (a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()).upper()
+        half_diagonal = a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()
+        rad = half_diagonal.upper()
     return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False, route)
 
 

@@ -47,9 +47,9 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Gaussi
     p = system.along("num", centre, scale)
     re = q[0][0]
     im = q[1][0]
-    turn = ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
-    if im != 0:
-        turn = ExactPoint(re, -im)
+    turn = ExactPoint(re, -im)  # makes q_0 positive
+    if im == 0:
+        turn = ExactPoint(1) if re > 0 else ExactPoint(-1)
     parts = [*_times(p, scale * scale * turn), *_times(q, turn)]
     common = math.lcm(*(int(part.denom()) for part in parts))
     whole = [(part * common).numer() for part in parts]
@@ -67,12 +67,16 @@ def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_
 
 def _paired(re: list[int], im: list[int], real: bool) -> GaussianParts:
     size = max(len(re), len(im))
-    return re + [0] * (size - len(re)), None if real and not im else im + [0] * (size - len(im))
+    re = re + [0] * (size - len(re))
+    if real and not im:
+        return re, None
+    return re, im + [0] * (size - len(im))
 
 
 def norm(parts: GaussianParts) -> int:
     """The sum of the absolute values of the coefficients (of both parts), a bound of the polynomial for |u| <= 1."""
-    return sum(abs(v) for part in parts if part is not None for v in part)
+    re, im = parts
+    return sum(map(abs, re)) + sum(map(abs, im or []))
 
 
 @dataclass(frozen=True)
@@ -138,33 +142,55 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]], blur: arb |
         least = arb(1)
         for size, k in poles:
             least *= (1 - r / size) ** k
-        return least, (majorant(r) / least if blur is None else majorant(r) / least + blur).upper()
+        largest = majorant(r) / least
+        if blur is not None:
+            largest += blur
+        return least, largest.upper()
 
     least, sigma = bounds(arb(REACH))
     if not (least > 0 and sigma < _STEEPEST**2):
         return None
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
     delta = arb(REACH) / rings
-    error = slope = arb(0)
-    growth = arb(1)
-    slope_growth = arb(1)
+    error = (arb(0), arb(0))  # z and z' for z'' = sigma z + 1
+    growth = (arb(1), arb(1))  # and for z'' = sigma z
     for j in range(rings):
         _, sigma = bounds(delta * (j + 1))
-        t = sigma.sqrt() * delta
-        c = arb(1)
-        s = arb(1)
-        h = arb(1) / 2
-        if t > 0:  # cosh t, sinh(t)/t and (cosh t - 1)/t^2
-            c = t.cosh()
-            s = t.sinh() / t
-            h = 2 * ((t / 2).sinh() / t) ** 2
-        rise = delta * s
-        error, slope = error * c + slope * rise + delta * delta * h, error * sigma * rise + slope * c + rise
-        growth, slope_growth = growth * c + slope_growth * rise, growth * sigma * rise + slope_growth * c
-    total = max(growth.upper(), slope_growth.upper())
+        ring = _Ring.of(sigma, delta)
+        error = ring.forced(error)
+        growth = ring.carried(growth)
+    total = max(growth[0].upper(), growth[1].upper())
     if not total < arb((1, _LARGEST)):
         return None
-    return DefectBound((error / least).upper(), (slope / least).upper(), log2(least), log2(total))
+    return DefectBound((error[0] / least).upper(), (error[1] / least).upper(), log2(least), log2(total))
+
+
+@dataclass(frozen=True)
+class _Ring:
+    """z'' = sigma z over a ring of width delta: with t = sigma^(1/2) delta, cosh t, delta sinh(t)/t and
+    delta^2 (cosh t - 1)/t^2."""
+
+    sigma: arb
+    cosh: arb
+    rise: arb
+    push: arb
+
+    @classmethod
+    def of(cls, sigma: arb, delta: arb) -> _Ring:
+        """The numbers, also for sigma = 0."""
+        t = sigma.sqrt() * delta
+        if not t > 0:
+            return cls(sigma, arb(1), delta, delta * delta * (arb(1) / 2))
+        return cls(sigma, t.cosh(), delta * (t.sinh() / t), delta * delta * (2 * ((t / 2).sinh() / t) ** 2))
+
+    def carried(self, z: tuple[arb, arb]) -> tuple[arb, arb]:
+        """(z, z') at its outer end, from those at its inner end."""
+        return z[0] * self.cosh + z[1] * self.rise, z[0] * self.sigma * self.rise + z[1] * self.cosh
+
+    def forced(self, z: tuple[arb, arb]) -> tuple[arb, arb]:
+        """The same for z'' = sigma z + 1."""
+        value, slope = self.carried(z)
+        return value + self.push, slope + self.rise
 
 
 def _blur(system: System, centre: ExactPoint, e: int, poles: list[tuple[arb, int]]) -> arb:
@@ -203,7 +229,9 @@ def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: fl
     if near is not None and not near * share >= arb((1, e)):
         return None
     frame = make_frame(system, centre, e)
-    return frame if frame is not None and frame.bound.log2_growth <= growth else None
+    if frame is None or frame.bound.log2_growth > growth:
+        return None
+    return frame
 
 
 def largest_exponent(system: System, point: ExactPoint) -> int | None:
@@ -227,9 +255,7 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     """
     total = 0.0
     degree = max(len(system.num), len(system.den))
-    halvings = _HALVINGS if degree <= _LONG else _FEW_HALVINGS
-    # 1/2, 31/64, ..., 17/64, and four points in each half of what is left
-    towards = [i / 64 * 2.0**-k for k in range(halvings) for i in range(32, 16, -1 if k == 0 else -4)]
+    towards = _towards_zero(_HALVINGS if degree <= _LONG else _FEW_HALVINGS)
     with working_precision(_BITS + 4 * min(degree, _LONG)):
         start = to_acb(a)
         step = to_acb(b - a)
@@ -244,6 +270,14 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
             p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
             total += _growth_near(p, q, half)
     return total
+
+
+def _towards_zero(halvings: int) -> list[float]:
+    """1/2, 31/64, ..., 17/64, and four points in each half of what is left."""
+    found = [i / 64 for i in range(32, 16, -1)]
+    for k in range(1, halvings):
+        found += [i / 64 * 2.0**-k for i in range(32, 16, -4)]
+    return found
 
 
 def _growth_near(p: list[arb], q: list[arb], half: arb) -> float:

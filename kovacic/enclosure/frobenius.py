@@ -47,7 +47,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq
 
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State
-from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
+from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, working_precision
 from kovacic.enclosure.singular import Operator, Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time
@@ -143,6 +143,7 @@ def basis(
     towards: ExactPoint,
     bound: Majorant,
     prec: int,
+    *,
     needed: Sequence[bool] = (True, True),
 ) -> Matrix:
     """The values and slopes of the Frobenius basis (the columns) at `last`, a point of the disc on the way to `towards`.
@@ -156,9 +157,11 @@ def basis(
         if not (t / end).real > 0:
             raise LimitExceeded(f"{last} can't be told from the singular point {point}", limit="digits")
         log = end.log() + (t / end).log()  # continued along the segment
-        zero = (acb(0), acb(0))
-        found = _expansions(point, last, bound, prec, needed)
-        first, second = (zero if solution is None else solution.at(t, log) for solution in found)
+        states = [(acb(0), acb(0)), (acb(0), acb(0))]
+        for k, solution in enumerate(_expansions(point, last, bound, prec, needed)):
+            if solution is not None:
+                states[k] = solution.at(t, log)
+        first, second = states
         # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
         factor = -t if point.inverted else 1 / t
         return first[0], second[0], first[1] * factor, second[1] * factor
@@ -169,23 +172,52 @@ def _expansions(
 ) -> list[FrobeniusSeries | None]:
     """Both solutions in the disc up to `last`; None for one that isn't needed."""
     lower, upper = point.exponents()
-    op = point.operator()
-    N = point.difference
     length = abs(point.offset(last)).upper()
-    start = (1, 0)
-    resonance = N
-    if N == 0:
-        start = (0, 1)
-        resonance = None
-    elif N is not None and point.is_rational and N <= _SOUGHT and not _has_logarithm(op, lower, N):
-        resonance = -N
+    op = point.operator()
     balls = op.in_balls()
     delta = abs(acb(upper) - lower).upper()
-    cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
-    return [
-        _expand(balls, case, length, bound, prec) if wanted else None
-        for case, wanted in zip(cases, needed, strict=True)
-    ]
+    if point.difference == 0:
+        dominant = _Beginning(lower, delta, start=(0, 1))
+    else:
+        dominant = _Beginning(lower, delta, _resonance(point, op, lower))
+    found: list[FrobeniusSeries | None] = []
+    for beginning, is_needed in zip((dominant, _Beginning(upper, arb(0))), needed, strict=True):
+        found.append(_expand(balls, beginning, length, bound, prec) if is_needed else None)
+    return found
+
+
+@dataclass(frozen=True)
+class _Resonance:
+    """P_0 vanishes at the term of this number; `logarithm` says that a logarithm may begin there."""
+
+    number: int
+    logarithm: bool = True
+
+
+@dataclass(frozen=True)
+class _Beginning:
+    """A solution that begins with t^exponent (u + v log t), (u, v) = `start`.
+
+    `delta` bounds the difference of the exponents where the other one is the larger one, else it's 0.
+    """
+
+    exponent: Any
+    delta: arb
+    resonance: _Resonance | None = None
+    start: tuple[int, int] = (1, 0)
+
+
+def _resonance(point: Singular, op: Operator, lower: Any) -> _Resonance | None:
+    """That of the solution with the lower exponent; None where the exponents don't differ by an integer.
+
+    Where that costs little, it is decided whether there is a logarithm.
+    """
+    N = point.difference
+    if N is None:
+        return None
+    if not point.is_rational or N > _SOUGHT:
+        return _Resonance(N)
+    return _Resonance(N, _has_logarithm(op, lower, N))
 
 
 def limit(point: Singular, start: State) -> State:
@@ -215,8 +247,8 @@ def _apply(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
     return value * u + (2 * A * nu + B) * v, value * v
 
 
-def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: int | None) -> LogPair:
-    """a_n by equation (1), n the number of `terms`; at n = |resonance| with v = 0 if that is negative."""
+def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: _Resonance | None) -> LogPair:
+    """a_n by equation (1), n the number of `terms`."""
     n = len(terms)
     f0 = f1 = op.A[0] * 0
     for j in range(1, min(n, len(op.A) - 1) + 1):
@@ -224,8 +256,9 @@ def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: int | None) ->
         f0 = f0 - p
         f1 = f1 - q
     slope = 2 * op.A[0] * nu + op.B[0]
-    if resonance is not None and n == abs(resonance):
-        return f0 * 0, f0 * 0 if resonance < 0 else f0 / slope
+    if resonance is not None and n == resonance.number:
+        v = f0 / slope if resonance.logarithm else f0 * 0
+        return f0 * 0, v
     value = (op.A[0] * nu + op.B[0]) * nu + op.C[0]
     v = f1 / value
     return (f0 - slope * v) / value, v
@@ -235,7 +268,7 @@ def _has_logarithm(op: Operator, lower: Any, N: int) -> bool:
     """Does the solution of the smaller exponent have a logarithm?  In exact numbers."""
     terms: list[LogPair] = [(fmpq(1), fmpq(0))]
     while len(terms) <= N:
-        terms.append(_next(op, lower + len(terms), terms, N))
+        terms.append(_next(op, lower + len(terms), terms, _Resonance(N)))
     return bool(terms[N][1] != 0)
 
 
@@ -255,7 +288,8 @@ class FrobeniusSeries:
         exponent = self.exponent
         if isinstance(exponent, fmpq) and exponent.q == 1 and 0 <= exponent <= k:
             n = k - int(exponent.p)
-            return None if any(not self.V[m].is_zero() for m in range(n + 1)) else self.U[n]
+            has_logarithm = any(not self.V[m].is_zero() for m in range(n + 1))
+            return None if has_logarithm else self.U[n]
         return acb(0) if acb(exponent).real > k else None
 
     def at(self, t: acb, log: acb) -> tuple[acb, acb]:
@@ -270,48 +304,62 @@ class FrobeniusSeries:
             slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
         real = value.imag.is_zero() and slope.imag.is_zero()
         size = max(arb(1), abs(log).upper())
-        balls = [arb(0, (error * size).upper()) for error in self.errors]
-        tails = [acb(ball) if real else acb(ball, ball) for ball in balls]
+        tails = [around_zero((error * size).upper(), real=real) for error in self.errors]
         whole = isinstance(self.exponent, fmpq) and self.exponent.q == 1
         power = t ** int(self.exponent.p) if whole else (acb(self.exponent) * log).exp()
         return (value + tails[0]) * power, (slope + tails[1]) * power
 
 
-def _expand(
-    op: Operator,
-    case: tuple[Any, arb, int | None, tuple[int, int]],
-    length: arb,
-    bound: Majorant,
-    prec: int,
-) -> FrobeniusSeries:
-    """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length; `case` has the exponent, the
-    difference to the other one, the resonance of `_next`, and the start."""
-    exponent, delta, resonance, start = case
+def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, prec: int) -> FrobeniusSeries:
+    """The solution with this beginning for |t| <= length."""
+    exponent = beginning.exponent
+    resonance = beginning.resonance
     with working_precision(64):
         size = abs(acb(exponent)).upper()
-    first = max(_first(delta), len(op.A), abs(resonance or 0) + 1)
-    order = len(op.A) - 1
-    rational = isinstance(exponent, fmpq)
-    kind = type(op.A[0]) if rational or exponent.imag.is_zero() else acb
-    lam = kind(exponent if rational or kind is acb else exponent.real)
-    terms: list[LogPair] = [(kind(start[0]), kind(start[1]))]
+    first = max(_first(beginning.delta), len(op.A))
+    if resonance is not None:
+        first = max(first, resonance.number + 1)
+    lam = _in_the_field_of(op, exponent)
+    kind = type(lam)
+    terms: list[LogPair] = [(kind(beginning.start[0]), kind(beginning.start[1]))]
     cap = 40 * prec + 4000 + 4 * first
+    more = first
     while True:
-        for _ in range(_STRIDE if len(terms) > 1 else first):
+        for _ in range(more):
             if len(terms) % _STRIDE == 0:
                 check_time()
             terms.append(_next(op, lam + len(terms), terms, resonance))
+        more = _STRIDE
         n = len(terms)
         with working_precision(64):
-            defect = arb(0)
-            for m in range(order):
-                pairs = [_apply(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
-                u, v = (abs(sum(part, kind(0))).upper() for part in zip(*pairs, strict=True))
-                defect += (u + v) * length**m
-            factor, kappa = bound.growth(n, delta, size, length)
-            F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()
+            defect = _defect(op, lam, terms, length)
+            factor, kappa = bound.growth(n, beginning.delta, size, length)
+            F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()  # equation (2)
         if arb((1, -prec - 20)) > F:
             U, V = (acb_poly([pair[k] for pair in terms]) for k in (0, 1))
             return FrobeniusSeries(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
         if n > cap:
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
+
+
+def _in_the_field_of(op: Operator, exponent: Any) -> Any:
+    """The exponent as a ball: real where it and the operator are."""
+    kind = type(op.A[0])
+    if isinstance(exponent, fmpq):
+        return kind(exponent)
+    if kind is acb or not exponent.imag.is_zero():
+        return acb(exponent)
+    return kind(exponent.real)
+
+
+def _defect(op: Operator, lam: Any, terms: list[LogPair], length: arb) -> arb:
+    """A bound of sum |R_n| t^(n - N) for |t| <= length: what the terms give to the equations of the next ones."""
+    n = len(terms)
+    order = len(op.A) - 1
+    zero = type(lam)(0)
+    total = arb(0)
+    for m in range(order):
+        pairs = [_apply(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
+        u, v = (abs(sum(part, zero)).upper() for part in zip(*pairs, strict=True))
+        total += (u + v) * length**m
+    return total

@@ -422,7 +422,7 @@ class Traveller:
         else:
             last, bound = junction(point, stop, self.prec)
             needed = not start[0].is_zero(), not start[1].is_zero()
-            self.product = self.product.after(basis(point, last, stop, bound, self.prec, needed))
+            self.product = self.product.after(basis(point, last, stop, bound, self.prec, needed=needed))
             stop = last
         self._begin(stop)
 

@@ -10,7 +10,7 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import repeat
+from itertools import count, repeat
 from typing import Literal, Protocol
 
 from flint import acb, arb
@@ -56,6 +56,12 @@ class PointValue:
         """Is the relative radius of y at most 10^-digits?"""
         return self.missing == 0
 
+    def explained(self, limit: str | None) -> PointValue:
+        """With a note where digits are missing: the limit that was reached, or what the ball tells."""
+        if self.reached:
+            return self
+        return replace(self, note=limit or _reason(self))
+
     @property
     def y(self) -> Ball:
         """y(x)."""
@@ -100,34 +106,32 @@ def raise_precision(
 ) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough; not below `begin` bits."""
     exact = journey.is_exact(targets)
+    method: Method = "taylor" if closed is None else "closed form"
     ceiling = _Ceiling.of(digits, limits, capped=closed is not None)
     prec = max(start_bits(digits), min(begin, ceiling.bits // 2))
     previous: _Run | None = None  # the last one with finite balls
-    number = 0
-    while True:
-        number += 1
+    for number in count(1):
         try:
-            run = _Run.made(journey, targets, closed, Route(digits, METHODS[closed is not None], prec, number))
+            run = _Run.made(journey, targets, closed, Route(digits, method, prec, number))
         except LimitExceeded as limit:
             if previous is None:
                 raise
             return previous.explained(str(limit))
         if run.reached:
             return run.values
-        if closed is not None and previous is not None and run.lacking > previous.lacking:
+        if closed is not None and run.is_worse(previous):
             raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
         if exact and run.finite and number > 1:
             ceiling = ceiling.raised(run)
-        stalled = not exact and previous is not None and run.finite and run.is_stalled(previous)
-        if stalled or ceiling.is_reached(prec):
-            if not run.finite:
-                raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
+        if ceiling.is_reached(prec) or (not exact and run.is_stalled(previous)):
             return run.explained()
-        previous = run if run.finite else previous
+        if run.finite:
+            previous = run
         more = run.missing + 16
         if closed is None:  # other points find what was expanded at the same precision
             more = -(-more // _STEP) * _STEP
         prec = min(prec + more, ceiling.bits)
+    raise AssertionError("count() doesn't end")
 
 
 @dataclass(frozen=True)
@@ -150,7 +154,9 @@ class _Ceiling:
     def raised(self, run: _Run) -> _Ceiling:
         """A recessive solution is as small as the others are large."""
         bits = max(self.bits, 2 * max(map(_growth, run.values)) + 2 * start_bits(self.digits))
-        return replace(self, bits=min(bits, self.most) if self.capped else bits)
+        if self.capped:
+            bits = min(bits, self.most)
+        return replace(self, bits=bits)
 
     def is_reached(self, prec: int) -> bool:
         return prec >= self.bits or self.bits > self.most
@@ -177,7 +183,9 @@ class _Run:
             states = journey.states(targets, closed, route.bits)
             lacking = [_missing_bits(y, route.digits, route.bits, doubled=doubled) for y, _ in states]
             finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-            values = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else ()
+            values: tuple[PointValue, ...] = ()
+            if finite:
+                values = tuple(map(PointValue, targets, states, lacking, repeat(route)))
         _LOG.info(
             "run %d, %d bits: %d of %d points to %d digits",
             *(route.runs, route.bits, lacking.count(0), len(lacking), route.digits),
@@ -189,8 +197,14 @@ class _Run:
         """Are all values known to as many digits as were asked for?"""
         return self.finite and self.missing == 0
 
-    def is_stalled(self, previous: _Run) -> bool:
+    def is_worse(self, previous: _Run | None) -> bool:
+        """Do more values lack digits than at a lower precision?"""
+        return previous is not None and self.lacking > previous.lacking
+
+    def is_stalled(self, previous: _Run | None) -> bool:
         """Where a higher precision hasn't halved the balls, their size comes from the initial values."""
+        if previous is None or not self.finite:
+            return False
         return all(
             value.reached or (self._is_telling(value) and 2 * arb(value.y.rad) > arb(before.y.rad))
             for before, value in zip(previous.values, self.values, strict=True)
@@ -201,8 +215,13 @@ class _Run:
         return self.route.runs > 2 or not value.y.contains_zero()
 
     def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
-        """The values, with a note where there are fewer digits than were asked for: the limit, or what the balls tell."""
-        return tuple(value if value.reached else replace(value, note=limit or _reason(value)) for value in self.values)
+        """The values, with a note where there are fewer digits than were asked for: the limit, or what the balls tell.
+
+        Raises LimitExceeded where there are none.
+        """
+        if not self.finite:
+            raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
+        return tuple(value.explained(limit) for value in self.values)
 
 
 def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
@@ -237,11 +256,13 @@ def _reason(result: PointValue) -> str:
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
         growth = _growth(result)
-        power = in_a_message(growth * 30103 // 100000)  # as a decimal
-        lost = f": other solutions grow to about 10^{power} on the way, so that as many digits are lost"
-        return (
+        reason = (
             f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"
-            f" with {result.route.bits} bits{lost if growth > 200 else ''}"
+            f" with {result.route.bits} bits"
         )
+        if growth > 200:
+            power = in_a_message(growth * 30103 // 100000)  # as a decimal
+            reason += f": other solutions grow to about 10^{power} on the way, so that as many digits are lost"
+        return reason
     known = f"{max(0.0, result.y.digits):.1f}"
     return f"only {known} of {result.route.digits} digits: the initial values or the limits allow no more"

@@ -34,7 +34,8 @@ class Operator:
 
     def in_balls(self) -> Operator:
         """The same in balls, real where all are."""
-        kind = acb if any(isinstance(v, acb) for part in (self.A, self.B, self.C) for v in part) else arb
+        is_complex = any(isinstance(v, acb) for v in (*self.A, *self.B, *self.C))
+        kind = acb if is_complex else arb
         return Operator(*([kind(v) for v in part] for part in (self.A, self.B, self.C)))
 
 
@@ -158,29 +159,39 @@ class Singular:
 
     def operator(self) -> Operator:
         """The operator: rational coefficients at a rational point, else balls of the working precision in force."""
-        lines: list[list[Any]] = []
-        here = self.near.x if self.is_rational else self.value()
-        for k, poly in enumerate(self.equation):
-            if self.is_rational:
-                moved = list(poly(fmpq_poly([here, 1])).coeffs())
-            else:  # the first coefficients are exactly zero
-                x, kind = (here.real, arb_poly) if here.imag.is_zero() else (here, acb_poly)
-                moved = [v * 0 if i < self._orders[k] else v for i, v in enumerate(kind(poly)(kind([x, 1])).coeffs())]
-            lines.append([0] * k + moved)
+        if self.is_rational:
+            moved = [poly(fmpq_poly([self.near.x, 1])).coeffs() for poly in self.equation]
+        else:
+            moved = self._moved_in_balls()
+        lines = [[0] * k + part for k, part in enumerate(moved)]
         size = max(map(len, lines))
         a, b, c = (line + [0] * (size - len(line)) for line in lines)
         first = self._orders[0]
         return Operator(a[first:], [y - x for x, y in zip(a, b, strict=True)][first:], c[first:])
 
+    def _moved_in_balls(self) -> list[list[Any]]:
+        """The coefficients of a, b and c in t."""
+        here = self.value()
+        found: list[list[Any]] = []
+        for poly, order in zip(self.equation, self._orders, strict=True):
+            if here.imag.is_zero():
+                coefficients = arb_poly(poly)(arb_poly([here.real, 1])).coeffs()
+            else:
+                coefficients = acb_poly(poly)(acb_poly([here, 1])).coeffs()
+            vanishing = coefficients[:order]  # these are exactly zero
+            found.append([v * 0 for v in vanishing] + coefficients[len(vanishing) :])
+        return found
+
     def neighbours(self) -> list[tuple[acb, int]]:
         """The other singular points in t, with their multiplicities as zeros of A."""
         prec = 64
+        own = 0 if self.is_ordinary else 1
         while True:
             with working_precision(prec):
                 here = self.value()
                 found = [(root - here, k) for root, k in complex_zeros(self.equation[0].numer())]
             others = [(d, k) for d, k in found if not d.contains(0)]
-            if len(others) == len(found) - (1 if self._orders[0] else 0):
+            if len(others) == len(found) - own:
                 return others
             prec *= 2
 

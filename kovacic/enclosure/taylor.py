@@ -74,12 +74,12 @@ def expand(frame: Frame, prec: int) -> TaylorSeries:
     defects = []
     for start in (0, 1):
         re, im = _recurrence(p, q, w, start, 1 << quiet)
-        columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
-        defect = _proven_defect(p, q, excess, re, im, 1 << quiet)
+        imaginary = None if im is None else fmpz_poly(im)
+        columns.append((fmpz_poly(re), imaginary))
+        defect = _proven_defect(p, q, (re, im), excess, 1 << quiet)
         if frame.blur is not None:  # q Y'' - (p + q (S - S~)) Y: the ray bound holds for the defect over q
             with working_precision(64):
-                size = sum(abs(int(v)) for part in (re, im) if part is not None for v in part)
-                defect += floor((frame.blur * q_0 * size).upper()) + 1
+                defect += floor((frame.blur * q_0 * norm((re, im))).upper()) + 1
         defects.append(defect)
     return TaylorSeries(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
 
@@ -88,7 +88,10 @@ def _cut(parts: GaussianParts, excess: int) -> GaussianParts:
     """The coefficients without their lowest `excess` bits, which are beyond the fixed point anyway."""
     if excess == 0:
         return parts
-    return [v >> excess for v in parts[0]], None if parts[1] is None else [v >> excess for v in parts[1]]
+    re, im = parts
+    if im is not None:
+        im = [v >> excess for v in im]
+    return [v >> excess for v in re], im
 
 
 def _numbers(values: list[int], w: int) -> list[Any]:
@@ -146,21 +149,18 @@ def _recurrence(
     return ar[pad:], None if real else ai[pad:]
 
 
-def _proven_defect(
-    p: GaussianParts, q: GaussianParts, excess: int, re: list[Any], im: list[Any] | None, small: int
-) -> int:
+def _proven_defect(p: GaussianParts, q: GaussianParts, column: GaussianParts, excess: int, small: int) -> int:
     """A bound of sum |r_n| 2^w for the column, r = q Y'' - p Y with the untrimmed coefficients.
 
     With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2) D_n, and
     sum D_n <= q_0 N^3 / 2; for n >= N - 2 it involves the last terms only, all below `small` in both parts when the
     recurrence stopped.  A trimmed coefficient is off by less than 2^excess in both parts.
     """
-    n = len(re)
+    n = len(column[0])
     width = max(len(p[0]), len(q[0])) + 3
     total = q[0][0] * n**3 + 2 * small * width * (n * n * norm(q) + norm(p))
     if excess:
-        size = sum(abs(v) for part in (re, im) if part is not None for v in part)
-        total += 2 * int(size) * (len(p[0]) + len(q[0]) * n * n)
+        total += 2 * int(norm(column)) * (len(p[0]) + len(q[0]) * n * n)
     return int(total) << excess
 
 
@@ -184,7 +184,8 @@ def local_solution(expansion: TaylorSeries, state: State) -> Local:
         for (re, im), factor, defect in zip(expansion.columns, (state[0], state[1] * h), expansion.defect, strict=True):
             if not factor.is_zero():
                 poly = kind(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im)
-                total += poly * ((factor.real if real else factor) * unit)
+                weight = factor.real if real else factor
+                total += poly * (weight * unit)
                 errors = error_radii(arb((defect + 1, -expansion.w)), frame)
                 radii = [r + abs(factor).upper() * error for r, error in zip(radii, errors, strict=True)]
         bounds = radii[0].upper(), radii[1].upper()
