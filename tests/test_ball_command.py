@@ -10,6 +10,7 @@ import time
 
 import pytest
 import sympy as sp
+from build import parametrize
 
 from kovacic import InputError
 from kovacic.ball import RollingBall, X
@@ -232,7 +233,7 @@ def test_command_says_what_happens(run, tmp_path):
     assert "steady motion:      u = 0 stays constant" in output.out
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("arguments", "message"),
     [
         (("--potential", "cos(w)"), "can't contain w"),
@@ -245,6 +246,7 @@ def test_command_says_what_happens(run, tmp_path):
         (("--plot", "a.gif"), "isn't one of"),
         (("--plot", "/nowhere/a.png"), "there is no directory"),
     ],
+    ordinary=3,
 )
 def test_simulation_refuses(run, arguments, message):
     status, output = run(*_BALL, "--simulate", *arguments)

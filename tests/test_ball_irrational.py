@@ -80,6 +80,7 @@ def test_a_transcendental_number_is_a_letter():
     assert kovacic.solve(sphere.S).case == 2
 
 
+@pytest.mark.long
 def test_signs_and_simplest_forms():
     root = sp.sqrt
     assert settled(root(3 + 2 * root(2)) / (1 + root(2))) == 1

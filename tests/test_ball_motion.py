@@ -66,7 +66,7 @@ def differences(motion, found, times):
     return {name: float(np.abs(getattr(motion, name)(times) - found[name]).max()) for name in names}
 
 
-@pytest.mark.parametrize("place", ["outside", "inside", "plane"])
+@parametrize("place", ["outside", "inside", "plane"], ordinary=1)
 @parametrize("seed", range(20), ordinary=1, long=20)
 def test_newton_and_euler_agree_on_random_bodies(seed, place):
     """u, both spins, the contact point in space and on the ball, the attitude and the normal reaction."""
@@ -270,7 +270,7 @@ def test_the_closed_form_and_the_energy_hold_along_the_motion(name, R1):
         assert np.ptp(eta) < 1e-12
 
 
-@pytest.mark.parametrize("R1", [3, -3, None])
+@parametrize("R1", [3, -3, None], ordinary=1)
 def test_rolling_holds_late(R1):
     """At t = 100 the point of the ball at the contact is at rest: derivatives of the computed path by Chebyshev series."""
     motion = solve_motion(put(BALLS["l > 0"], R1), START)
@@ -494,6 +494,7 @@ def test_motion_under_other_potentials(potential):
     assert np.ptp(motion.energy(times)) < 1e-11 * max(1, abs(motion.energy(0.0)))
 
 
+@pytest.mark.long
 def test_parameters_and_starts_may_be_irrational():
     ball = RollingBall(m="sqrt(2)", R=1, a="1/5", A1="sqrt(2)/4", A3="sqrt(2)/3")
     sphere = ball.on_sphere("2*sqrt(2)")

@@ -99,6 +99,7 @@ def test_eigenfunctions(s: Any, left: Any, right: Any) -> None:
         assert is_multiple(found, expected, middle), (w, s, g)
 
 
+@pytest.mark.long
 def test_what_has_no_solution_and_what_has_one() -> None:
     """Fredholm: a value at the end of an eigenfunction, a right-hand side with a part along it; and no resonance."""
     oscillator = D2 + n**2 * D0
@@ -117,6 +118,7 @@ def test_what_has_no_solution_and_what_has_one() -> None:
     assert [found.subs({n: j, x: pi}) for j in (1, 2, 3)] == [1, 1, 1]
 
 
+@pytest.mark.long
 def test_particular_values_of_parameters_are_said() -> None:
     w, h = sympy.symbols("w h")
     with pytest.warns(UserWarning, match=r"unless sin\(L\*w\) = 0, where y\(x\) = C2\*sin\(w\*x\)"):
@@ -129,6 +131,7 @@ def test_particular_values_of_parameters_are_said() -> None:
         assert dsolve(D2 + w**2 * D0, ics={y(0): y(2 * pi), slope_at(0): slope_at(2 * pi)}).rhs == 0
 
 
+@pytest.mark.long
 def test_periodic_and_robin_conditions() -> None:
     periodic = {y(0): y(2 * pi), slope_at(0): slope_at(2 * pi)}
     assert dsolve(D2 + n**2 * D0, ics=periodic).rhs == C1 * cos(n * x) + C2 * sin(n * x)
@@ -215,7 +218,7 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
     assert abs(own.y[1, -1] - dy1) < 1e-6 * (1 + abs(dy1))
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("text", "values"),
     [
         ("x*y'' + 2*y' = 0", "y(-1)=1, y(1)=0"),
@@ -226,6 +229,7 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
         ("x*y'' + y' + x*y = 0", "y(-1)=1, y(0)=bounded, y(1)=2"),
         ("(exp(x) - 1)*y'' + y = 0", "y(-1)=1, y(1)=0"),
     ],
+    ordinary=3,
 )
 def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
@@ -321,7 +325,7 @@ EXPANDED = [
 ]
 
 
-@parametrize(("e", "point"), EXPANDED, ordinary=6, long=15, ids=str)
+@parametrize(("e", "point"), EXPANDED, ordinary=2, long=15, ids=str)
 def test_expansions(e: Any, point: Any) -> None:
     """Against values by mpmath, near the point."""
     place = Approach(sympy.sympify(point))
@@ -350,6 +354,7 @@ def test_expansions_that_are_not_known() -> None:
 # -------------------------------------------------------------------------------------------- zero, rank and what leaves
 
 
+@pytest.mark.long
 def test_when_a_constant_is_zero() -> None:
     z = Symbol("z")
     always = [
@@ -373,7 +378,7 @@ def test_when_a_constant_is_zero() -> None:
     assert not is_zero_by_size(sqrt(2) - Rational(1414213562373095048801688724209, 10**30))
 
 
-@parametrize("seed", range(40), ordinary=5, long=15)
+@parametrize("seed", range(40), ordinary=2, long=15)
 def test_ranks(seed: int) -> None:
     """Rows made of a rank and of solutions, with numbers that aren't recognised at sight."""
     random = Random(seed)
@@ -413,6 +418,7 @@ def test_nothing_infinite_leaves() -> None:
     assert is_finite(sympy.Integral(exp(-(x**2)), (x, 0, oo)) + 1)
 
 
+@pytest.mark.long
 def test_entire_solutions_where_bessel_functions_jump() -> None:
     """y'' + c x^m y = 0: the values from the left and from the right agree at 0, for any constants."""
     c = Symbol("c")

@@ -203,7 +203,7 @@ def test_a_polynomial_of_omega_in_words(capsys: pytest.CaptureFixture[str]) -> N
     assert lines[8].startswith("  not case 1: an irregular singular point is ramified")
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "words"),
     [
         ("2", "omega = sqrt(2) or -sqrt(2)"),
@@ -216,6 +216,7 @@ def test_a_polynomial_of_omega_in_words(capsys: pytest.CaptureFixture[str]) -> N
         ("1/(4*c^2)", "where c1 is sqrt(2) or -sqrt(2)"),
         ("x^2 - 1001", "the solutions aren't written out here: polynomials of degree 500"),
     ],
+    ordinary=3,
 )
 def test_texts_of_other_answers(S: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main.run(["solve", S]) == 0
@@ -248,7 +249,7 @@ def test_bad_input_does_not_stop_the_others(capsys: pytest.CaptureFixture[str]) 
     assert "Traceback" not in errors
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("arguments", "status"),
     [
         ([], 2),
@@ -293,6 +294,7 @@ def test_bad_input_does_not_stop_the_others(capsys: pytest.CaptureFixture[str]) 
         (["solve", "--help"], 0),
     ],
     ids=str,
+    ordinary=14,
 )
 def test_exit_status(arguments: list[str], status: int) -> None:
     assert main.run(arguments) == status
@@ -322,7 +324,7 @@ START = ["--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]
         (["solve", "--jsn", "x"], None),
         (["solve", "--x"], None),
     ],
-    ordinary=5,
+    ordinary=2,
     ids=str,
 )
 def test_what_is_not_exactly_an_option_is_an_expression(

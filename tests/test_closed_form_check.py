@@ -165,7 +165,7 @@ I_CENTRED, SHIFTED = X**2 + 1, X**2 + X + 5
 
 
 @parametrize("k", range(1, 9), ordinary=2)
-@pytest.mark.parametrize(("p", "discriminant"), [(I_CENTRED, 4), (SHIFTED, 19), (4 * X**2 - 4 * X + 5, 64)], ids=str)
+@parametrize(("p", "discriminant"), [(I_CENTRED, 4), (SHIFTED, 19), (4 * X**2 - 4 * X + 5, 64)], ids=str, ordinary=1)
 def test_a_pair_that_turns_by_half_turns(p: RatFunc, discriminant: int, k: int) -> None:
     """y1 y2 = p and the exponent difference k/2 at both roots: y+- = sqrt(p) exp(+-i (k/2) phi), phi the argument."""
     check_pair(p, Fraction(discriminant * k * k, 4), turned=True)
@@ -189,7 +189,7 @@ def test_residues_at_the_roots_of_a_cubic_turn_nothing(constant: Fraction, slope
     assert abs(ratio - 1) < 1e-9
 
 
-@pytest.mark.parametrize("shift", [0, 1, Fraction(-3, 2)])
+@parametrize("shift", [0, 1, Fraction(-3, 2)], ordinary=1)
 @parametrize("w", [3, 6, 9, 12, 18, 30], ordinary=1)
 def test_two_factors_that_turn_in_opposite_directions(w: int, shift: Fraction) -> None:
     """F = (x^2 + 1)(x^2 + 4): exponent differences w/6 at i and -w/12 at 2i."""
@@ -197,7 +197,7 @@ def test_two_factors_that_turn_in_opposite_directions(w: int, shift: Fraction) -
     check_pair(F, Fraction(w * w), turned=w % 6 == 0)
 
 
-@pytest.mark.parametrize("k", [1, 2, 3, 4])
+@parametrize("k", [1, 2, 3, 4], ordinary=2)
 @parametrize(
     "F",
     [X * (X**2 + X + 5), (X**2 + 1) ** 2, (X**2 + 1) / (X - 3), (X**2 + 1) * (X**2 + 3), 1 / (X**2 + 2 * X + 3)], ordinary=1,
@@ -247,7 +247,7 @@ def test_what_a_real_pair_is() -> None:
     assert not is_real_pair(over(imaginary, -3), Atoms(x))
 
 
-@pytest.mark.parametrize("text", ["x^2 + sqrt(2)", "x^2 + sqrt(2)*x + 2", "x^2 + 2*x + 1 + sqrt(3)", "x^4 + sqrt(2)"])
+@parametrize("text", ["x^2 + sqrt(2)", "x^2 + sqrt(2)*x + 2", "x^2 + 2*x + 1 + sqrt(3)", "x^4 + sqrt(2)"], ordinary=2)
 def test_pairs_with_irrational_coefficients(text: str) -> None:
     """y1 y2 = F with w^2 = -1 over Q(sqrt d): the phase stays an angle."""
     f = sympy.sympify(text.replace("^", "**"))

@@ -47,6 +47,7 @@ def closed_form_of(answer: kovacic.Solution) -> ClosedForm:
     return form
 
 
+@pytest.mark.long
 @given(strategies.rational_functions(5))
 def test_partial_fractions_add_up(r: RatFunc) -> None:
     parts = decompose(r)
@@ -139,13 +140,14 @@ def jacobian(F: sympy.Expr, m: int, G: sympy.Expr, n: int) -> sympy.Expr:
     return sympy.expand(m * F * G.diff(t) - n * F.diff(t) * G)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("structure", "F", "m", "syzygy"),
     [
         (Structure.TETRAHEDRAL, t - t**5, 6, lambda F, H: -172800 * F**4),
         (Structure.OCTAHEDRAL, 1 + 14 * t**4 + t**8, 8, lambda F, H: 344064 * F**3 * H),
         (Structure.ICOSAHEDRAL, t + 11 * t**6 - t**11, 12, lambda F, H: 83635200 * F**5),
     ],
+    ordinary=1,
 )
 def test_syzygies_of_the_klein_invariants(structure: Structure, F: sympy.Expr, m: int, syzygy: object) -> None:
     """On y'' = 0 with the solutions 1 and t."""

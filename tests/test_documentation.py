@@ -25,7 +25,7 @@ def test_shell_sessions(page: str, command: str, output: str, capsys: pytest.Cap
     check_command(command, output, capsys)
 
 
-@parametrize("page", PAGES, ordinary=5, ids=lambda page: str(page.relative_to(ROOT)))
+@parametrize("page", PAGES, ordinary=2, ids=lambda page: str(page.relative_to(ROOT)))
 def test_python_sessions(page: Path) -> None:
     check_python(page)
 

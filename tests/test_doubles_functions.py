@@ -154,7 +154,7 @@ PROMISES: list[tuple[Any, Any, type]] = [
 ]
 
 
-@parametrize(("S", "interval", "kind"), PROMISES, ordinary=4)
+@parametrize(("S", "interval", "kind"), PROMISES, ordinary=2)
 def test_the_measured_error_keeps_the_promise(S: Any, interval: Any, kind: type) -> None:
     solution = kovacic.solve(S)
     function = lambdify(solution, interval=interval)  # warnings are errors here
@@ -488,6 +488,7 @@ def test_tables_start_as_evaluate_does() -> None:
         tabulate("-1", 0, 1, x0=0, y0=flint.arb(1, 1e-12), dy0=0)
 
 
+@pytest.mark.long
 def test_a_piece_is_halved_where_its_polynomial_does_not_suffice() -> None:
     """The right-hand side has poles at +-i/10, which the first choice of pieces doesn't see: y' = arctan(10 x)/10."""
     x = np.linspace(-1, 1, 33)
@@ -581,6 +582,7 @@ def test_solutions_with_many_zeros_are_tabulated(equation: str, interval: Any) -
         assert f.measured.worst < (1 if careful else 1000)
 
 
+@pytest.mark.long
 def test_zeros_beyond_the_range_of_doubles_are_no_error() -> None:
     """The values on both sides of a change of sign may be infinite."""
     f = lambdify(kovacic.solve("x*y'' + (1-x)*y' + 200*y = 0"), interval=(0, 800))

@@ -102,7 +102,7 @@ def test_both_routes_agree_on_random_legs(kind: str) -> None:
     assert agree_on(kind, 1, 60) > 15
 
 
-@pytest.mark.parametrize("ends", [("0", "1/2"), ("1/2", "0"), ("0", "-1/3"), ("-1/3", "1/2"), ("1/4", "1/2")])
+@parametrize("ends", [("0", "1/2"), ("1/2", "0"), ("0", "-1/3"), ("-1/3", "1/2"), ("1/4", "1/2")], ordinary=2)
 @pytest.mark.parametrize(("slope", "order"), [(0, 2), (1, 2), (Fraction(-1, 2), 2), (1, 3), (Fraction(1, 2), 5)])
 def test_a_leg_from_to_and_through_an_ordinary_zero_of_the_function(
     slope: Fraction, order: int, ends: tuple[str, str]
@@ -180,7 +180,7 @@ def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) ->
     ordinary=3,
     long=25,
 )
-@pytest.mark.parametrize("digits", [5, 15, 60, 300])
+@parametrize("digits", [5, 15, 60, 300], ordinary=2)
 def test_flints_functions_and_taylor_steps_agree(equation: str, x0: Any, x: Any, digits: int) -> None:
     (chosen,), (other,) = (
         evaluate_states(equation, [x], x0=x0, digits=digits, method=method, **START)
@@ -193,7 +193,7 @@ def test_flints_functions_and_taylor_steps_agree(equation: str, x0: Any, x: Any,
     assert chosen.y.real == other.y.real
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "x0", "x", "start"),
     [
         (BESSEL.format("1/3"), 0, 3, (2, 3)),
@@ -211,6 +211,7 @@ def test_flints_functions_and_taylor_steps_agree(equation: str, x0: Any, x: Any,
         (DIHEDRAL, 1, "1/3", (1, 2)),
         (DIHEDRAL, 0, "-5 + I", (1, 2)),
     ],
+    ordinary=5,
 )
 def test_frobenius_solutions_by_flints_functions(equation: str, x0: Any, x: Any, start: Any) -> None:
     points = x if isinstance(x, list) else [x]

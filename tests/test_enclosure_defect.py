@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from build import parametrize
 from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.frame import GaussianParts, make_frame, shift
@@ -53,7 +54,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
 
 @pytest.mark.parametrize("start", [0, 1])
 @pytest.mark.parametrize("bits", [0, 20, 60])
-@pytest.mark.parametrize(
+@parametrize(
     ("p", "q"),
     [
         (([1, -2, 3], None), ([40, 1, -1, 2], None)),
@@ -63,6 +64,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
         (([0, 0, 6], [1, 0, 0]), ([7], [0])),
     ],
     ids=str,
+    ordinary=2,
 )
 def test_the_last_terms_are_counted(p: GaussianParts, q: GaussianParts, bits: int, start: int) -> None:
     """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""

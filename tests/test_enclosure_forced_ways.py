@@ -52,7 +52,7 @@ def test_a_right_hand_side_without_a_value_at_an_end_is_refused_at_once(f: str, 
         kovacic.evaluate(f"y'' + y = {f}", x, x0=x0, **START)
 
 
-@pytest.mark.parametrize(("x0", "x"), [(0, "11/10"), (-1, "11/10"), (-1, 0), (-1, "1 + I")])
+@parametrize(("x0", "x"), [(0, "11/10"), (-1, "11/10"), (-1, 0), (-1, "1 + I")], ordinary=2)
 @pytest.mark.parametrize("digits", [15, 40])
 def test_removable_singularities_of_right_hand_sides_are_none(x0: int, x: str, digits: int) -> None:
     """y = sin(x)/x has y'' + y = (2 sin(x) - 2 x cos(x))/x^3."""
@@ -72,8 +72,8 @@ def test_a_right_hand_side_that_is_singular_at_the_start_is_integrated() -> None
     assert [float(value) for value in found] == pytest.approx([4 * x**2.5 / 15 for x in (1, 4, 9, 16)], rel=1e-13)
 
 
-@pytest.mark.parametrize(
-    "equation", ["y'' + 10*y = sin(3*x)", "y'' + (100 + cos(x))*y = 0", "y'' + 100*y = sqrt(x + 1)"]
+@parametrize(
+    "equation", ["y'' + 10*y = sin(3*x)", "y'' + (100 + cos(x))*y = 0", "y'' + 100*y = sqrt(x + 1)"], ordinary=1
 )
 def test_nothing_is_expanded_twice(equation: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever precision a value needs: near zeros of the solution it is higher."""

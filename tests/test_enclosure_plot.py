@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic import Ball
@@ -44,6 +45,7 @@ def legend(figure: Any) -> list[str]:
     return [text.get_text() for text in box.get_texts()]
 
 
+@pytest.mark.long
 def test_the_error_band_is_drawn_where_it_is_visible_and_a_vanishing_imaginary_part_is_not() -> None:
     wide = plot("x", -3, 1, x0=-1, y0=Ball((1, 0), rad=(1, -4)), points=20)
     assert legend(wide)[1:] == ["error band"]
@@ -169,7 +171,7 @@ def test_the_plot_command_writes_a_picture(tmp_path: Path, capsys: pytest.Captur
     assert capsys.readouterr().out == f"wrote {target}\n"
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("arguments", "status", "words"),
     [
         (["x", "--from", "2", "--to", "1", "-o", "a.png"], 2, "empty"),
@@ -181,6 +183,7 @@ def test_the_plot_command_writes_a_picture(tmp_path: Path, capsys: pytest.Captur
         (["x", "--from", "0", "--to", "100000", "-o", "a.png"], 3, "beyond the range of doubles"),
         (["x^3+x", "--from", "-90", "--to", "90", "-o", "a.png", "--limit", "seconds=0.001"], 3, "time limit"),
     ],
+    ordinary=3,
 )
 def test_the_plot_command_refuses_wrong_input(
     arguments: list[str], status: int, words: str, capsys: pytest.CaptureFixture[str]
@@ -221,6 +224,7 @@ def test_a_picture_of_an_equation_with_an_algebraic_constant() -> None:
     assert np.abs(arc.y.real / np.cosh(2**0.25 * arc.x) - 1).max() < 1e-7
 
 
+@pytest.mark.long
 def test_the_legend_says_which_solution_is_drawn_and_the_title_which_equation() -> None:
     figure = plot("x", -3, 1, y0=2, points=20)
     assert legend(figure) == ["y, where y(-3) = 2, y'(-3) = 0"]

@@ -61,7 +61,7 @@ BESSEL_ORDERS = [
 
 
 @pytest.mark.parametrize("nu", BESSEL_ORDERS)
-@pytest.mark.parametrize("x", [Fraction(1, 10), 3, 25, -2, 1 + 2j])
+@parametrize("x", [Fraction(1, 10), 3, 25, -2, 1 + 2j], ordinary=2)
 def test_bessel_functions_from_their_singular_point(nu: Fraction, x: Any) -> None:
     with ctx.workprec(300):
         v = number(nu)
@@ -108,7 +108,7 @@ def gauss(a: str, b: str, c: str) -> str:
 
 
 @parametrize(("a", "b", "c"), HYPERGEOMETRIC, ordinary=3)
-@pytest.mark.parametrize("x", [Fraction(1, 2), Fraction(9, 10), -7, 2 + 1j, -1 - 3j])
+@parametrize("x", [Fraction(1, 2), Fraction(9, 10), -7, 2 + 1j, -1 - 3j], ordinary=2)
 def test_gauss_from_zero_and_from_infinity(a: str, b: str, c: str, x: Any) -> None:
     p, q, r = (Fraction(v) for v in (a, b, c))
     coordinates = (0, 1) if r >= 1 else (1, 0)

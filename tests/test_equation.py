@@ -227,6 +227,7 @@ def test_constants_and_parameters_in_equations() -> None:
     assert normal.S.field == QQ
 
 
+@pytest.mark.long
 @given(st.text(alphabet="xy'=+-*/^() 0123diff,", max_size=30))
 @settings(max_examples=200)
 def test_garbage_is_refused_with_an_input_error(text: str) -> None:

@@ -201,7 +201,7 @@ def test_an_undecided_answer_says_why() -> None:
 
 
 @parametrize("text", EQUATIONS, ordinary=1, long=15)
-@pytest.mark.parametrize("form", ["text", "markdown", "latex", "html"])
+@parametrize("form", ["text", "markdown", "latex", "html"], ordinary=2)
 def test_every_format_of_every_kind(text: str, form: str) -> None:
     explained = kovacic.solve(text).explain(format=form)
     assert "nan" not in explained.lower().split()
@@ -373,7 +373,7 @@ def _read_latex(latex: str) -> sympy.Expr:
     return sympy.sympify(re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text))
 
 
-@pytest.mark.parametrize(
+@parametrize(
     "S",
     [
         "a/b",
@@ -386,6 +386,7 @@ def _read_latex(latex: str) -> sympy.Expr:
         "(x + a)/(x - b/2)^2",
         "1/(-x - 1)",
     ],
+    ordinary=3,
 )
 def test_latex_of_functions_with_parameters_has_their_denominators(S: str) -> None:
     answer = kovacic.solve(S, var="x")

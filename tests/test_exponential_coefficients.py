@@ -88,6 +88,7 @@ def test_shape_invariant_potentials_have_their_spectra(name: str) -> None:
         assert answer.case_at({**eigenvalue(n, a, b), "E": F(22, 7)}) is None
 
 
+@pytest.mark.long
 def test_mathieu_and_hill() -> None:
     """No Liouvillian solution but for q = 0; Whittaker-Hill: c = -b^2/(2 (d+1)^2) and a determinant."""
     mathieu = kovacic.conditions("2*q*cos(2*x) - a", var="x")
@@ -150,7 +151,7 @@ def test_right_hand_sides() -> None:
     assert abs(left.evalf(20) - sympy.exp(sympy.Rational(2, 5)).evalf(20)) < 1e-12
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "T", "same"),
     [
         ("exp(x + c)", "exp(c + x)", "exp(x)"),
@@ -158,6 +159,7 @@ def test_right_hand_sides() -> None:
         ("sin(2*x + 1)", "tan(x + 1/2)", "sin(2*x)"),
         ("exp(2*x)*exp(3)", "exp(2*x)", "e^3*exp(2*x)"),
     ],
+    ordinary=2,
 )
 def test_a_constant_in_the_exponent_is_a_shift_of_x_or_a_power_of_e(S: str, T: str, same: str) -> None:
     found, other = (read_input(f"y'' = ({text})*y", exponentials=True) for text in (S, same))

@@ -36,6 +36,7 @@ def test_derivatives_are_integrated(E: RatFunc, W: RatFunc, levels: list[tuple[i
     assert done.integrand == r
 
 
+@pytest.mark.long
 @settings(max_examples=30, deadline=None)
 @given(ratios, ratios, st.sampled_from([1, -1, 2, -3]), small, small)
 def test_error_functions(q: RatFunc, W: RatFunc, b: int, e: int, c: int) -> None:

@@ -127,6 +127,7 @@ def test_impulses_at_singular_points_are_refused(left: str, a: int, g: int, p: A
         kovacic.dsolve(f"{left} = DiracDelta(x - {a})")
 
 
+@pytest.mark.long
 def test_an_impulse_where_only_the_coordinate_is_singular() -> None:
     t = sympy.Symbol("x")
     equation = sympy.cos(t) * y(t).diff(t, 2) + sympy.sin(t) * y(t).diff(t) - DiracDelta(t)

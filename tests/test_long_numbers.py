@@ -40,6 +40,7 @@ def test_every_view_of_an_answer(equation: str) -> None:
     assert answer._repr_latex_()
 
 
+@pytest.mark.long
 def test_the_group_of_a_root_of_high_order() -> None:
     """y = x^(1/N), whose group has N elements: its order is a text in JSON."""
     answer = kovacic.solve(EQUATIONS["exponents"])

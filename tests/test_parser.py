@@ -275,6 +275,7 @@ def test_what_isnt_an_expression(text: str, position: int, words: str) -> None:
     assert caught.value.position == position
 
 
+@pytest.mark.long
 @given(expressions())
 @example(Expression(" 2e-3**x' -\u2003(y″ (x) + .5x⁻²) = é ", "", lambda x: x, 0))
 @settings(max_examples=100)

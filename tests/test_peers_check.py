@@ -58,7 +58,7 @@ def check() -> ModuleType:
         # On the left half-plane sqrt(x^2) is -x.
         ("x^2+1", "y", "python", ["exp(x*sqrt(x**2)/2)"], "right on a branch"),
     ],
-    ordinary=17,
+    ordinary=6,
 )
 def test_answers(check: ModuleType, S: str, form: str, syntax: str, expressions: list[str], verdict: str) -> None:
     assert check.check(S, form, syntax, expressions) == verdict

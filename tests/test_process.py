@@ -28,7 +28,7 @@ def talks(channel: Channel) -> None:
 
 
 @parametrize("how", ["to the end", "for ever", "an exception"], ordinary=1)
-@pytest.mark.parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))])
+@parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))], ordinary=1)
 def test_the_last_value_before_the_end(how: str, found: tuple[Any, ...]) -> None:
     assert last_of(values, how, *found, seconds=2 if how == "for ever" else 60) == (found[-1] if found else None)
 

@@ -174,6 +174,7 @@ def test_no_formula_is_offered_where_its_degree_is_never_natural() -> None:
     assert answer.solve_at({"m": "9/2", "a": 0, "b": "-7/2"}).case == 1
 
 
+@pytest.mark.long
 def test_a_solution_doesnt_vanish_where_a_root_in_it_does() -> None:
     """y'' = (6/x^2 + a) y has solutions exp(sqrt(a) x) (a x^2 - 3 sqrt(a) x + 3)/x^2, and 3/x^2 for a = 0."""
     answer = kovacic.conditions("6/x^2 + a + b*x^2", var="x")

@@ -113,7 +113,7 @@ VANISHING = [
 
 
 @parametrize("start", ["0", "1", "-2/3"], ordinary=1)
-@parametrize("coefficients_as_text", VANISHING, ordinary=4, ids=str)
+@parametrize("coefficients_as_text", VANISHING, ordinary=2, ids=str)
 def test_a_value_where_the_square_has_no_coefficient(coefficients_as_text: tuple[str, str, str], start: str) -> None:
     """The linear equation is singular there, Riccati's isn't: one solution, that of an integration."""
     p, q, r = (read_expression(text) for text in coefficients_as_text)
@@ -155,7 +155,7 @@ WITH_VALUES: list[tuple[Any, Any, Any, Any, Any]] = [
 ]
 
 
-@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=3)
+@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=1)
 def test_values_with_symbols(p: Any, q: Any, r: Any, point: Any, value: Any) -> None:
     """No symbol of the question is taken for a constant, and r may be 0 at the point."""
     found = kovacic.dsolve(sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2), w(x), ics={w(point): value}).rhs

@@ -68,7 +68,7 @@ def special(S: RatFunc) -> Any:
     return special_functions(S, S * 0, "x", Budget())
 
 
-@parametrize("kind", KINDS, ordinary=4)
+@parametrize("kind", KINDS, ordinary=2)
 def test_generated_pull_backs_are_found(kind: str) -> None:
     for case in pull_backs(4, kinds=(kind,), seed=7):
         found = find(case.S, Budget()).pullback
@@ -172,6 +172,7 @@ def test_constants_of_quadratic_fields() -> None:
         assert solves(answer.special, answer.S, answer.gauge), equation
 
 
+@pytest.mark.long
 def test_equations_outside_of_the_classes() -> None:
     for S in ("x^3 + x^2", "x^4 + x^2 + x", "1/x + 1/(x - 1) + 3", "x + 1/x", "1/x^3 + x^3"):
         answer = kovacic.solve(S)
@@ -423,7 +424,7 @@ def test_every_view_offers_the_short_one(capsys: pytest.CaptureFixture[str]) -> 
     assert said not in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["hermite", "legendre", "laguerre"])
+@parametrize("name", ["hermite", "legendre", "laguerre"], ordinary=1)
 def test_assumptions_are_used(name: str) -> None:
     """Given as words or by the symbol: the same answer, in plain symbols; no polynomials for integers that may be negative."""
     equation = {
@@ -511,7 +512,7 @@ def test_mathieus_functions(coefficient: str, damping: str, expected: tuple[str,
 _MATHIEU = (sympy.mathieuc, sympy.mathieucprime, sympy.mathieus, sympy.mathieusprime)
 
 
-@pytest.mark.parametrize("coefficient", ["1 + cos(x) + cos(2*x)", "1 + cos(x)^2 + sin(x)", "1/(2 + cos(x))"])
+@parametrize("coefficient", ["1 + cos(x) + cos(2*x)", "1 + cos(x)^2 + sin(x)", "1/(2 + cos(x))"], ordinary=1)
 def test_other_waves_are_not_mathieus(coefficient: str) -> None:
     with pytest.raises(NotImplementedError, match="no special function was found"):
         kovacic.dsolve(f"y'' + ({coefficient})*y = 0")
@@ -526,7 +527,7 @@ def test_a_long_answer_in_mathieus_functions_has_no_shorter_form() -> None:
     assert in_special_functions(found, text) is None
 
 
-@pytest.mark.parametrize("coefficient", ["a - 2*q*cos(2*x)", "3 - 2*sin(x)", "3 - 2*cosh(x)", "3 - 2*cos(x + 1)"])
+@parametrize("coefficient", ["a - 2*q*cos(2*x)", "3 - 2*sin(x)", "3 - 2*cosh(x)", "3 - 2*cos(x + 1)"], ordinary=2)
 def test_values_of_mathieus_functions(coefficient: str) -> None:
     """Initial values, by the parity of the functions and their constant Wronskian alone; other numbers are arbitrary."""
     x = sympy.Symbol("x")

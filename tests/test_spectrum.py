@@ -186,7 +186,7 @@ def test_without_a_boundary_condition_there_is_no_spectrum(V: str, domain: tuple
     assert "boundary condition" in found.text()
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("V", "domain"),
     [
         ("1/x + 2/x^2", HALF),
@@ -198,6 +198,7 @@ def test_without_a_boundary_condition_there_is_no_spectrum(V: str, domain: tuple
         ("a*cos(k*x + 1)", ("-oo", "oo")),
         ("cos(x)/(cos(x) + cos(2*x) + 3)", ("-oo", "oo")),
     ],
+    ordinary=3,
 )
 def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
     found = kovacic.spectrum(V, domain=domain)
@@ -223,7 +224,7 @@ def test_what_is_not_covered_is_undecided(V: str) -> None:
         ("cosh(x)", ("-oo", "oo")),
         ("x", HALF),
     ],
-    ordinary=3,
+    ordinary=1,
 )
 def test_no_wave_function_is_liouvillian(V: str, domain: tuple[object, object]) -> None:
     """The conditions on E say so; for x^6 + 7 x^2 there are two that aren't real."""
@@ -388,7 +389,7 @@ def test_poles_of_which_it_isnt_known_whether_they_are_real() -> None:
         ("1/(1 + sin(x) + cos(x))", "pi", '--from "-pi/2" --to "pi"'),
         ("tan(a*x)^2", "pi/(2*a)", '--from "-pi/(2*a)" --to "pi/(2*a)"'),
     ],
-    ordinary=3,
+    ordinary=1,
 )
 def test_a_periodic_potential_on_the_line_has_no_poles(V: str, pole: str, shell: str) -> None:
     with pytest.raises(kovacic.InputError) as refused:
@@ -399,6 +400,7 @@ def test_a_periodic_potential_on_the_line_has_no_poles(V: str, pole: str, shell:
         kovacic.spectrum(V, domain=(1, "oo"))
 
 
+@pytest.mark.long
 def test_levels_of_a_periodic_potential_on_a_half_line_are_open() -> None:
     assert kovacic.spectrum("cos(x)", domain=HALF).needs_boundary_condition
     found = kovacic.spectrum("cos(x)", domain=HALF, boundary="friedrichs")
@@ -457,6 +459,7 @@ def test_a_formula_that_holds_for_no_n_is_left_out() -> None:
     assert step.levels == ()
 
 
+@pytest.mark.long
 def test_states_are_numbered_by_their_zeros() -> None:
     """The exceptional oscillator of degree 2: its ground state -3, and 2 n + 3 with n + 1 zeros."""
     states = kovacic.spectrum("x^2 + 8*(2*x^2-1)/(2*x^2+1)^2").states(count=3)
@@ -539,7 +542,7 @@ def test_powers_of_numbers_are_exponentials() -> None:
         assert sympy.simplify(levels.energy - expected) == 0
 
 
-@pytest.mark.parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"])
+@parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"], ordinary=3)
 @parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))], ordinary=1)
 def test_two_solutions_at_an_end(nu: str, base: str, domain: tuple[object, object]) -> None:
     """They are sqrt(x) and sqrt(x)*log(x) where the exponents agree, real inside the domain, and solve the equation there."""

@@ -37,6 +37,7 @@ def lines(S: str) -> list[str]:
     return [line.strip() for line in answer.text().splitlines()[1:-2]]
 
 
+@pytest.mark.long
 def test_lame_on_the_lemniscatic_and_the_equianharmonic_curve() -> None:
     """B = 0 with g3 = 0 and with g2 = 0; n in 1/2 + N by Brioschi and Halphen, the finite groups by Baldassarri 1981."""
     assert lines(LAME) == ["n in Z: case 1", "n = 1/2 mod 2: case 2", "n = 1/6, 5/6 mod 2: case 3"]

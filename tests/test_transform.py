@@ -26,6 +26,7 @@ def test_from_omega_solves_the_riccati_equation(omega: RatFunc) -> None:
     assert solves_riccati(omega, transform.from_omega(omega))
 
 
+@pytest.mark.long
 @given(strategies.products((-2, -1, 1, 2), 2, 2), st.integers(-4, 4))
 def test_from_product_has_both_omegas(F: RatFunc, w: int) -> None:
     S = transform.from_product(F, w * w)
@@ -77,6 +78,7 @@ def test_pull_backs_compose(S: RatFunc, f: RatFunc, g: RatFunc) -> None:
     assert transform.pull_back(transform.pull_back(S, f), g) == transform.pull_back(S, f(g))
 
 
+@pytest.mark.long
 @given(omegas.map(transform.from_omega), strategies.moebius_maps())
 @settings(max_examples=50)
 def test_moebius_is_a_pull_back_and_has_an_inverse(S: RatFunc, m: tuple[int, int, int, int]) -> None:
@@ -86,6 +88,7 @@ def test_moebius_is_a_pull_back_and_has_an_inverse(S: RatFunc, m: tuple[int, int
     assert transform.moebius(image, d, -b, -c, a) == S
 
 
+@pytest.mark.long
 @given(omegas.map(transform.from_omega), strategies.fractions(5), strategies.fractions(5).filter(bool))
 def test_translation_and_scaling(S: RatFunc, shift: Fraction, factor: Fraction) -> None:
     assert transform.translation(S, shift) == S(X + shift)

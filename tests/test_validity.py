@@ -6,13 +6,14 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 from sympy.abc import a, b, c, k, m, v, w, x  # the names in texts
 
 import kovacic
 from kovacic.cli.main import main
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "real", "exceptions"),
     [
         ("y'' + w^2*y = cos(v*x)", [], {w, v - w, v + w}),
@@ -22,6 +23,7 @@ from kovacic.cli.main import main
         ("(1-x^2)*y'' - x*y' + y = 0", [1 - x**2 >= 0], set()),
         ("y'' + y = x", [], set()),
     ],
+    ordinary=2,
 )
 def test_what_is_needed(equation: str, real: list[object], exceptions: set[object]) -> None:
     found = kovacic.validity(kovacic.dsolve(equation))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import sympy
+from build import parametrize
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_textbook_equations import EQUATIONS
@@ -80,7 +81,7 @@ def test_products_come_back(first: tuple, second: tuple, a: int, exponent: str) 
         assert vanishes(sympy.diff(rate, x) + rate**2 + b * rate + c)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "texts"),
     [
         ("-1", ("cos(x)", "sin(x)")),
@@ -90,6 +91,7 @@ def test_products_come_back(first: tuple, second: tuple, a: int, exponent: str) 
         ("0", ("1", "x")),
         ("(4*x^6-8*x^5+12*x^4+4*x^3+7*x^2-20*x+4)/(4*x^4)", None),
     ],
+    ordinary=2,
 )
 def test_texts(S: str, texts: tuple[str, str] | None) -> None:
     found = texts_of(kovacic.solve(S))
