@@ -94,8 +94,7 @@ def odefun(b: Any, c: Any, x0: float, place: float) -> Any:
     return mpmath.odefun(lambda t, s: [s[1], -b(t) * s[1] - c(t) * s[0]], x0, [1, 0])(place)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "x0", "place", "b", "c"),
     [
         ("y'' + cot(x)*y' + 6*y = 0", 1, 2, mpmath.cot, lambda t: 6),  # Legendre's in the polar angle
@@ -106,6 +105,8 @@ def odefun(b: Any, c: Any, x0: float, place: float) -> Any:
         ("y'' + (2 + sin(2*x))*y = 0", 0, 2, lambda t: 0, lambda t: 2 + mpmath.sin(2 * t)),
         ("y'' + (2 + cos(x) + sin(2*x))*y = 0", 0, 7, lambda t: 0, lambda t: 2 + mpmath.cos(t) + mpmath.sin(2 * t)),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_trigonometric_equations_between_their_singular_points(
     equation: str, x0: Any, place: Any, b: Any, c: Any

@@ -197,8 +197,7 @@ def simulated(run, *arguments):
     return json.loads(output.out)["motion"]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "arguments",
     [
         (*_BODY, "--sphere", "3", "--start", "1.41", "0.07", "0.85", "-0.14"),
@@ -211,6 +210,8 @@ def simulated(run, *arguments):
         (*_BODY, "--sphere", "plane", "--start", "0", "1", "1", "1"),
         (*_BODY, "--sphere", "-4", "--potential", "3/2*cos(u)", "--time", "sqrt(5)"),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_command_follows_every_start(run, arguments):
     motion = simulated(run, *arguments)

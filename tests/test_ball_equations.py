@@ -9,6 +9,7 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 from _pytest.mark import ParameterSet
+from build import parametrize
 
 from kovacic import InputError, LimitExceeded
 from kovacic.ball import RollingBall, U, X, derivation
@@ -61,8 +62,7 @@ def planted() -> list[ParameterSet]:
     return cases
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("key", "name"), planted())
+@parametrize(("key", "name"), planted(), ordinary=0, long=1)
 def test_a_wrong_term_in_a_printed_formula_is_seen(key, name, monkeypatch):
     """Every formula enters into the derivation: with the ball's mass added, one of the groups fails."""
     monkeypatch.setitem(PRINTED[key], name, PRINTED[key][name] + m)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 import sympy as sp
+from build import parametrize
 
 import kovacic
 from kovacic import InputError, LimitExceeded
@@ -43,8 +44,9 @@ def rolling(values):
     return ball.on_plane() if R1 is None else ball.on_sphere(R1), group
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("values", [*BODIES.values(), *(v for v, _ in DEGENERATE.values())], ids=[*BODIES, *DEGENERATE])
+@parametrize(
+    "values", [*BODIES.values(), *(v for v, _ in DEGENERATE.values())], ids=[*BODIES, *DEGENERATE], ordinary=0, long=5
+)
 def test_the_engine_agrees_with_the_theorem_and_the_closed_form_holds(values):
     sphere, group = rolling(values)
     answer = kovacic.solve(sphere.S)

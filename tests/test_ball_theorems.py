@@ -160,8 +160,7 @@ def test_theorem_2_formula_for_all_ratios_and_roots():
     assert satisfies(closed_form(InRoots(k)), InRoots(k), IN_ROOTS)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("part", ["omega", "y", "omega_3", "n"])
+@parametrize("part", ["omega", "y", "omega_3", "n"], ordinary=0, long=2)
 def test_a_wrong_sign_in_a_closed_form_is_seen(part):
     for rho in (k, sp.Rational(3, 2)):
         good = closed_form(InRoots(rho))
@@ -268,8 +267,7 @@ def test_rational_omega_beyond_what_is_written_out():
         assert exact.is_Rational
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", sorted(BALLS))
+@parametrize("name", sorted(BALLS), ordinary=0, long=2)
 def test_closed_form_and_group_of_every_ball(name):
     for sphere in places(name):
         answer = kovacic.solve(sphere.S)

@@ -310,8 +310,7 @@ def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answe
     assert "ZeroDivisionError" in (found[5].error or "")
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("end", ["exception", "exit", "signal 15", "signal 40"])
+@parametrize("end", ["exception", "exit", "signal 15", "signal 40"], ordinary=0, long=2)
 def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch: pytest.MonkeyPatch, end: str) -> None:
     """As on Windows, in both processes; timeouts hold there, too."""
     known = [one for one in signal.Signals if one.name not in workers.MISSING_SIGNALS]

@@ -141,7 +141,7 @@ def test_a_named_pipe_is_answered_while_it_is_silent(tmp_path: Path) -> None:
         assert process.wait() == 0
 
 
-@parametrize("jobs", range(1, 9), ordinary=0, long=3)
+@parametrize("jobs", range(1, 9), ordinary=0, long=1)
 def test_a_hundred_thousand_lines_of_all_kinds(tmp_path: Path, jobs: int) -> None:
     """12,500 for each number of processes (all are slow tests): a file, standard input, `solve_many`."""
     runs = random_runs(jobs, 12_500)

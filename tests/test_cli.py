@@ -492,9 +492,8 @@ def test_a_closed_pipe_is_quiet() -> None:
     assert done.stderr == ""
 
 
-@pytest.mark.long
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
-@pytest.mark.parametrize(
+@parametrize(
     "arguments",
     [
         ["solve", "--no-solutions", "x"],
@@ -507,6 +506,8 @@ def test_a_closed_pipe_is_quiet() -> None:
         ["scan", "x+n", "n=1:3"],
     ],
     ids=str,
+    ordinary=0,
+    long=4,
 )
 def test_a_full_disk_is_told(arguments: list[str]) -> None:
     with open("/dev/full", "w") as full:
@@ -525,8 +526,7 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
         assert "Traceback" not in done.stderr
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("line", "status"),
     [
         ("solve - <&-", 0),
@@ -542,6 +542,8 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
         ("nonsense 2>&-", 2),
         ("batch - -o answers.jsonl 2>&- <<<x+", 2),
     ],
+    ordinary=0,
+    long=6,
 )
 def test_streams_that_the_shell_has_closed(tmp_path: Path, line: str, status: int) -> None:
     """Closed input is empty, closed output can't be written, and what closed standard error would get goes nowhere."""
@@ -589,9 +591,8 @@ def test_a_picture_that_cannot_be_made_is_refused_before_any_work(tmp_path: Path
         assert message in done.stderr
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("redirected", ["", "2>&1"])
-@pytest.mark.parametrize("command", ["batch -", "scan x^2+n n=1:300", "scan x^2+n n=1:300 --format csv"])
+@parametrize("command", ["batch -", "scan x^2+n n=1:300", "scan x^2+n n=1:300 --format csv"], ordinary=0, long=1)
 def test_a_batch_whose_reader_goes_away_ends(command: str, redirected: str) -> None:
     program = f"seq 1 300 | {sys.executable} -m kovacic {command} {redirected} | head -1; echo ${{PIPESTATUS[1]}}"
     done = subprocess.run(

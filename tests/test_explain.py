@@ -326,8 +326,7 @@ def test_a_page_needs_nothing_from_elsewhere(text: str, picture: bool) -> None:
     assert "url(http" not in page
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("text", LONG)
+@parametrize("text", LONG, ordinary=0, long=1)
 def test_long_formulas_on_a_page_are_many_short_ones(text: str) -> None:
     page = kovacic.solve(text).explain(format="html")
     tags = _Tags()

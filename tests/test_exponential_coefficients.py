@@ -233,8 +233,7 @@ def mp_states(coefficient: Any, x0: Any, x: Any, right: Any = lambda x: 0) -> An
     return mpmath.odefun(lambda x, y: [y[1], coefficient(x) * y[0] + right(x)], x0, [1, 0])(x)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "x0", "x", "params", "coefficient", "right"),
     [
         ("y'' = (exp(2*x) + 9)*y", 0, "1/2", {}, lambda x: mpmath.e ** (2 * x) + 9, None),
@@ -245,6 +244,8 @@ def mp_states(coefficient: Any, x0: Any, x: Any, right: Any = lambda x: 0) -> An
         ("y'' = tanh(x + 1)*y", -2, 1, {}, lambda x: mpmath.tanh(x + 1), None),
         ("y'' = exp(x)*y + exp(2*x)", 0, 1, {}, mpmath.exp, lambda x: mpmath.e ** (2 * x)),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_values_in_the_users_variable(
     equation: str, x0: Any, x: Any, params: dict[str, Any], coefficient: Any, right: Any
@@ -485,8 +486,7 @@ def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str,
         assert abs(sympy.N((found - expected).subs(x, sympy.Rational(point)), 20)) < 1e-15
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "right",
     [
         "log(exp(x) + 1)",
@@ -495,6 +495,8 @@ def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str,
         "log(x)",
         "Heaviside(x - 1)",
     ],
+    ordinary=0,
+    long=2,
 )
 def test_a_right_hand_side_that_is_another_function(right: str) -> None:
     """It was left out, in formulas and in proven values, where it is a function of exp(x) that isn't rational."""

@@ -11,6 +11,7 @@ from fractions import Fraction
 import jsonschema
 import pytest
 import sympy
+from build import parametrize
 
 import kovacic
 from kovacic import checker
@@ -55,8 +56,7 @@ def test_the_group_of_a_root_of_high_order() -> None:
     assert checker.verdict(json.dumps(data)).startswith("refuted")
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "call",
     [
         lambda n: kovacic.evaluate("x", 1, x0=0, frobenius=(n, 1), limits=kovacic.Limits(seconds=1)),
@@ -85,6 +85,8 @@ def test_the_group_of_a_root_of_high_order() -> None:
         lambda n: kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x", limits=kovacic.Limits(seconds=1)).determinant(n),
         lambda n: kovacic.spectrum(sympy.Symbol("x") ** 2 + n),
     ],
+    ordinary=0,
+    long=12,
 )
 def test_a_long_argument_gives_a_value_or_says_why_not(call: Callable[[int], object]) -> None:
     said = ""

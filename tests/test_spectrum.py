@@ -111,8 +111,7 @@ def test_levels_by_degree(V: str, domain: tuple[object, object], degree: int, pr
     assert len(one.states) == sympy.degree(one.polynomial, sympy.Symbol("E"))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("V", "domain", "number"),
     [
         ("9/4*sech(x)*tanh(x)", ("-oo", "oo"), 1),  # the exponents at +-I are complex and irrational
@@ -120,6 +119,8 @@ def test_levels_by_degree(V: str, domain: tuple[object, object], degree: int, pr
         ("-17/2*sech(x)^2", ("-oo", "oo"), 3),
         ("-9/4*sech(x)^2 + tanh(x)/2", ("-oo", "oo"), 1),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_as_many_levels_as_a_solution_has_zeros(V: str, domain: tuple[object, object], number: int) -> None:
     """Just below the continuous spectrum."""
@@ -580,7 +581,7 @@ def test_levels_by_degree_are_those_that_the_assumptions_admit(kind: str, degree
     assert tuple(one.degree for one in found.algebraic) == degrees
 
 
-@parametrize("row", [row for row in TABLE + MORE if row.name not in LONG], ordinary=1, long=4, ids=lambda row: row.name)
+@parametrize("row", [row for row in TABLE + MORE if row.name not in LONG], ordinary=1, long=2, ids=lambda row: row.name)
 def test_a_norm_has_each_number_once(row: Solvable) -> None:
     """Not 2^A*2^n/2^(3*n), and no quotient of Gamma functions that differ by an integer: gamma(n + 1)/factorial(n)."""
     for levels in spectrum_of(row).levels:
