@@ -15,12 +15,12 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import gcd
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy.core.function import AppliedUndef
@@ -52,33 +52,49 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     if all(part.is_rational_function(x) for part in rewritten[:3]):
         with suppress(NotRational):  # everything else cancels, or has the factor 0
             return read_source(source_of_parts(rewritten, source), limits)
-    exponentials = [{e for e in part.atoms(sympy.exp) if e.has(x)} for part in rewritten]
-    if not any(exponentials[:3]):
-        return None
     T = sympy.Dummy("T")
-    try:
-        k, offset, powers = common_power(set().union(*exponentials), x, T)
-    except NotRational:
-        k, offset, powers = common_power(set().union(*exponentials[:3]), x, T)
-    a, b, c = (part.xreplace(powers) for part in rewritten[:3])
-    if any(part.has(x) for part in (a, b, c)):
+    common = _common_power_of_parts(rewritten, x, T)
+    if common is None:
+        return None
+    k = common.k
+    a, b, c = (part.xreplace(common.powers) for part in rewritten[:3])
+    if a.has(x) or b.has(x) or c.has(x):
         raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
-    rest, h = _rational_part(parts[3], x, powers)
+    rest, h = _rational_part(parts[3], x, common.powers)
     unknown = source.unknown or UNKNOWN
-    names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
-    t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
+    t = new_variable((a, b, c, rest, k), {x.name, unknown})
     Y = sympy.Function(f"{unknown}_")(t)
-    whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest
+    whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest  # (1)
     read = read_source(source_of(whole.xreplace({T: t}), None, equation=True), limits)
     assert read.equation is not None
     assert read.equation.h is None
-    (p, q, f), expression = _best(read.equation, k, x + offset)
+    best = _best(read.equation, k, x + common.offset)
+    p, q, f = best.monic
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     p = p * denominator
     q = q * denominator
     f = f * denominator
+    expression = as_text(best.function)
     result = Equation(denominator, p, q, f, h and h / parts[0], t.name, unknown, Change(x.name, expression))
     return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
+
+
+def _common_power_of_parts(parts: list[Any], x: Any, T: Any) -> CommonPower | None:
+    """That of a, b, c and the right-hand side, or of a, b and c alone; None where these three have no exponentials."""
+    exponentials = [{e for e in part.atoms(sympy.exp) if e.has(x)} for part in parts]
+    of_coefficients = set().union(*exponentials[:3])
+    if not of_coefficients:
+        return None
+    try:
+        return common_power(set().union(*exponentials), x, T)
+    except NotRational:
+        return common_power(of_coefficients, x, T)
+
+
+def new_variable(parts: Sequence[Any], taken: set[str]) -> Any:
+    """A symbol for the new variable: t, or another letter that neither the parts have nor is `taken`."""
+    names = taken.union(*({symbol.name for symbol in part.free_symbols} for part in parts))
+    return sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
 
 
 def _rational_part(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
@@ -92,7 +108,9 @@ def _rational_part(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]
             rational.append(rewritten)
         else:
             others.append(-term)
-    return sympy.Add(*rational), sympy.Add(*others) if others else None
+    if not others:
+        return sympy.Add(*rational), None
+    return sympy.Add(*rational), sympy.Add(*others)
 
 
 def _in_exponentials(expression: Any, x: Any) -> Any:
@@ -104,39 +122,80 @@ def _in_exponentials(expression: Any, x: Any) -> Any:
     return expression.replace(is_such, lambda e: e.rewrite(sympy.exp, deep=False))
 
 
-def common_power(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict[Any, Any]]:
-    """k and c, and each exponential as a power of T = exp(k (x + c)), times a number; c leaves as few exp(n) as can be."""
-    rates: dict[Any, tuple[Any, Any]] = {}
-    for e in sorted(exponentials, key=str):
-        argument = sympy.expand(e.exp)
-        rate = argument.coeff(x, 1)
-        shift = argument.coeff(x, 0)
-        if sympy.expand(argument - rate * x - shift) != 0 or rate.has(x):
-            raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
-        rates[e] = rate, shift
-    first = next(iter(rates.values()))[0]
-    ratios = {e: sympy.cancel(rate / first) for e, (rate, _) in rates.items()}
+class CommonPower(NamedTuple):
+    """Exponentials as `powers` of T = exp(k (x + offset)), times numbers."""
+
+    k: Any
+    offset: Any
+    powers: dict[Any, Any]
+
+
+class _Line(NamedTuple):
+    """The exponent of exp(rate x + shift)."""
+
+    rate: Any
+    shift: Any
+
+    def left_by(self, offset: Any) -> Any:
+        """The constant c with exp(rate x + shift) = c exp(rate (x + offset))."""
+        return sympy.exp(sympy.expand(self.shift - self.rate * offset))
+
+
+def common_power(exponentials: set[Any], x: Any, T: Any) -> CommonPower:
+    """The power of which all are powers; its offset leaves as few constants exp(n) as can be."""
+    lines = {e: _line_of(e, x) for e in sorted(exponentials, key=str)}
+    first = next(iter(lines.values())).rate
+    ratios = {e: sympy.cancel(line.rate / first) for e, line in lines.items()}
     if not all(ratio.is_Rational for ratio in ratios.values()):
         raise NotRational(f"exponentials of {x} whose rates have no rational quotient", hint=_HINT)
-    common = int(sympy.ilcm(*(r.q for r in ratios.values()), 1))
-    unit = sympy.Rational(gcd(*(int(r.p * common // r.q) for r in ratios.values())), common)
+    unit = _common_unit([*ratios.values()])
     k = sympy.expand(first * unit)
     if k.could_extract_minus_sign():
         k = -k
         unit = -unit
-
-    def constants(offset: Any) -> dict[Any, Any]:
-        return {e: sympy.exp(sympy.expand(shift - rate * offset)) for e, (rate, shift) in rates.items()}
-
-    offsets = [sympy.Integer(0), *(sympy.expand(shift / rate) for rate, shift in rates.values())]
-    offset = min(offsets, key=lambda offset: sum(c.has(sympy.exp, sympy.E) for c in constants(offset).values()))
-    for e, constant in constants(offset).items():
-        if any(not power.exp.is_Integer for power in constant.atoms(sympy.exp)):
+    offset = _best_offset([*lines.values()])
+    powers: dict[Any, Any] = {}
+    for e, line in lines.items():
+        constant = line.left_by(offset)
+        if not all(power.exp.is_Integer for power in constant.atoms(sympy.exp)):
             raise NotRational(f"{e} has a constant in its exponent", hint=f"write a letter for the factor {constant}")
-    return k, offset, {e: constant * T ** (ratios[e] / unit) for e, constant in constants(offset).items()}
+        powers[e] = constant * T ** (ratios[e] / unit)
+    return CommonPower(k, offset, powers)
+
+
+def _line_of(e: Any, x: Any) -> _Line:
+    """The exponent of an exponential as a polynomial of degree 1 in x."""
+    argument = sympy.expand(e.exp)
+    line = _Line(rate=argument.coeff(x, 1), shift=argument.coeff(x, 0))
+    if sympy.expand(argument - line.rate * x - line.shift) != 0 or line.rate.has(x):
+        raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
+    return line
+
+
+def _common_unit(ratios: list[Any]) -> Any:
+    """The greatest rational number of which all are multiples."""
+    common = int(sympy.ilcm(*(ratio.q for ratio in ratios), 1))
+    return sympy.Rational(gcd(*(int(ratio.p * common // ratio.q) for ratio in ratios)), common)
+
+
+def _best_offset(lines: list[_Line]) -> Any:
+    """0, or what the exponents vanish with, whichever leaves the fewest constants; the first one among equals."""
+
+    def constants_left(offset: Any) -> int:
+        return sum(line.left_by(offset).has(sympy.exp, sympy.E) for line in lines)
+
+    offsets = [sympy.Integer(0), *(sympy.expand(line.shift / line.rate) for line in lines)]
+    return min(offsets, key=constants_left)
 
 
 Monic = tuple[RatFunc, RatFunc, RatFunc]
+
+
+class _InVariable(NamedTuple):
+    """The equation in a variable, and this as a function of x."""
+
+    monic: Monic
+    function: Any
 
 
 @dataclass(frozen=True)
@@ -150,8 +209,10 @@ class _ThetaForm:
     @property
     def step(self) -> int:
         """The largest g for which everything depends on T^g."""
-        polys = [poly for part in (self.P, self.Q, self.F) for poly in (part.num, part.den)]
-        return gcd(*(i for poly in polys for i, c in enumerate(poly) if c)) or 1
+        exponents: set[int] = set()
+        for part in (self.P, self.Q, self.F):
+            exponents |= _exponents(part.num) | _exponents(part.den)
+        return gcd(*exponents) or 1
 
     def in_power(self, g: int) -> _ThetaForm:
         """The equation in T^g."""
@@ -165,29 +226,39 @@ class _ThetaForm:
         return (self.P + 1) / T, self.Q / T**2, self.F / T**2
 
 
-def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
+def _exponents(poly: Poly) -> set[int]:
+    """The exponents of the terms that occur."""
+    return {i for i, c in enumerate(poly) if c}
+
+
+def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
     """Y'' + p Y' + q Y = f in the variable that has real coefficients if one has, and then the fewest singular points."""
     kappa = sympy.expand(-sympy.I * k)
-    trigonometric = not kappa.has(sympy.I)
-    rate = kappa if trigonometric else k
-    field, i = _with_i(equation.a.field) if trigonometric else (equation.a.field, None)
+    is_trigonometric = not kappa.has(sympy.I)
+    rate = kappa if is_trigonometric else k
+    field = equation.a.field
+    i = None
+    if is_trigonometric:
+        field, i = _with_i(field)
     T = RatFunc(field.poly([0, 1]))
     p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
     form = _ThetaForm(p * T - 1, q * T * T, f * T * T)
     g = form.step
     exponential = form.in_power(g).monic
-    found = [(exponential, sympy.exp(sympy.expand(g * k * x)))]
-    for h in (g, g // 2) if g % 2 == 0 else (g,):
+    found = [_InVariable(exponential, sympy.exp(sympy.expand(g * k * x)))]
+    steps = (g, g // 2) if g % 2 == 0 else (g,)
+    for h in steps:
         angle = sympy.expand(h * rate * x)
-        waves = _in_trigonometric(form.in_power(h), i) if trigonometric else _in_hyperbolic(form.in_power(h))
-        found += [(monic, function(angle)) for monic, function in waves]
+        if is_trigonometric:
+            found += _in_trigonometric(form.in_power(h), i, angle)
+        else:
+            found += _in_hyperbolic(form.in_power(h), angle)
     if i is not None:
         tangent = _substituted(exponential, (1 + T * i) / (1 - T * i))
-        found.append((tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
-    below = [(_over_base(*monic), expression) for monic, expression in found]
+        found.append(_InVariable(tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
+    over_base = [_InVariable(_over_base(*each.monic), each.function) for each in found]
     angles = [sympy.expand(h * rate * x) for h in (1, g // 2)]
-    best, variable = min(below, key=partial(_preference, angles))
-    return best, as_text(variable)
+    return min(over_base, key=partial(_preference, angles))
 
 
 def _with_i(field: Field) -> tuple[Field, Poly | None]:
@@ -199,32 +270,34 @@ def _with_i(field: Field) -> tuple[Field, Poly | None]:
     return extended, extended.generator
 
 
-def _in_trigonometric(form: _ThetaForm, i: Poly | None) -> Iterator[tuple[Monic, Any]]:
+def _in_trigonometric(form: _ThetaForm, i: Poly | None, angle: Any) -> Iterator[_InVariable]:
     """In the cosine and in the sine, (T - 1/T)/2 = i sin, where the equation is one in these."""
     cosine = _quotient(form, 1)
     if cosine is not None:
-        yield cosine, sympy.cos
+        yield _InVariable(cosine, sympy.cos(angle))
     sine = _quotient(form, -1)
     if sine is not None and i is not None:
-        yield _substituted(sine, RatFunc(form.P.field.poly([0, 1])) * i), sympy.sin
+        i_sine = RatFunc(form.P.field.poly([0, 1])) * i
+        yield _InVariable(_substituted(sine, i_sine), sympy.sin(angle))
 
 
-def _in_hyperbolic(form: _ThetaForm) -> Iterator[tuple[Monic, Any]]:
+def _in_hyperbolic(form: _ThetaForm, angle: Any) -> Iterator[_InVariable]:
     """In the hyperbolic cosine and sine, where the equation is one in these."""
     for sign, function in ((1, sympy.cosh), (-1, sympy.sinh)):
         quotient = _quotient(form, sign)
         if quotient is not None:
-            yield quotient, function
+            yield _InVariable(quotient, function(angle))
 
 
-def _preference(angles: list[Any], pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
+def _preference(angles: list[Any], found: _InVariable) -> tuple[bool, int, bool]:
     """Rational coefficients, few singular points; three of these are Gauss' equation, which is real in cos(x) and sin(x).
 
     The angle is the given one, or has half of the frequency of everything: 1/sin(x)^2 + 1/cos(x)^2 is in cos(2 x).
     """
-    monic, expression = pair
+    monic = found.monic
+    function = found.function
     places = _singular_points(*monic)
-    is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] in angles
+    is_real = function.func in (sympy.cos, sympy.sin) and function.args[0] in angles
     return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
 
 
@@ -248,20 +321,24 @@ def _quotient(form: _ThetaForm, sign: int) -> Monic | None:
 
 def _invariant(function: RatFunc, sign: int) -> RatFunc | None:
     """r with function = r((T + sign/T)/2), by T^2 = 2 w T - sign; None where there is none."""
-    field = function.field
-    w = RatFunc(field.poly([0, 1]))
-    zero = RatFunc(field.poly([]))
-    pairs = []
-    for poly in (function.num, function.den):
-        low = zero
-        high = zero
-        for power in range(poly.degree, -1, -1):
-            low, high = poly[power] - high * sign, low + 2 * w * high
-        pairs.append((low, high))
-    (n0, n1), (d0, d1) = pairs
+    n0, n1 = _reduced(function.num, function.field, sign)
+    d0, d1 = _reduced(function.den, function.field, sign)
     if n1 * d0 != n0 * d1:
         return None
     return n0 / d0 if d0 else n1 / d1
+
+
+def _reduced(poly: Poly, field: Field, sign: int) -> tuple[RatFunc, RatFunc]:
+    """(low, high) with poly = low + high T modulo T^2 - 2 w T + sign, by Horner's rule: functions of w."""
+    w = RatFunc(field.poly([0, 1]))
+    low = RatFunc(field.poly([]))
+    high = low
+    for power in range(poly.degree, -1, -1):
+        # (low + high T) T + coefficient
+        before = low
+        low = poly[power] - high * sign
+        high = before + 2 * w * high
+    return low, high
 
 
 def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
@@ -281,5 +358,8 @@ def _over_base(*parts: RatFunc) -> Monic:
 
 def _deflated(function: RatFunc, g: int) -> RatFunc:
     """f with function = f(T^g)."""
-    num, den = ([poly[i] for i in range(0, poly.degree + 1, g)] for poly in (function.num, function.den))
-    return RatFunc(function.field.poly(num), function.field.poly(den), reduced=True)
+
+    def every(poly: Poly) -> Poly:
+        return function.field.poly([poly[i] for i in range(0, poly.degree + 1, g)])
+
+    return RatFunc(every(function.num), every(function.den), reduced=True)

@@ -8,21 +8,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import Parsed, parameters_of
+from kovacic.equation import Change, Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.exact import exact_text
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numerals import plain_text
-from kovacic.reading.lexer import tokenize
+from kovacic.reading.lexer import Tokens, tokenize
 from kovacic.reading.read import read_input
 
 #: What is known about a parameter, in words and inequalities; anything else is its value.
 _WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*")
 #: `0 < E <= 20`: the lower end, two signs around a name, the upper end.
 _CHAIN = re.compile(r"\s*([^<>=!]+?)\s*([<>]=?)\s*(\w+)\s*([<>]=?)\s*([^<>=!]+?)\s*")
+#: A variable that no value contains.
+_NO_VARIABLE = "x_"
 _TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
@@ -38,31 +41,43 @@ class Template:
 
     def __init__(self, text: str, names: Sequence[str]) -> None:
         tokens = tokenize(text)
-        places = [k for k, token in enumerate(tokens.pieces) if token in names]
+        places = [k for k, piece in enumerate(tokens.pieces) if piece in names]
         for k in places:
             if tokens.kinds[k] != "NAME":
-                message = f"the parameter {tokens.pieces[k]} is followed by a parenthesis like a function"
-                hint = f"for a product write {tokens.pieces[k]}*(...)"
-                raise tokens.error(InputError, message, k, k + 1, hint=hint)
-        for name in names:
-            if name not in (tokens.pieces[k] for k in places):
-                raise InputError(f"the expression has no parameter {name}", text=text)
-        ends = [0, *(tokens.ends[k] for k in places)]
-        starts = [*(tokens.starts[k] for k in places), len(text)]
-        self._pieces = [text[end:start] for end, start in zip(ends, starts, strict=True)]
+                raise _as_function(tokens, k)
+        #: The parameters in the order of the text, and the pieces of text before, between and behind them.
         self._names = [tokens.pieces[k] for k in places]
+        self._pieces: list[str] = []
+        end = 0
+        for k in places:
+            self._pieces.append(text[end : tokens.starts[k]])
+            end = tokens.ends[k]
+        self._pieces.append(text[end:])
+        for name in names:
+            if name not in self._names:
+                raise InputError(f"the expression has no parameter {name}", text=text)
 
     def filled(self, values: Mapping[str, Any]) -> str:
         """The text with these values."""
-        given = [f"({values[name]})" for name in self._names] + [""]
-        return "".join(piece + value for piece, value in zip(self._pieces, given, strict=True))
+        first, *others = self._pieces
+        filled = [first]
+        for name, piece in zip(self._names, others, strict=True):
+            filled += [f"({values[name]})", piece]
+        return "".join(filled)
+
+
+def _as_function(tokens: Tokens, k: int) -> InputError:
+    """What to say of a parameter, token k, that is followed by a parenthesis."""
+    name = tokens.pieces[k]
+    message = f"the parameter {name} is followed by a parenthesis like a function"
+    return tokens.error(InputError, message, k, k + 1, hint=f"for a product write {name}*(...)")
 
 
 def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
     """The value of a parameter as text: a rational or algebraic number.  Raises `InputError` for anything else."""
     text = exact_text(value, "the value of a parameter")
-    number = read_input(text, var="x_", limits=limits).S
-    if number.num.degree > 0 or number.den.degree > 0 or number.field.ground != QQ:
+    number = read_input(text, var=_NO_VARIABLE, limits=limits).S
+    if not _is_constant(number) or number.field.ground != QQ:
         raise InputError(f"{text!r} isn't a number")
     return text
 
@@ -83,18 +98,27 @@ def relations(text: str) -> tuple[str, str] | None:
 def value_text(value: Any, parameter: str, variable: str, limits: Limits = DEFAULT_LIMITS) -> str:
     """The value of a parameter as text: a number, or a function b^2 of other parameters.  Raises `InputError` for others."""
     text = exact_text(value, "the value of a parameter")
-    read = read_input(text, var="x_", limits=limits).S
-    names = parameters_of(read.field)
-    if read.num.degree > 0 or read.den.degree > 0 or {parameter, variable} & {*names}:
-        raise InputError(
-            f"{text!r} isn't a number", hint="the value of a parameter is a number, or a function of others"
-        )
+    value_read = read_input(text, var=_NO_VARIABLE, limits=limits).S
+    names = parameters_of(value_read.field)
+    if not _is_constant(value_read) or parameter in names or variable in names:
+        hint = "the value of a parameter is a number, or a function of others"
+        raise InputError(f"{text!r} isn't a number", hint=hint)
     return text
 
 
-def with_values(
-    S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits
-) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
+def _is_constant(function: RatFunc) -> bool:
+    return function.num.degree <= 0 and function.den.degree <= 0
+
+
+class Substituted(NamedTuple):
+    """An input in which values have taken the place of parameters, as it is read, and what is known of the others."""
+
+    given: Any
+    parsed: Parsed
+    assumptions: Mapping[Any, Any] | None
+
+
+def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits) -> Substituted:
     """The input with the values that are among the assumptions, {"n": 3}, as it is read then, and the other assumptions.
 
     Raises `InputError` for values that aren't numbers, or of what isn't a parameter.
@@ -104,24 +128,54 @@ def with_values(
     >>> text, rest
     ('(4*(3/2)^2 - 1)/(4*x^2) - k', {'k': 'integer'})
     """
-    given = {name: _told(str(name), what) for name, what in assume.items()} if isinstance(assume, Mapping) else {}
-    values = {str(name): what for name, what in given.items() if _WORDS.fullmatch(plain_text(what)) is None}
+    if not isinstance(assume, Mapping):
+        return Substituted(S, parsed, assume)
+    told = {name: _told(str(name), what) for name, what in assume.items()}
+    values = {str(name): what for name, what in told.items() if not _is_assumption(what)}
     if not values:
-        return S, parsed, given or assume
-    names = parameters_of(parsed.S.field)
-    for name in values:
-        if name not in names:
-            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
+        return Substituted(S, parsed, told or assume)
+    _check_parameters(values, parameters_of(parsed.S.field))
     texts = {name: value_text(value, name, parsed.variable, limits) for name, value in values.items()}
-    change = None if parsed.equation is None else parsed.equation.change
-    text = parsed.text if change is None and not isinstance(S, str) else plain_text(S).strip()
-    filled = Template(text, [*texts]).filled(texts)
-    rest = {name: what for name, what in given.items() if str(name) not in texts}
-    variable = parsed.variable if change is None else change.variable
-    return filled, read_input(filled, var=variable, limits=limits, exponentials=True), rest or None
+    template = _text_with_parameters(S, parsed)
+    filled = Template(template, [*texts]).filled(texts)
+    read = read_input(filled, var=_user_variable(parsed), limits=limits, exponentials=True)
+    others = {name: what for name, what in told.items() if str(name) not in texts}
+    return Substituted(filled, read, others or None)
 
 
 def _told(name: str, what: Any) -> Any:
     """What is said of a parameter; an inequality with two ends in two parts."""
-    both = relations(what) if isinstance(what, str) else None
-    return what if both is None or both[0] != name else both[1]
+    if not isinstance(what, str):
+        return what
+    chain = relations(what)
+    if chain is None or chain[0] != name:
+        return what
+    return chain[1]
+
+
+def _is_assumption(what: Any) -> bool:
+    """Is it what is known about a parameter, and not its value?"""
+    return _WORDS.fullmatch(plain_text(what)) is not None
+
+
+def _check_parameters(values: Mapping[str, Any], names: Sequence[str]) -> None:
+    """Raises `InputError` for the value of what isn't among the parameters."""
+    for name in values:
+        if name not in names:
+            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
+
+
+def _text_with_parameters(S: Any, parsed: Parsed) -> str:
+    """The input as the user's text, or as one where S is none; in the user's variable where there is a change of it."""
+    if _change(parsed) is None and not isinstance(S, str):
+        return parsed.text
+    return plain_text(S).strip()
+
+
+def _user_variable(parsed: Parsed) -> str:
+    change = _change(parsed)
+    return parsed.variable if change is None else change.variable
+
+
+def _change(parsed: Parsed) -> Change | None:
+    return None if parsed.equation is None else parsed.equation.change
