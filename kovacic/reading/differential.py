@@ -26,6 +26,7 @@ from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_ration
 from kovacic.reading.names import FUNCTION_NAMES, TRANSCENDENTAL_HINT
 from kovacic.reading.parser import Site
 
+_ORDER = 2
 _LARGEST_ORDER = 100
 
 
@@ -51,10 +52,10 @@ class EquationReader(RationalReader):
         value = walked(plain, self)
         if not is_rational(value):
             shown = expression.xreplace({sympy.E: names[sympy.E]})  # E is the energy in texts
-            if expression.free_symbols:
-                said = f"a coefficient that isn't a rational function of {self.variable}: {shown}"
-                raise NotRational(said, hint="coefficients are rational in x, or in exp(k*x), sin(k*x), ...")
-            raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
+            if not expression.free_symbols:
+                raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
+            said = f"a coefficient that isn't a rational function of {self.variable}: {shown}"
+            raise NotRational(said, hint="coefficients are rational in x, or in exp(k*x), sin(k*x), ...")
         if {PI, EULER} <= {*self.constants.parameters}:
             raise NotRational("pi and e in coefficients: it isn't known whether they are algebraically independent")
         return value
@@ -62,45 +63,55 @@ class EquationReader(RationalReader):
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
         parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
-        rest = parts.pop(REST, Monomial(0, 0))
-        y = self.unknown
+        zero = Monomial(0, 0)
+        rest = parts.pop(REST, zero)
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
         order = max((k for k, c in coefficients.items() if c), default=0)
-        if order != 2:
-            what = f"is of order {order}" if order else f"contains no derivative of {y}"
-            said = f"an equation of second order is expected, and this one {what}"
-            hint = f"for example {y}'' = (x^2 + 3) {y}"
-            if "D" in self.constants.parameters:
-                hint = f"D isn't read as an operator: write {y}' for D {y}, and {y}'' for D^2 {y}"
-            place = {} if text is None else {"text": text, "position": 0, "length": len(text)}
-            raise NotLinear(said, hint=hint, **place)  # type: ignore[arg-type]
+        if order != _ORDER:
+            raise self._of_other_order(order, text)
         h = None
         if not is_rational(rest):
-            from kovacic.reading.symbolic import walked
+            rest, h = self._rational_part(rest)
+        coefficients[REST] = self.arithmetic.rational(rest)
+        nothing = self.arithmetic.rational(zero)
+        r, c, b, a = (over(coefficients.get(k, nothing), self.constants.field) for k in (REST, 0, 1, 2))
+        return Equation(a, b, c, -r, h, self.variable, self.unknown)
 
-            terms = [(term, walked(term, self)) for term in rest.as_ordered_terms()]
-            h = -sum(term for term, value in terms if not is_rational(value)) or None
-            rest = self.arithmetic.sum([Monomial(0, 0), *(value for _, value in terms if is_rational(value))])
-        coefficients[REST], zero = self.arithmetic.rational(rest), self.arithmetic.rational(Monomial(0, 0))
-        r, c, b, a = (over(coefficients.get(k, zero), self.constants.field) for k in (REST, 0, 1, 2))
-        return Equation(a, b, c, -r, h, self.variable, y)
+    def _of_other_order(self, order: int, text: str | None) -> NotLinear:
+        """What to say of an equation that isn't one of second order."""
+        y = self.unknown
+        what = f"is of order {order}" if order else f"contains no derivative of {y}"
+        said = f"an equation of second order is expected, and this one {what}"
+        hint = f"for example {y}'' = (x^2 + 3) {y}"
+        if "D" in self.constants.parameters:
+            hint = f"D isn't read as an operator: write {y}' for D {y}, and {y}'' for D^2 {y}"
+        if text is None:
+            return NotLinear(said, hint=hint)
+        return NotLinear(said, hint=hint, text=text, position=0, length=len(text))
+
+    def _rational_part(self, rest: Any) -> tuple[Any, Any]:
+        """The rational terms of a SymPy expression, and minus the sum of its other ones, h; None where there are none."""
+        from kovacic.reading.symbolic import walked
+
+        rational: list[Any] = [Monomial(0, 0)]
+        others = []
+        for term in rest.as_ordered_terms():
+            value = walked(term, self)
+            if is_rational(value):
+                rational.append(value)
+            else:
+                others.append(term)
+        return self.arithmetic.sum(rational), -sum(others) or None
 
     def other_leaf(self, node: Any) -> Any:
-        from kovacic.reading.symbolic import functions_in, walked
-
+        """The unknown function, or a derivative; on the right-hand side a function that isn't rational."""
         if node.is_Derivative:
-            if any(s.name != self.variable or not getattr(n, "is_Integer", False) for s, n in node.variable_count):
-                raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
-            order = int(node.derivative_count)
-            if self._is_unknown(node.expr):
-                return _derivative_of_unknown(order)
-            value = walked(node.expr, self)
-            for _ in range(order):
-                value = self.arithmetic.derivative(value)
-            return value
+            return self._derivative_node(node)
         if self._is_unknown(node):
             return _derivative_of_unknown(0)
         from sympy import Symbol
+
+        from kovacic.reading.symbolic import functions_in
 
         plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
         if node.func.__name__ == self.unknown:
@@ -110,6 +121,21 @@ class EquationReader(RationalReader):
         if any(f.func.__name__ == self.unknown for f in functions_in(plain)):
             raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
         return plain
+
+    def _derivative_node(self, node: Any) -> Any:
+        """SymPy's derivative of the unknown function, or of an expression with it."""
+        from kovacic.reading.symbolic import walked
+
+        for symbol, count in node.variable_count:
+            if symbol.name != self.variable or not getattr(count, "is_Integer", False):
+                raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
+        order = int(node.derivative_count)
+        if self._is_unknown(node.expr):
+            return _derivative_of_unknown(order)
+        value = walked(node.expr, self)
+        for _ in range(order):
+            value = self.arithmetic.derivative(value)
+        return value
 
     def _is_unknown(self, node: Any) -> bool:
         """Is it the unknown function of the variable?"""
@@ -161,20 +187,8 @@ class EquationReader(RationalReader):
         return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        bare = head.rstrip(PRIMES)
-        if bare == self.unknown:
-            if len(arguments) != 1:
-                raise NotLinear(f"{self.unknown} is a function of {self.variable} alone")
-            if not self._is_variable(arguments[0]):
-                beside = f"{site.text()} beside {self.unknown}({self.variable})"
-                hint = f"values follow the equation after commas: {self.unknown}'' + {self.unknown} = 0, {self.unknown}(0) = 1"
-                raise NotLinear(
-                    f"{beside}: the argument is another one, as with delays",
-                    hint=hint
-                    if is_rational(arguments[0]) and self.arithmetic.number(arguments[0]) is not None
-                    else None,
-                )
-            return _derivative_of_unknown(_order_of(head[len(bare) :]))
+        if head.rstrip(PRIMES) == self.unknown:
+            return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
             return self._differentiated(arguments)
         if head in self.names:
@@ -187,31 +201,50 @@ class EquationReader(RationalReader):
                 raise
             return self.arithmetic.applied(head, arguments[0])
 
+    def _call_of_unknown(self, head: str, arguments: list[Any], site: Site) -> LinearForm:
+        """y(x) or y''(x)."""
+        y = self.unknown
+        if len(arguments) != 1:
+            raise NotLinear(f"{y} is a function of {self.variable} alone")
+        (argument,) = arguments
+        if self._is_variable(argument):
+            return _derivative_of_unknown(_order_of(head[len(y) :]))
+        hint = None
+        if is_rational(argument) and self.arithmetic.number(argument) is not None:
+            hint = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1"
+        beside = f"{site.text()} beside {y}({self.variable})"
+        raise NotLinear(f"{beside}: the argument is another one, as with delays", hint=hint)
+
     def _is_variable(self, value: Any) -> bool:
         return is_rational(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
 
     def _differentiated(self, arguments: list[Any]) -> Any:
         """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
-        function, *rest = arguments
-        order = 0
-        previous = False  # was the argument before this one the variable?
-        for argument in rest:
-            if isinstance(argument, tuple) and self._is_variable(argument[0]):
-                order = order + self._order(argument[1])
-                previous = False
-            elif self._is_variable(argument):
-                order = order + 1
-                previous = True
-            elif previous and not isinstance(argument, tuple):
-                order = order + self._order(argument) - 1
-                previous = False
-            else:
-                raise NotLinear(f"a derivative with respect to something else than {self.variable}")
+        function, *by = arguments
+        order = self._differentiations(by) if by else 1
         if isinstance(function, tuple) or order > _LARGEST_ORDER:
             raise NotLinear("this isn't a derivative that can be read")
-        for _ in range(order if rest else 1):
+        for _ in range(order):
             function = self.arithmetic.derivative(function)
         return function
+
+    def _differentiations(self, arguments: list[Any]) -> int:
+        """How often x; x, x; x, 2; or (x, 2) say that something is differentiated."""
+        order = 0
+        follows_variable = False
+        for argument in arguments:
+            if isinstance(argument, tuple) and self._is_variable(argument[0]):
+                order += self._order(argument[1])
+                follows_variable = False
+            elif self._is_variable(argument):
+                order += 1
+                follows_variable = True
+            elif follows_variable and not isinstance(argument, tuple):
+                order += self._order(argument) - 1
+                follows_variable = False
+            else:
+                raise NotLinear(f"a derivative with respect to something else than {self.variable}")
+        return order
 
     def _order(self, value: Any) -> int:
         number = self.arithmetic.number(value) if is_rational(value) else None
@@ -225,4 +258,4 @@ def _derivative_of_unknown(order: int) -> LinearForm:
 
 
 def _order_of(primes: str) -> int:
-    return sum(2 if mark == "″" else 1 for mark in primes)
+    return len(primes) + primes.count("″")  # one character, two primes

@@ -18,7 +18,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
@@ -73,12 +73,16 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
 
     Powers a^x are exponentials, whose rate is log(a).
     """
-    part = part.replace(
-        lambda e: e.is_Pow and e.exp.has(x) and not e.base.has(x) and e.base is not sympy.E,
-        lambda e: sympy.exp(sympy.log(e.base) * e.exp, evaluate=False),
-    )
     inner = sympy.Dummy()
     shift = sympy.Dummy()
+
+    def is_power_of_constant(e: Expr) -> bool:
+        if not e.is_Pow or e.base is sympy.E:
+            return False
+        return bool(e.exp.has(x) and not e.base.has(x))
+
+    def as_exponential(power: Expr) -> Expr:
+        return sympy.exp(sympy.log(power.base) * power.exp, evaluate=False)
 
     def is_shifted(e: Expr) -> bool:
         known = isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction)
@@ -88,7 +92,7 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
         constant, rest = e.args[0].expand().as_independent(x, as_Add=True)
         return sympy.expand(e.func(inner + shift), trig=True).xreplace({inner: rest, shift: constant})
 
-    return part.replace(is_shifted, apart)
+    return part.replace(is_power_of_constant, as_exponential).replace(is_shifted, apart)
 
 
 def _innermost(parts: Sequence[Expr], x: Expr) -> list[Expr]:
@@ -127,7 +131,9 @@ def _is_rational(e: Expr) -> bool:
     """Is it a rational function of its arguments?"""
     if e is sympy.E or isinstance(e, sympy.exp):
         return False
-    return bool(e.is_Add or e.is_Mul or (e.is_Pow and e.exp.is_Integer))
+    if e.is_Pow:
+        return bool(e.exp.is_Integer)
+    return bool(e.is_Add or e.is_Mul)
 
 
 class _LetterTable:
@@ -158,11 +164,10 @@ class _LetterTable:
         changed = {kernel: other for kernel, other in related.items() if other != kernel}
         if changed:
             return tuple(part.xreplace(changed) for part in parts)
-        parts = [_without_squares(part, kernels) for part in parts]
         powers: dict[Expr, list[Expr]] = {}
         replacements: Meanings = {}
         for kernel in kernels:
-            base = _base(kernel)
+            base = kernel.as_base_exp()[0]
             if kernel.is_Pow or base is sympy.E:
                 powers.setdefault(base, []).append(kernel)
             else:
@@ -170,7 +175,8 @@ class _LetterTable:
         symbols: Meanings = {}
         for base, of_base in powers.items():
             self._powers_of(base, of_base, replacements, symbols)
-        return tuple(part.xreplace(replacements).xreplace(symbols) for part in parts)
+        without_squares = [_without_squares(part, kernels) for part in parts]
+        return tuple(part.xreplace(replacements).xreplace(symbols) for part in without_squares)
 
     def _powers_of(self, base: Expr, powers: Sequence[Expr], replacements: Meanings, symbols: Meanings) -> None:
         """base^(sum of r m), r rational and m monomials, by letters for base^(u m) with rational u.
@@ -182,28 +188,41 @@ class _LetterTable:
         for terms in exponents.values():
             for monomial, rate in terms.items():
                 rates.setdefault(monomial, []).append(rate)
-        linear = _solved_for(base, symbols) if sympy.S.One in rates else None
-        if linear is not None:
+        line = _solved_for(base, symbols) if sympy.S.One in rates else None
+        if line is not None:
             rates[sympy.S.One].append(sympy.S.One)
-        letters: Meanings = {}
-        units: dict[Expr, Expr] = {}
-        for monomial, all_rates in rates.items():
-            unit = _unit(all_rates)
-            if monomial != 1 and not base.is_negative:
-                unit /= 2  # so that the root, which solutions often have, is rational
-            units[monomial] = unit
-            letters[monomial] = self.letter(base ** (unit * monomial))
+        roots = {monomial: self._root_of(base, monomial, of_monomial) for monomial, of_monomial in rates.items()}
         for power, terms in exponents.items():
-            factors = [letters[monomial] ** (rate / units[monomial]) for monomial, rate in terms.items()]
-            replacements[power] = sympy.Mul(*factors)
-        if linear is not None:
-            symbol, slope, rest = linear
-            value = letters[sympy.S.One] ** (1 / units[sympy.S.One])
-            symbols[symbol] = sympy.expand((value - rest) / slope)
+            replacements[power] = sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
+        if line is not None:
+            value = roots[sympy.S.One].power(sympy.S.One)
+            symbols[line.symbol] = sympy.expand((value - line.rest) / line.slope)
+
+    def _root_of(self, base: Expr, monomial: Expr, rates: Sequence[Expr]) -> _Root:
+        """A letter by which base^(r m) is rational for each of the rates r of a monomial m."""
+        unit = _unit(rates)
+        if monomial != 1 and not base.is_negative:
+            unit /= 2  # so that the root, which solutions often have, is rational
+        return _Root(self.letter(base ** (unit * monomial)), unit)
 
 
-def _base(power: Expr) -> Expr:
-    return power.as_base_exp()[0]
+class _Root(NamedTuple):
+    """A letter for base^(unit m)."""
+
+    letter: Expr
+    unit: Expr
+
+    def power(self, rate: Expr) -> Expr:
+        """base^(rate m)."""
+        return self.letter ** (rate / self.unit)
+
+
+class _Line(NamedTuple):
+    """slope symbol + rest."""
+
+    symbol: Expr
+    slope: Expr
+    rest: Expr
 
 
 def _monomials(power: Expr) -> dict[Expr, Expr]:
@@ -222,43 +241,59 @@ def _unit(rates: Sequence[Expr]) -> Expr:
     return -divisor if all(rate < 0 for rate in rates) and divisor > 0 else divisor
 
 
-def _solved_for(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
-    """(s, slope, rest) with base = slope s + rest for a symbol that isn't replaced yet; pi is one, too."""
+def _solved_for(base: Expr, known: Meanings) -> _Line | None:
+    """The base as a function of degree 1 of a symbol that isn't replaced yet; pi is one, too."""
     if base is sympy.pi:
-        return base, sympy.S.One, sympy.S.Zero
+        return _Line(base, slope=sympy.S.One, rest=sympy.S.Zero)
     for symbol in sorted(base.free_symbols - known.keys(), key=str):
         slope = base.diff(symbol)
         rest = sympy.expand(base - slope * symbol)
         if slope.is_Rational and not rest.free_symbols & known.keys():
-            return symbol, slope, rest
+            return _Line(symbol, slope, rest)
     return None
 
 
 def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
     """A constant in terms of the others, where it depends on them in a known way; else itself."""
-    if isinstance(kernel, sympy.log) and kernel.args[0].is_Rational and abs(kernel.args[0]) < _LARGEST:
-        return sympy.expand_log(kernel, factor=True)
-    base, exponent = kernel.as_base_exp()
+    if isinstance(kernel, sympy.log):
+        return _log_by_primes(kernel)
+    if isinstance(kernel, TrigonometricFunction):
+        return _by_waves(kernel, _of_kind(kernels, TrigonometricFunction), sympy.sin, sympy.cos)
+    if isinstance(kernel, HyperbolicFunction):
+        if _of_kind(kernels, sympy.exp):
+            return kernel.rewrite(sympy.exp)
+        return _by_waves(kernel, _of_kind(kernels, HyperbolicFunction), sympy.sinh, sympy.cosh)
+    return _power_by_primes(kernel)
+
+
+def _of_kind(kernels: Sequence[Expr], kind: Any) -> list[Expr]:
+    return [kernel for kernel in kernels if isinstance(kernel, kind)]
+
+
+def _log_by_primes(logarithm: Expr) -> Expr:
+    """log(12) = 2 log(2) + log(3); of what isn't a number that can be factored itself."""
+    argument = logarithm.args[0]
+    if argument.is_Rational and abs(argument) < _LARGEST:
+        return sympy.expand_log(logarithm, factor=True)
+    return logarithm
+
+
+def _power_by_primes(power: Expr) -> Expr:
+    """12^a = 2^(2 a) 3^a; of what isn't a number that can be factored itself."""
+    base, exponent = power.as_base_exp()
     if base.is_Rational and 0 < base < _LARGEST and 1 / base < _LARGEST:
         return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
-    if isinstance(kernel, TrigonometricFunction):
-        others = [other for other in kernels if isinstance(other, TrigonometricFunction)]
-        return _by_waves(kernel, others, sympy.sin, sympy.cos)
-    if isinstance(kernel, HyperbolicFunction):
-        if any(isinstance(other, sympy.exp) for other in kernels):
-            return kernel.rewrite(sympy.exp)
-        others = [other for other in kernels if isinstance(other, HyperbolicFunction)]
-        return _by_waves(kernel, others, sympy.sinh, sympy.cosh)
-    return kernel
+    return power
 
 
 def _by_waves(kernel: Expr, waves: Sequence[Expr], sine: Any, cosine: Any) -> Expr:
     """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
     (argument,) = kernel.args
-    if any((argument / wave.args[0]).is_Integer for wave in waves if wave.args != kernel.args):
+    beside = [wave for wave in waves if wave.args == kernel.args and wave != kernel]
+    of_others = [wave.args[0] for wave in waves if wave.args != kernel.args]
+    if any((argument / other).is_Integer for other in of_others):
         return sympy.expand_trig(kernel)
-    is_alone = not any(wave.args == kernel.args and wave != kernel for wave in waves)
-    if is_alone or isinstance(kernel, (sine, cosine)):
+    if not beside or isinstance(kernel, (sine, cosine)):
         return kernel
     s = sine(argument)
     c = cosine(argument)
@@ -266,12 +301,22 @@ def _by_waves(kernel: Expr, waves: Sequence[Expr], sine: Any, cosine: Any) -> Ex
     return forms[kernel.func.__name__.removesuffix("h")]
 
 
+class _Cosine(NamedTuple):
+    """The function c beside a sine s, with s^2 = sign (1 - c^2)."""
+
+    function: Any
+    sign: int
+
+
+_COSINES = {sympy.sin: _Cosine(sympy.cos, 1), sympy.sinh: _Cosine(sympy.cosh, -1)}
+
+
 def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
     """With 1 - cos^2 in the place of sin^2, where sine and cosine of one argument are among the constants; and with sinh^2."""
     squares: Meanings = {}
-    for sine, cosine, sign in ((sympy.sin, sympy.cos, 1), (sympy.sinh, sympy.cosh, -1)):
-        for wave in kernels:
-            if isinstance(wave, sine) and cosine(*wave.args) in kernels:
-                squares[wave] = sign * (1 - cosine(*wave.args) ** 2)
+    for wave in kernels:
+        cosine = _COSINES.get(wave.func)
+        if cosine is not None and cosine.function(*wave.args) in kernels:
+            squares[wave] = cosine.sign * (1 - cosine.function(*wave.args) ** 2)
     powers = {p for p in part.atoms(sympy.Pow) if p.base in squares and p.exp.is_Integer}
     return part.xreplace({p: p.base ** (p.exp % 2) * squares[p.base] ** (p.exp // 2) for p in powers})

@@ -72,22 +72,22 @@ class LinearArithmetic(Arithmetic):
             raise NotLinear(f"the unknown function {self.unknown} within a function or a power", hint=LINEAR_HINT)
         if not is_rational(value):
             return value
+        x = sympy.Symbol(self.variable)
         if isinstance(value, Monomial):
-            return sympy.Rational(value.coefficient) * sympy.Symbol(self.variable) ** value.power
+            return sympy.Rational(value.coefficient) * x**value.power
         function = self.rational(value)
-        if function:  # above and below may be over different fields: a/x^2
-            function = over(function, (function.num * function.den).field)
+        if not function:
+            return sympy.Rational(0)
+        function = over(function, (function.num * function.den).field)  # they may be over different fields: a/x^2
         bits = max(function.num.height_bits(), function.den.height_bits())
         if bits > _LARGEST_BITS:
             raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
-        number = self.number(value) if function else Fraction(0)
-        field = function.field
+        number = self.number(value)
         if number is not None:
             return sympy.Rational(number)
-        x = sympy.Symbol(self.variable)
-        num, den = (sympy.Add(*(c.to_sympy(x) * x**k for k, c in enumerate(part) if c)) for part in function.cleared())
-        if isinstance(field, AlgebraicField) and field.name.isidentifier() and field.name != "I":
-            # Any other name is that of a radical.
+        num, den = (_in_sympy(part, x) for part in function.cleared())
+        field = function.field
+        if isinstance(field, AlgebraicField) and _is_named(field):
             root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
             return (num / den).xreplace({sympy.Symbol(field.name): root})
         return num / den
@@ -103,11 +103,7 @@ class LinearArithmetic(Arithmetic):
 
     def sum(self, terms: Sequence[Any]) -> Any:
         if any(isinstance(term, LinearForm) for term in terms):
-            parts: dict[int, list[Any]] = {}
-            for term in terms:
-                for k, c in term.parts.items() if isinstance(term, LinearForm) else ((REST, term),):
-                    parts.setdefault(k, []).append(c)
-            return LinearForm({k: self.sum(c) for k, c in parts.items()})
+            return self._sum_of_forms(terms)
         rational = [term for term in terms if is_rational(term)]
         if len(rational) == len(terms):
             return super().sum(rational)
@@ -115,16 +111,31 @@ class LinearArithmetic(Arithmetic):
         known = [self.expression(super().sum(rational))] if rational else []
         return self._checked(reduce(lambda total, term: total + term, [*others, *known]))
 
+    def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
+        """The sum, some terms of which have no unknown function."""
+        parts: dict[int, list[Any]] = {}
+        for term in terms:
+            if isinstance(term, LinearForm):
+                for k, c in term.parts.items():
+                    parts.setdefault(k, []).append(c)
+            else:
+                parts.setdefault(REST, []).append(term)
+        return LinearForm({k: self.sum(coefficients) for k, coefficients in parts.items()})
+
     def multiply(self, left: Any, right: Any) -> Any:
         if is_rational(left) and is_rational(right):
             return super().multiply(left, right)
-        if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
-            return self._checked(self.expression(left) * self.expression(right))
         if isinstance(left, LinearForm) and isinstance(right, LinearForm):
-            raise NotLinear(
-                f"a product of {self.unknown} or its derivatives: the equation isn't linear", hint=LINEAR_HINT
-            )
-        form, factor = (left, right) if isinstance(left, LinearForm) else (right, left)
+            said = f"a product of {self.unknown} or its derivatives: the equation isn't linear"
+            raise NotLinear(said, hint=LINEAR_HINT)
+        if isinstance(left, LinearForm):
+            return self._multiple(left, right)
+        if isinstance(right, LinearForm):
+            return self._multiple(right, left)
+        return self._checked(self.expression(left) * self.expression(right))
+
+    def _multiple(self, form: LinearForm, factor: Any) -> LinearForm:
+        """A form times what has no unknown function."""
         factor = self.closed(factor) if is_rational(factor) else self.coefficient(factor)  # type: ignore[misc]
         return LinearForm({k: self.multiply(c, factor) for k, c in form.parts.items()})
 
@@ -193,8 +204,10 @@ class LinearArithmetic(Arithmetic):
     def derivative(self, value: Any) -> Any:
         """The derivative with respect to the variable."""
         if isinstance(value, LinearForm):
+            # (c y^(k))' = c' y^(k) + c y^(k+1)
             slopes = [LinearForm({k: self.derivative(c)}) for k, c in value.parts.items()]
-            return self.sum([*slopes, *(LinearForm({k + 1: c}) for k, c in value.parts.items() if k != REST)])
+            higher = [LinearForm({k + 1: c}) for k, c in value.parts.items() if k != REST]
+            return self.sum([*slopes, *higher])
         if is_rational(value):
             return self.closed(value).derivative()
         from sympy import Symbol
@@ -205,6 +218,17 @@ class LinearArithmetic(Arithmetic):
         if not is_rational(value):
             raise NotRational(f"this isn't a rational function of {self.variable}")
         return super().rational(value)
+
+
+def _in_sympy(polynomial: Poly, x: Any) -> Any:
+    import sympy
+
+    return sympy.Add(*(c.to_sympy(x) * x**k for k, c in enumerate(polynomial) if c))
+
+
+def _is_named(field: AlgebraicField) -> bool:
+    """Has its generator a name that has to be resolved?  Any other name is that of a radical, or I."""
+    return field.name.isidentifier() and field.name != "I"
 
 
 class Symbols:

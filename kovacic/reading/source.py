@@ -57,41 +57,66 @@ def source_of(
         raise ParseError(said, text=given, position=0, length=len(given), hint=f"give the equation: {pasted.equation}")
     written = plain(pasted.equation)
     tokens = tokens_of(written.text, limits, what="the text", hint="give S(x), for example x^2 + 3")
-    notes = _guesses(tokens)
     if equation or is_equation(written.text):
-        _refuse_words(tokens)
-        y = unknown or _unknown_of(tokens)
-        _refuse_two_exponents(tokens, y)
-        x = variable
-        is_guessed = x is None
-        if x is None:
-            x, taken = _variable_of(tokens, y, written.variable)
-            notes += taken
-        _refuse_glued_names(tokens, x, y, might_be_time=is_guessed)
-        factors = _with_factors(tokens, x, y)
-        return Source(partial(evaluate, factors), x, y, written.text, notes + _imaginary(tokens, x, y))
+        return _equation_in_text(tokens, variable, unknown, usual_variable=written.variable)
+    return _S_in_text(tokens, variable)
+
+
+def _equation_in_text(
+    tokens: Tokens, variable: str | None, unknown: str | None, *, usual_variable: str | None
+) -> Source:
+    """An equation in a text, in whose notation `usual_variable` is the variable where none is named."""
+    notes = _guesses(tokens)
+    _refuse_words(tokens)
+    y = unknown or _unknown_of(tokens)
+    _refuse_two_exponents(tokens, y)
+    x = variable
+    if x is None:
+        x, taken = _variable_of(tokens, y, usual_variable)
+        notes += taken
+    _refuse_glued_names(tokens, x, y, might_be_time=variable is None)
+    notes += _imaginary(tokens, x, y)
+    return Source(partial(evaluate, _with_factors(tokens, x, y)), x, y, tokens.text, notes)
+
+
+def _S_in_text(tokens: Tokens, variable: str | None) -> Source:
+    notes = _guesses(tokens)
     x = _variable_of_S(tokens, variable)
     _refuse_glued_names(tokens, x, "")
     if x != "e":
         _refuse_two_exponents(tokens, "")
-    walk = partial(evaluate, _with_factors(tokens, x, ""))
     if variable is None:
         notes += _only_name(tokens, x)
-    return Source(walk, x, notes=notes)
+    return Source(partial(evaluate, _with_factors(tokens, x, "")), x, notes=notes)
 
 
 def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool) -> Source:
+    from kovacic.reading.symbolic import is_sympy_equation
+
+    if equation or is_sympy_equation(given):
+        return _sympy_equation(given, variable, unknown)
+    return _sympy_S(given, variable)
+
+
+def _sympy_S(given: Any, variable: str | None) -> Source:
     import sympy
 
-    from kovacic.reading.symbolic import function_of, is_sympy_equation, names_of, walked
+    from kovacic.reading.symbolic import names_of, walked
 
-    if not equation and not is_sympy_equation(given):
-        expression = given.as_expr() if isinstance(given, sympy.Poly) else given
-        if not isinstance(expression, sympy.Expr):
-            hint = "give S alone, from y'' = S(x) y"
-            raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)
-        names = names_of(expression)
-        return Source(partial(walked, expression), variable or chosen_variable(names))
+    expression = given.as_expr() if isinstance(given, sympy.Poly) else given
+    if not isinstance(expression, sympy.Expr):
+        hint = "give S alone, from y'' = S(x) y"
+        raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)
+    names = names_of(expression)
+    return Source(partial(walked, expression), variable or chosen_variable(names))
+
+
+def _sympy_equation(given: Any, variable: str | None, unknown: Any) -> Source:
+    """An `Eq`, or an expression that is zero; `unknown` is y(x), or None where it is the only function."""
+    import sympy
+
+    from kovacic.reading.symbolic import function_of, names_of, walked
+
     expression = given
     if getattr(given, "is_Equality", False):
         expression = given.lhs - given.rhs if given.rhs != 0 else given.lhs
@@ -154,18 +179,29 @@ def _variable_of_S(tokens: Tokens, variable: str | None) -> str:
         except InputError as error:
             k = found[names[1]]
             raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
-    for k, (kind, text) in enumerate(zip(tokens.kinds, tokens.pieces, strict=True) if variable in ("e", "E") else ()):
-        if kind == "NUMBER" and variable in text:  # 2e-3 is 0.002, or 2*e - 3
-            mantissa, _, rest = text.partition(variable)
-            other = f"{mantissa}*{variable} {rest[0]} {rest[1:]}" if rest[0] in "+-" else f"{mantissa}*{variable}{rest}"
-            message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
-            hint = "write decimals without an exponent, and products with *"
-            raise tokens.error(ParseError, message, k, k + 1, hint=hint)
+    if variable in ("e", "E"):
+        _refuse_exponents_of_decimals(tokens, variable)
     return variable
+
+
+def _refuse_exponents_of_decimals(tokens: Tokens, variable: str) -> None:
+    """Raises `ParseError` for 2e-3 with the variable e: it is 0.002, or 2*e - 3."""
+    for k, text in enumerate(tokens.pieces):
+        if tokens.kinds[k] != "NUMBER" or variable not in text:
+            continue
+        mantissa, _, rest = text.partition(variable)
+        other = f"{mantissa}*{variable}{rest}"
+        if rest[0] in "+-":
+            other = f"{mantissa}*{variable} {rest[0]} {rest[1:]}"
+        message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
+        hint = "write decimals without an exponent, and products with *"
+        raise tokens.error(ParseError, message, k, k + 1, hint=hint)
 
 
 #: Letters that unknown functions have: mx'' is a product in which the sign is missing, no function mx.
 _USUAL_UNKNOWNS = frozenset("xyzuvwq")
+#: Names that are no unknown function where a parenthesis follows.
+_FUNCTIONS = DERIVATIVES | FUNCTION_NAMES.keys()
 #: So many letters before or behind the variable may be factors without a sign; a longer name is a word.
 _FACTORS = 2
 
@@ -174,17 +210,28 @@ def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str, *, might_be
     """Raises `ParseError` where a name looks like a product: ky, kx; where the variable `might_be_time`: at."""
     no_variable = might_be_time and not {variable, "t"} & tokens.names().keys()
     for name, k in tokens.names().items():
-        if name in (variable, unknown) or name in NUMBER_NAMES or as_function(name) is not None or name in GREEK:
+        if name in (variable, unknown) or _is_known(name):
             continue
         if unknown:
             _refuse_operator(tokens, name, k, variable, unknown)
         meant = _as_product(name, variable, unknown)
-        if meant is None and no_variable and len(name) == _FACTORS and name[-1] == "t":
+        if meant is None and no_variable and _ends_in_time(name):
             meant = _as_product(name, "t", unknown)
-        if meant is not None:
-            if k and tokens.kinds[k - 1] == "CIRCUMFLEX":
-                meant = f"({meant})"
-            raise tokens.error(ParseError, f"{name} is one name", k, k + 1, hint=f"did you mean {meant}?")
+        if meant is None:
+            continue
+        is_exponent = k > 0 and tokens.kinds[k - 1] == "CIRCUMFLEX"
+        if is_exponent:
+            meant = f"({meant})"
+        raise tokens.error(ParseError, f"{name} is one name", k, k + 1, hint=f"did you mean {meant}?")
+
+
+def _is_known(name: str) -> bool:
+    """Is it the name of a number, a function or a Greek letter?"""
+    return name in NUMBER_NAMES or name in GREEK or as_function(name) is not None
+
+
+def _ends_in_time(name: str) -> bool:
+    return len(name) == _FACTORS and name[-1] == "t"
 
 
 def _refuse_operator(tokens: Tokens, name: str, k: int, variable: str, unknown: str) -> None:
@@ -249,10 +296,11 @@ def _with_factors(tokens: Tokens, variable: str, unknown: str) -> Tokens:
     kinds = list(tokens.kinds)
     for k, kind in enumerate(tokens.kinds[:-3]):
         name = tokens.pieces[k]
-        if kind != "HEAD" or name == unknown or not (name in names or name == variable):
+        occurs_alone = name in names or name == variable
+        if kind != "HEAD" or name == unknown or not occurs_alone:
             continue
         is_applied = tokens.kinds[k + 2] in ("NAME", "NUMBER") and tokens.kinds[k + 3] == "RPAR"
-        if is_letter(name) and not is_applied and name not in DERIVATIVES | FUNCTION_NAMES.keys():
+        if is_letter(name) and not is_applied and name not in _FUNCTIONS:
             kinds[k] = "NAME"
     return replace(tokens, kinds=kinds) if kinds != tokens.kinds else tokens
 
@@ -274,24 +322,33 @@ def _as_product(name: str, variable: str, unknown: str) -> str | None:
 
 def _unknown_of(tokens: Tokens) -> str:
     """The name that has primes, or that is differentiated; else y."""
-    for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
+    return _primed(tokens) or _differentiated(tokens) or UNKNOWN
+
+
+def _primed(tokens: Tokens) -> str | None:
+    """The first name that has primes.  Raises `ParseError` for mx'', which isn't m*x''."""
+    for k, piece in enumerate(tokens.pieces):
         bare = piece.rstrip(PRIMES)
-        if kind in ("PRIMED", "HEAD") and bare != piece:
-            if len(bare) == 2 and bare[-1] in _USUAL_UNKNOWNS and bare.isalpha():  # mx'' isn't m*x''
-                k = tokens.pieces.index(piece)
-                raise tokens.error(
-                    ParseError, f"{bare} is one name", k, k + 1, hint=f"write {bare[:-1]}*{piece[len(bare) - 1 :]}"
-                )
-            return bare
+        if tokens.kinds[k] not in ("PRIMED", "HEAD") or bare == piece:
+            continue
+        if len(bare) == _FACTORS and bare[-1] in _USUAL_UNKNOWNS and bare.isalpha():
+            hint = f"write {bare[:-1]}*{piece[len(bare) - 1 :]}"
+            raise tokens.error(ParseError, f"{bare} is one name", k, k + 1, hint=hint)
+        return bare
+    return None
+
+
+def _differentiated(tokens: Tokens) -> str | None:
+    """y in the first one of diff(y, x), diff(y(x), x) and diff(y)."""
     for k, kind in enumerate(tokens.kinds[:-3]):
-        if kind == "HEAD" and tokens.pieces[k] in DERIVATIVES:
-            following = tokens.kinds[k + 2]
-            after = tokens.kinds[k + 3]
-            inner = tokens.pieces[k + 2]
-            called = following == "HEAD" and inner not in DERIVATIVES | FUNCTION_NAMES.keys()
-            if called or (following == "NAME" and after in ("COMMA", "RPAR")):
-                return inner
-    return UNKNOWN
+        if kind != "HEAD" or tokens.pieces[k] not in DERIVATIVES:
+            continue
+        inner = tokens.pieces[k + 2]
+        is_called = tokens.kinds[k + 2] == "HEAD" and inner not in _FUNCTIONS
+        is_name = tokens.kinds[k + 2] == "NAME" and tokens.kinds[k + 3] in ("COMMA", "RPAR")
+        if is_called or is_name:
+            return inner
+    return None
 
 
 def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[str, tuple[str, ...]]:
@@ -306,7 +363,7 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
         return named, ()
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
-    if DEFAULT_VARIABLE in names and unknown != DEFAULT_VARIABLE:
+    if DEFAULT_VARIABLE in names:
         return DEFAULT_VARIABLE, ()
     default = preferred or DEFAULT_VARIABLE
     if default == unknown:
