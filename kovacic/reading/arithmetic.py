@@ -78,7 +78,9 @@ class Arithmetic:
         """The rational number that a decimal such as 1.5e-3 denotes."""
         mantissa, _, scale = text.lower().partition("e")
         whole, _, digits = mantissa.partition(".")
-        power = (self.signed_integer(scale) if scale else 0) - len(digits)
+        power = -len(digits)
+        if scale:
+            power += self.signed_integer(scale)
         if abs(power) > self.limits.digits:
             raise LimitExceeded(f"over {self.limits.digits} digits, the limit", limit="digits")
         return QQ.poly([self.integer(whole + digits) * 10 ** max(power, 0)]) * QQ.poly([10 ** max(-power, 0)]).inverse()
@@ -100,26 +102,36 @@ class Arithmetic:
         """The sum of at least one term."""
         if len(terms) == 1:
             return terms[0]
+        #: Of the monomials, by their powers.
         coefficients: dict[int, int | Fraction] = {}
         polynomials = list[Poly]()
         fractions = list[RatFunc]()
         for term in terms:
             if isinstance(term, Monomial):
-                known = coefficients.get(term.power)
-                if known is None or _bits(known) <= _SMALL_BITS:
-                    coefficients[term.power] = term.coefficient if known is None else known + term.coefficient
+                known = coefficients.get(term.power, 0)
+                if _bits(known) <= _SMALL_BITS:
+                    coefficients[term.power] = known + term.coefficient
                     continue
             part = self.closed(term)
-            (fractions if isinstance(part, RatFunc) else polynomials).append(part)  # type: ignore[arg-type]
+            if isinstance(part, RatFunc):
+                fractions.append(part)
+            else:
+                polynomials.append(part)
         if coefficients:
             polynomials.insert(0, QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients) + 1)]))
         if not fractions:
             return _total(polynomials, self._poly_sum)
         fraction = _total(fractions, self._ratfunc_sum)
-        if polynomials and (polynomial := _total(polynomials, self._poly_sum)):
-            num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
-            fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
+        if polynomials:
+            fraction = self._with_polynomial(fraction, _total(polynomials, self._poly_sum))
         return fraction.num if fraction.is_polynomial else fraction
+
+    def _with_polynomial(self, fraction: RatFunc, polynomial: Poly) -> RatFunc:
+        """The sum of a fraction and a polynomial, which needs no reduction."""
+        if not polynomial:
+            return fraction
+        num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
+        return RatFunc(num, fraction.den.over(num.field), reduced=True)
 
     def multiply(self, left: Value, right: Value) -> Value:
         if isinstance(left, Monomial) and isinstance(right, Monomial):
@@ -135,13 +147,10 @@ class Arithmetic:
         return self._product(left, right)
 
     def divide(self, left: Value, right: Value) -> Value:
-        if isinstance(left, Monomial) and isinstance(right, Monomial) and right.coefficient:
-            quotient = Fraction(left.coefficient, right.coefficient)
-            if right.power == 0:
-                return _term(quotient, left.power)
-            if left.power == 0 and quotient:
-                self._check(0, _bits(left.coefficient) + _bits(right.coefficient) + 1)
-                return RatFunc(_monomial(quotient, 0), _monomial(1, right.power), reduced=True)
+        if isinstance(left, Monomial) and isinstance(right, Monomial):
+            quotient = self._quotient_of_monomials(left, right)
+            if quotient is not None:
+                return quotient
         left = self.closed(left)
         right = self.closed(right)
         if not right:
@@ -150,6 +159,21 @@ class Arithmetic:
             a = self.rational(left)
             b = self.rational(right)
             return RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
+        return self._quotient_of_polynomials(left, right)
+
+    def _quotient_of_monomials(self, left: Monomial, right: Monomial) -> Value | None:
+        """Where one of them is a constant that isn't 0; None elsewhere."""
+        if not right.coefficient:
+            return None
+        quotient = Fraction(left.coefficient, right.coefficient)
+        if right.power == 0:
+            return _term(quotient, left.power)
+        if left.power == 0 and quotient:
+            self._check(0, _bits(left.coefficient) + _bits(right.coefficient) + 1)
+            return RatFunc(_monomial(quotient, 0), _monomial(1, right.power), reduced=True)
+        return None
+
+    def _quotient_of_polynomials(self, left: Poly, right: Poly) -> Value:
         if right.is_constant:
             return self._product(left, right.inverse())
         if left.is_constant and left:
@@ -164,11 +188,7 @@ class Arithmetic:
         if abs(n) > self.limits.exponent:
             shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
             raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
-        if (
-            isinstance(base, Monomial)
-            and n > 0
-            and (base.coefficient == 1 or n * _bits(base.coefficient) <= _SMALL_BITS)
-        ):
+        if isinstance(base, Monomial) and n > 0 and _has_small_power(base.coefficient, n):
             self._check(base.power * n, 0)
             return Monomial(base.coefficient**n, base.power * n)
         base = self.closed(base)
@@ -178,14 +198,10 @@ class Arithmetic:
             return base
         if n == 0:
             return Monomial(1, 0)
-        if not isinstance(base, RatFunc):
-            power = self._poly_power(base, abs(n))
-            return power if n > 0 else self.divide(Monomial(1, 0), power)
-        num, den = (base.num, base.den) if n > 0 else (base.den, base.num)
-        num = self._poly_power(num, abs(n))
-        den = self._poly_power(den, abs(n))
-        leading = den.lc.inverse()
-        return RatFunc(num * leading, den * leading, reduced=True)
+        if isinstance(base, RatFunc):
+            return self._ratfunc_power(base, n)
+        power = self._poly_power(base, abs(n))
+        return power if n > 0 else self.divide(Monomial(1, 0), power)
 
     def closed(self, value: Value) -> Poly | RatFunc:
         """The value as a polynomial or rational function."""
@@ -220,17 +236,24 @@ class Arithmetic:
         self._check(n * base.degree, bits)
         return base**n
 
+    def _ratfunc_power(self, base: RatFunc, n: int) -> RatFunc:
+        """Powers of what is in lowest terms are, too; n isn't 0."""
+        above, below = (base.num, base.den) if n > 0 else (base.den, base.num)
+        num = self._poly_power(above, abs(n))
+        den = self._poly_power(below, abs(n))
+        leading = den.lc.inverse()
+        return RatFunc(num * leading, den * leading, reduced=True)
+
     def _check(self, degree: int, bits: int) -> None:
         limits = self.limits
         if degree > limits.degree:
             raise LimitExceeded(f"a degree of up to {degree}, above the limit of {limits.degree}", limit="degree")
         if bits > limits.bits:
             raise LimitExceeded(f"coefficients of up to {bits} bits, above the limit of {limits.bits}", limit="bits")
-        if (degree + 1) * bits > (most := _TOTAL_FACTOR * limits.bits):
-            said = (
-                f"up to {degree + 1} coefficients of up to {bits} bits, above the limit of {most} bits for all together"
-            )
-            raise LimitExceeded(said, limit="bits")
+        most = _TOTAL_FACTOR * limits.bits
+        if (degree + 1) * bits > most:
+            size = f"up to {degree + 1} coefficients of up to {bits} bits"
+            raise LimitExceeded(f"{size}, above the limit of {most} bits for all together", limit="bits")
         check_time()
 
     def _integer_value(self, exponent: Value) -> int:
@@ -252,6 +275,10 @@ def _bits(value: int | Fraction) -> int:
     if type(value) is int:
         return value.bit_length()
     return max(value.numerator.bit_length(), value.denominator.bit_length())
+
+
+def _has_small_power(coefficient: int | Fraction, n: int) -> bool:
+    return coefficient == 1 or n * _bits(coefficient) <= _SMALL_BITS
 
 
 def _term(coefficient: int | Fraction, power: int) -> Monomial | Poly:

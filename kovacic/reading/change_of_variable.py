@@ -36,7 +36,9 @@ def function_of_x(equation: Equation) -> Any:
 
 def user_variable(equation: Equation) -> Any:
     """x as a SymPy symbol."""
-    return sympy.Symbol(equation.variable if equation.change is None else equation.change.variable)
+    if equation.change is None:
+        return sympy.Symbol(equation.variable)
+    return sympy.Symbol(equation.change.variable)
 
 
 def is_of_a_line(equation: Equation) -> bool:
@@ -88,13 +90,15 @@ def in_x(equation: Equation, expression: Any) -> Any:
         for integral in expression.atoms(sympy.Integral)
         if integral.limits == (sympy.Tuple(own),)
     }
-    result = expression.xreplace(integrals).xreplace({own: t})
-    if t.func in (sympy.cos, sympy.cosh):  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
-        roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
-        return result.xreplace({e: _by_halves(t, e) for e in roots})
+    with_integrals = expression.xreplace(integrals)
     if is_power(equation):
-        return _with_powers(expression.xreplace(integrals), own, t.exp, x)
-    return _with_joined_powers(result, x) if t.func is sympy.exp else result
+        return _with_powers(with_integrals, own, t.exp, x)
+    result = with_integrals.xreplace({own: t})
+    if t.func in (sympy.cos, sympy.cosh):
+        return _with_half_angles(result, t)
+    if t.func is sympy.exp:
+        return _with_joined_powers(result, x)
+    return result
 
 
 def solution_in_x(equation: Equation, y: Any) -> Any:
@@ -131,40 +135,68 @@ def with_roots_of_factors(expression: Any, x: Any) -> Any:
 
     Either sign of a root gives solutions, if it is the same everywhere: so in what belongs to a solution, too.
     """
-    roots = {p for p in expression.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and not p.has(x)}
-    forced = {
-        p: sympy.powdenest(sympy.expand_power_base(sympy.factor(p.base) ** p.exp, force=True), force=True)
-        for p in roots
-    }
+    forced: dict[Any, Any] = {}
+    for power in expression.atoms(sympy.Pow):
+        is_root = power.exp.is_Rational and not power.exp.is_Integer
+        if is_root and not power.has(x):
+            factored = sympy.factor(power.base) ** power.exp
+            forced[power] = sympy.powdenest(sympy.expand_power_base(factored, force=True), force=True)
     return expression.xreplace(forced)
 
 
 def _with_joined_powers(expression: Any, x: Any) -> Any:
     """One exponential function in each product, hyperbolic functions for exp(k x) + 1, no logarithm of an exponential."""
-    plain = expression.replace(
-        lambda e: e.func is sympy.log and e.args[0].func is sympy.exp, lambda e: e.args[0].exp
-    ).replace(_is_exponential_and_one, _hyperbolic)
-    powers = plain.replace(
-        lambda e: e.is_Pow and e.base.is_Mul and e.base.has(x), lambda e: sympy.expand_power_base(e, force=True)
-    )
-    powers = powers.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
-    return sympy.powsimp(powers, combine="exp")
+
+    def is_product_with_x(e: Any) -> bool:
+        return bool(e.is_Pow and e.base.is_Mul and e.base.has(x))
+
+    found = expression.replace(_is_log_of_exponential, lambda e: e.args[0].exp)
+    found = found.replace(_is_exponential_and_one, _hyperbolic)
+    found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True))
+    found = found.replace(_is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
+    return sympy.powsimp(found, combine="exp")
+
+
+def _is_log_of_exponential(e: Any) -> bool:
+    return e.func is sympy.log and e.args[0].func is sympy.exp
+
+
+def _is_power_of_exponential(e: Any) -> bool:
+    return bool(e.is_Pow and e.base.func is sympy.exp)
+
+
+def _with_half_angles(expression: Any, t: Any) -> Any:
+    """With roots of t + 1 and t - 1, for a cosine t, as powers that join where t is 1 or -1."""
+    roots = {e for e in expression.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
+    return expression.xreplace({e: _by_halves(t, e) for e in roots})
+
+
+#: The function s with t - 1 = 2 sign s(w/2)^2 for t = cos(w) or cosh(w), and the sign.
+_SINES = {sympy.cos: (sympy.sin, -1), sympy.cosh: (sympy.sinh, 1)}
 
 
 def _by_halves(t: Any, power: Any) -> Any:
-    """cos(w) + 1 = 2 cos(w/2)^2, cos(w) - 1 = -2 sin(w/2)^2, and likewise for cosh, in a power."""
-    base = power.base
-    exponent = power.exp
+    """A power of t + 1 = 2 t(w/2)^2, of t - 1 or of 1 - t, for t = cos(w) or cosh(w)."""
     half = t.args[0] / 2
-    function = {sympy.cos: sympy.sin, sympy.cosh: sympy.sinh}[t.func] if base != t + 1 else t.func
-    sign = -1 if base != t + 1 and (t.func is sympy.cos) == (base == t - 1) else 1
-    return sympy.Integer(2 * sign) ** exponent * function(half) ** (2 * exponent)
+    if power.base == t + 1:
+        return sympy.Integer(2) ** power.exp * t.func(half) ** (2 * power.exp)
+    function, sign = _SINES[t.func]
+    if power.base != t - 1:
+        sign = -sign
+    return sympy.Integer(2 * sign) ** power.exp * function(half) ** (2 * power.exp)
 
 
 def _is_exponential_and_one(e: Any) -> bool:
-    return bool(e.is_Add and len(e.args) == 2 and e.args[0] in (1, -1) and e.args[1].func is sympy.exp)
+    """exp(w) + 1 or exp(w) - 1."""
+    if not e.is_Add or len(e.args) != 2:
+        return False
+    number, other = e.args
+    return number in (1, -1) and other.func is sympy.exp
 
 
 def _hyperbolic(e: Any) -> Any:
-    half = e.args[1].exp / 2
-    return 2 * sympy.exp(half) * (sympy.cosh(half) if e.args[0] == 1 else sympy.sinh(half))
+    """exp(w) + 1 = 2 exp(w/2) cosh(w/2), and exp(w) - 1 with sinh."""
+    number, exponential = e.args
+    half = exponential.exp / 2
+    function = sympy.cosh if number == 1 else sympy.sinh
+    return 2 * sympy.exp(half) * function(half)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from flint import acb, arb, fmpq
 
@@ -31,17 +31,24 @@ _LARGEST_RADICAND = 14_000
 _DIGITS = 15
 
 
+class Radical(NamedTuple):
+    """A root that is known: the principal root of the degree n of a rational number."""
+
+    radicand: Fraction
+    n: int
+    root: Poly
+
+
 @dataclass(frozen=True)
 class Constants:
     """The algebraic numbers and the names of the parameters that occurred, in the order of appearance.
 
-    `numbers` is Q or the simple extension of it that has the numbers, and `radicals` the roots in it that are known:
-    (radicand, n, root).
+    `numbers` is Q or the simple extension of it that has the numbers, and `radicals` the roots in it that are known.
     """
 
     limits: Limits = DEFAULT_LIMITS
     numbers: Field = QQ
-    radicals: tuple[tuple[Fraction, int, Poly], ...] = ()
+    radicals: tuple[Radical, ...] = ()
     parameters: tuple[str, ...] = ()
 
     @property
@@ -76,27 +83,35 @@ class Constants:
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
-        if n == 2 and radicand.field == QQ and (bits := radicand.height_bits()) > _LARGEST_RADICAND:
-            root = QQ.sqrt(radicand)
-            if root is None:
-                said = f"a root of a number of {bits} bits, above the limit of {_LARGEST_RADICAND}"
-                raise LimitExceeded(said, limit="bits")
-            return root.over(self.field)
+        if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:
+            return _root_of_large(radicand).over(self.field)
         if not value:
             return self._with_parameters(value)
         rational = self.numbers.rational_value(value)
+        if rational is None:
+            return self._with_parameters(self._root(self._pure(value, n), principal_root(value, n), label))
         outer = Fraction(1)
-        if n == 2 and rational is not None:
+        if n == 2:
             outer, rest = square_part(rational)
             rational = Fraction(rest)
             value = self.numbers.poly([rest])
             label = "I" if rest == -1 else f"sqrt({rest})"
-        one = (Fraction(1), 2, self.numbers.poly([1]))
-        root = next((c for q, k, c in (one, *self.radicals) if k == n and q == rational), None)
+        root = self._known_root(rational, n)
         if root is None:
-            equation = self.numbers.poly([-value, *[0] * (n - 1), 1])
-            root = self._root(equation, principal_root(value, n), label, () if rational is None else ((rational, n),))
+            root = self._root(self._pure(value, n), principal_root(value, n), label, (rational, n))
         return self._with_parameters(root * outer)
+
+    def _pure(self, value: Poly, n: int) -> Poly:
+        """X^n - value, over the number field."""
+        return self.numbers.poly([-value, *[0] * (n - 1), 1])
+
+    def _known_root(self, radicand: Fraction, n: int) -> Poly | None:
+        if radicand == 1 and n == 2:
+            return self.numbers.poly([1])
+        for known in self.radicals:
+            if known.n == n and known.radicand == radicand:
+                return known.root
+        return None
 
     def algebraic(self, node: Any) -> Poly | None:
         """An algebraic number that SymPy has in any other form, through its minimal polynomial; None where it finds none."""
@@ -118,8 +133,12 @@ class Constants:
         """The root of a polynomial over Q that lies nearest to an approximation (an `acb`)."""
         return self._with_parameters(self._root(minimal.over(self.numbers), refined_root(minimal, approximation), ""))
 
-    def _root(self, equation: Poly, target: Any, label: str, radical: tuple[tuple[Fraction, int], ...] = ()) -> Poly:
-        """The root nearest to `target` of a polynomial over the number field; `radical` says which one it is, if any."""
+    def _root(self, equation: Poly, target: Any, label: str, radical: tuple[Fraction, int] | None = None) -> Poly:
+        """The root nearest to `target` of a polynomial over the number field.
+
+        `radical` is the radicand and the index, where it is a root of a rational number.  The field with a root that isn't
+        in this one has the generator `label`, where the polynomial is irreducible, or alpha.
+        """
         factor = vanishing_factor(equation, target)
         if factor.degree == 1:
             return -factor[0]
@@ -128,10 +147,13 @@ class Constants:
         if degree > limit:
             said = f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}"
             raise LimitExceeded(said, limit="constants")
-        theta, root = adjoined_root(factor, target, label if label and factor.degree == equation.degree else "alpha")
-        known = [(q, n, substituted(c, theta)) for q, n, c in self.radicals]
-        radicals = (*known, *((q, n, root) for q, n in radical))
-        raise Enlarged(replace(self, numbers=root.field, radicals=radicals))
+        is_irreducible = factor.degree == equation.degree
+        name = label if label and is_irreducible else "alpha"
+        theta, root = adjoined_root(factor, target, name)
+        radicals = [known._replace(root=substituted(known.root, theta)) for known in self.radicals]
+        if radical is not None:
+            radicals.append(Radical(*radical, root))
+        raise Enlarged(replace(self, numbers=root.field, radicals=tuple(radicals)))
 
     def _with_parameters(self, number: Poly) -> Poly:
         """An element of the number field in the whole field."""
@@ -145,11 +167,13 @@ class Constants:
         """A constant that doesn't depend on parameters, as an element of the number field."""
         if value.field in (self.numbers, QQ):
             return value.over(self.numbers)
-        parts = getattr(value, "parts", (value,))
-        known = [c for part in parts if (c := part.field.rational_value(part)) is not None]
-        if len(known) < len(parts):
-            return None
-        constant = QQ.poly(known)
+        coefficients = []
+        for part in getattr(value, "parts", (value,)):
+            number = part.field.rational_value(part)
+            if number is None:
+                return None
+            coefficients.append(number)
+        constant = QQ.poly(coefficients)
         return self.numbers.element(constant) if isinstance(self.numbers, AlgebraicField) else constant
 
     def embedded(self, function: RatFunc) -> RatFunc:
@@ -169,11 +193,26 @@ class Constants:
         numbers = self.numbers
         if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
             real, imaginary = map(float, numbers.approximation or ())
-            where = f"{real:.6g}"
-            if imaginary:
-                where += f" {'-' if imaginary < 0 else '+'} {abs(imaginary):.6g}*I"
+            where = _complex_text(real, imaginary)
             found.append(f"alpha is the root of {numbers.modulus.to_str('alpha')} near {where}")
         return found
+
+
+def _root_of_large(radicand: Poly) -> Poly:
+    """The root of a rational number that is too long for a name.  Raises `LimitExceeded` where it isn't rational."""
+    root = QQ.sqrt(radicand)
+    if root is None:
+        said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
+        raise LimitExceeded(said, limit="bits")
+    return root
+
+
+def _complex_text(real: float, imaginary: float) -> str:
+    """Six digits of each part."""
+    if imaginary == 0:
+        return f"{real:.6g}"
+    sign = "-" if imaginary < 0 else "+"
+    return f"{real:.6g} {sign} {abs(imaginary):.6g}*I"
 
 
 class Enlarged(Exception):
@@ -193,9 +232,11 @@ def with_root(numbers: Sequence[Poly], field: Field, other: AlgebraicField, limi
 
     def read(constants: Constants) -> list[Poly]:
         root = constants.root(other.modulus, near)
-        return [*(number.over(root.field) for _, _, number in constants.radicals), root]
+        return [*(known.root.over(root.field) for known in constants.radicals), root]
 
-    return read_with_constants(read, limits, Constants(limits, field, tuple((Fraction(0), 0, n) for n in numbers)))
+    # As radicals, the numbers are carried into a larger field; no root is one of degree 0.
+    known = tuple(Radical(Fraction(0), 0, number) for number in numbers)
+    return read_with_constants(read, limits, Constants(limits, field, known))
 
 
 def read_with_constants(read: Callable[[Constants], T], limits: Limits, known: Constants | None = None) -> T:

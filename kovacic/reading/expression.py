@@ -68,8 +68,11 @@ class RationalReader:
 
     def notices(self) -> list[str]:
         """What the user should know about how the text was read."""
+        found = self.decimals[:_SHOWN_DECIMALS]
         more = len(self.decimals) - _SHOWN_DECIMALS
-        return [*self.decimals[:_SHOWN_DECIMALS], *([f"{more} more decimals were taken exactly"] if more > 0 else [])]
+        if more > 0:
+            found.append(f"{more} more decimals were taken exactly")
+        return found
 
     def number(self, text: str) -> Value:
         if text.isdigit():
@@ -117,19 +120,24 @@ class RationalReader:
     def call(self, head: str, arguments: list[Any], site: Site) -> Value:
         """A call of a name, with primes or not; a pair among the arguments is a tuple."""
         index = ROOTS.get(head.rstrip(PRIMES))
-        if index is not None and not any(isinstance(argument, tuple) for argument in arguments):
+        has_pairs = any(isinstance(argument, tuple) for argument in arguments)
+        if index is not None and not has_pairs:
             if len(arguments) == 1 and index:
                 return self._radical(arguments[0], index, site)
             if len(arguments) == 2 and not index:
-                number = self.arithmetic.number(arguments[1])
-                if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
-                    said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
-                    raise NotRational(said, hint="root(2, 3) is the cube root of 2")
-                return self._radical(arguments[0], number.numerator, site)
+                return self._radical(arguments[0], self._index(arguments[1]), site)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
         raise NotRational(f"{site.text()} isn't a rational function of {self.variable}", hint=usage(head))
+
+    def _index(self, value: Value) -> int:
+        """The n of root(q, n)."""
+        number = self.arithmetic.number(value)
+        if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
+            said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
+            raise NotRational(said, hint="root(2, 3) is the cube root of 2")
+        return number.numerator
 
     def other_leaf(self, node: Any) -> Any:
         """The value of a SymPy expression that is no sum, product, power or algebraic number."""
@@ -143,11 +151,8 @@ class RationalReader:
         closed = self.arithmetic.closed(value)
         if not isinstance(closed, Poly) or not closed.is_constant:
             raise NotRational(f"{place.text()} isn't a rational function of {self.variable}", hint=usage("sqrt"))
-        radicand = closed.to_str() if closed.field == QQ else ""
-        label = f"root({radicand}, {n})"
-        if n < 4:
-            label = f"{'cbrt' if n == 3 else 'sqrt'}({radicand})"
-        root = self.constants.radical(closed, n, label if radicand else place.text())
+        label = _radical_name(closed.to_str(), n) if closed.field == QQ else place.text()
+        root = self.constants.radical(closed, n, label)
         if root is None:
             hint = "take the root itself as the parameter: sqrt(t) with t = s^2"
             raise NotRational(f"{place.text()} isn't rational in the parameters", hint=hint)
@@ -168,6 +173,14 @@ class RationalReader:
         if number.denominator > _LARGEST_INDEX:
             raise NotRational(f"{place.text()} isn't an algebraic number of degree {_LARGEST_INDEX} or less")
         return self.arithmetic.power(self._radical(base, number.denominator, place), number.numerator)
+
+
+def _radical_name(radicand: str, n: int) -> str:
+    if n == 2:
+        return f"sqrt({radicand})"
+    if n == 3:
+        return f"cbrt({radicand})"
+    return f"root({radicand}, {n})"
 
 
 def usage(name: str) -> str:

@@ -1,4 +1,4 @@
-"""The names that mean something in what a user writes: numbers and functions."""
+"""The names that mean something in what a user writes: numbers, functions and letters."""
 
 from __future__ import annotations
 
@@ -33,6 +33,17 @@ FUNCTION_NAMES |= {
     "sign": "sign",
     "Gamma": "gamma",
 }  # gamma(...) may be a product
+
+_GREEK = """
+    alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron rho sigma tau upsilon phi chi psi omega
+    Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega
+"""
+
+#: Names of Greek letters, each of which is a letter of its own; pi is a number.
+GREEK = frozenset(_GREEK.split())
+
+#: A pattern for a name of one letter, or of a Greek one.
+LETTER = rf"(?:{'|'.join(sorted(GREEK, key=len, reverse=True))}|[^\W\d_])"
 
 #: What to do with a transcendental number.
 TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"

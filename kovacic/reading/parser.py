@@ -18,8 +18,7 @@ from typing import Any
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.lexer import DERIVATIVES, Tokens
-from kovacic.reading.names import FUNCTION_NAMES
-from kovacic.reading.notation import GREEK
+from kovacic.reading.names import FUNCTION_NAMES, GREEK
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)

@@ -61,17 +61,14 @@ def unwrapped(text: str) -> Unwrapped:
     """
     if "\\" in text:
         text = _LABEL.sub("", text)
-    inner = _without_delimiters(_PROMPT.sub("", text.strip(), count=1) if _PROMPT.match(text.strip()) else text.strip())
-    assigned = _ASSIGNED.match(inner)
-    if assigned is not None:
-        inner = inner[assigned.end() :]
-        if inner.endswith(":"):  # Maple's silent end
-            inner = inner[:-1]
+    inner = _without_assignment(_without_delimiters(_without_prompt(text.strip())))
     command = _COMMAND.match(inner)
-    if command is None and inner[:1] in ("{", "[") and "=" in inner and _is_enclosed(inner):
-        return _of_arguments("", f"({inner})", text)
     if command is None:
-        return Unwrapped(inner if inner != text.strip() else text)
+        if "=" in inner and _is_list(inner):
+            return _of_arguments("", f"({inner})", text)
+        if inner == text.strip():  # nothing stands around it
+            return Unwrapped(text)
+        return Unwrapped(inner)
     call = inner[command.end() :].rstrip(";:$ \n")
     if not _is_enclosed(call):
         return Unwrapped(inner)
@@ -83,19 +80,39 @@ def without_spacing(text: str) -> str:
     return _TEXT.sub(r" \1 ", _SPACING.sub(" ", text)) if "\\" in text else text
 
 
+def _without_prompt(text: str) -> str:
+    prompt = _PROMPT.match(text)
+    return text if prompt is None else text[prompt.end() :]
+
+
+def _without_assignment(text: str) -> str:
+    assigned = _ASSIGNED.match(text)
+    if assigned is None:
+        return text
+    return text[assigned.end() :].removesuffix(":")  # Maple's silent end
+
+
 def _without_delimiters(text: str) -> str:
     """Without dollar signs, or an environment of LaTeX, around the whole text."""
     environment = _ENVIRONMENT.fullmatch(text)
     if environment is not None:
-        inside = environment[2].replace("\\\\", ", " if environment[1] == "cases" else " ")
+        between_lines = ", " if environment[1] == "cases" else " "
+        inside = environment[2].replace("\\\\", between_lines)
         return _ALIGNMENT.sub(" ", inside).strip()
     if text.endswith(("$,", "$.", "$;", " .")):
         text = text[:-1].rstrip()
     for opening, closing in _DELIMITERS:
+        if not (text.startswith(opening) and text.endswith(closing)):
+            continue
         inner = text[len(opening) : -len(closing)]
-        if text.startswith(opening) and text.endswith(closing) and opening not in inner and inner.strip():
+        if inner.strip() and opening not in inner:
             return inner.strip()
     return text
+
+
+def _is_list(text: str) -> bool:
+    """Is the whole text a list or a set?"""
+    return text.startswith(("{", "[")) and _is_enclosed(text)
 
 
 def _is_enclosed(call: str) -> bool:
@@ -111,7 +128,7 @@ def _is_enclosed(call: str) -> bool:
 def _of_arguments(command: str, call: str, text: str) -> Unwrapped:
     """What the arguments of a command in a text say: its equation, values, and names that are in the equation as well."""
     first, *rest = _listed(call[1:-1])
-    equations = _listed(first[1:-1]) if first[:1] in ("{", "[") and _is_enclosed(first) else [first]
+    equations = _listed(first[1:-1]) if _is_list(first) else [first]
     equation, *given = [_unquoted(part) for part in equations]
     variable = None
     for argument in rest:
@@ -123,14 +140,9 @@ def _of_arguments(command: str, call: str, text: str) -> Unwrapped:
         elif _NAMED.fullmatch(part) and is_quoted:  # MATLAB's variable
             variable = part
         elif not (_NAMED.fullmatch(part) and _occurs(part, equation)):
+            said = f"{part} isn't read in {command}(...)"
             hint = f"give the equation and its values: {', '.join((equation, *given))}"
-            raise ParseError(
-                f"{part} isn't read in {command}(...)",
-                text=text,
-                position=text.find(argument),
-                length=len(argument),
-                hint=hint,
-            )
+            raise ParseError(said, text=text, position=text.find(argument), length=len(argument), hint=hint)
     if variable is not None:
         equation = _differentiated_by(variable, equation)
     return Unwrapped(equation, tuple(value for part in given for value in plain_values(part)))
@@ -142,7 +154,7 @@ def _values_in(part: str) -> list[str] | None:
         return _of_mapping(part)
     if "=" not in part:
         return None
-    if part[:1] in ("{", "[") and _is_enclosed(part):
+    if _is_list(part):
         return _listed(part[1:-1])
     return None if _NAME_OF_OPTION.match(part) else [part]
 
@@ -214,7 +226,8 @@ def _without_latex(text: str) -> str:
     if "\\" not in text and "^{" not in text:
         return text
     text = re.sub(r"\\(?:quad|qquad|left|right|,|;|:|!)", " ", text)
-    text = re.sub(r"\\(d?)dot\s*\{?\s*(\w)\s*\}?", lambda found: found[2] + ("''" if found[1] else "'"), text)
+    text = re.sub(r"\\ddot\s*\{?\s*(\w)\s*\}?", r"\1''", text)
+    text = re.sub(r"\\dot\s*\{?\s*(\w)\s*\}?", r"\1'", text)
     text = re.sub(r"\^\s*\{?\s*(?:\\prime|'|\(1\))\s*\}?", "'", text)
     parts = _LATEX_VALUE.match(text)
     if parts is None:

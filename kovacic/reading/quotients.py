@@ -27,19 +27,19 @@ _HIGHEST = 2
 def multiplied_out(expression: Expr, function: Expr) -> Expr | None:
     """What is zero where a quotient is, linear in y, y' and y''; None where there is no such.  y = 0 is left out."""
     x = function.args[0]
-    values = {function.diff(x, k) if k else function: sympy.Dummy(f"y{k}") for k in range(_HIGHEST, -1, -1)}
-    plain = expression.xreplace(values)
-    if plain.has(sympy.Derivative) or any(f.func == function.func for f in plain.atoms(AppliedUndef)):
+    derivatives = [function.diff(x, 2), function.diff(x), function]
+    unknown = [sympy.Dummy("y2"), sympy.Dummy("y1"), sympy.Dummy("y0")]
+    plain = expression.xreplace(dict(zip(derivatives, unknown, strict=True)))
+    is_left = any(f.func == function.func for f in plain.atoms(AppliedUndef))
+    if is_left or plain.has(sympy.Derivative):
         return None
     numerator, denominator = sympy.fraction(sympy.together(plain))
-    unknown = [*values.values()]
     if not denominator.has(*unknown) or not numerator.is_polynomial(*unknown):
         return None
     polynomial = sympy.Poly(numerator, *unknown)
     if polynomial.total_degree() != 1:
         return None
-    found = polynomial.as_expr().xreplace({dummy: value for value, dummy in values.items()})
-    return sympy.expand(found)
+    return sympy.expand(polynomial.as_expr().xreplace(dict(zip(unknown, derivatives, strict=True))))
 
 
 def expression_of(source: Source, limits: Limits) -> Expr:
@@ -81,10 +81,18 @@ class _TextReader(SymbolicReader):
 
     def _differentiated(self, arguments: list[Any], site: Site) -> Any:
         """diff(y, x), diff(y, x, 2): what is differentiated may be any expression."""
-        function, *rest = [
-            None if isinstance(argument, tuple) else self.arithmetic.expression(argument) for argument in arguments
-        ]
-        order = rest[1] if len(rest) == 2 else 1
-        if function is None or rest[:1] != [self.x] or len(rest) > 2 or order not in range(1, _HIGHEST + 1):
+        order = self._order(arguments)
+        if order is None:
             raise InputError(f"{self.what} can't contain {site.text()}", hint="for example diff(y, x) or diff(y, x, 2)")
-        return function.diff(self.x, order)
+        return self.arithmetic.expression(arguments[0]).diff(self.x, order)
+
+    def _order(self, arguments: list[Any]) -> int | None:
+        """1 or 2, where the arguments are an expression, x, and maybe the order; else None."""
+        if any(isinstance(argument, tuple) for argument in arguments):
+            return None
+        _, *rest = (self.arithmetic.expression(argument) for argument in arguments)
+        if rest == [self.x]:
+            return 1
+        if len(rest) != 2 or rest[0] != self.x or rest[1] not in range(1, _HIGHEST + 1):
+            return None
+        return int(rest[1])

@@ -55,12 +55,8 @@ def read_input(
             raise InputError(f"the variable of this equation is {S.variable}, not {variable}")
         return Parsed(S.S, S.variable, equation=S)
     if isinstance(S, tuple | list) and len(S) == 2:
-        above, below = (_polynomial(*part, limits) for part in zip(S, ("numerator", "denominator"), strict=True))
-        if not below:
-            raise NotRational(
-                "the denominator is zero", hint="give the pair (numerator, denominator), low powers first"
-            )
-        return Parsed(RatFunc(above, below), variable or DEFAULT_VARIABLE)
+        numerator, denominator = S
+        return Parsed(_quotient(numerator, denominator, limits), variable or DEFAULT_VARIABLE)
     raise InputError(
         f"{type(S).__name__!r} isn't a form of S that can be read",
         hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
@@ -86,25 +82,35 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
                 return read_source(source_of(f"y'' = ({given})*y", source.variable, limits), limits)
         if not exponentials:
             raise
-        from kovacic.reading.exponentials import in_exponentials
-        from kovacic.reading.powers import in_powers
+        if not isinstance(given, str):
+            quotient = _divided(given, source, limits)
+            if quotient is not None:
+                return quotient
+        return _in_other_functions(source, error, limits)
 
-        if not isinstance(given, str) and (found := _divided(given, source, limits)) is not None:
-            return found
-        reason = error
-        try:
-            found = in_exponentials(source, limits)
-        except NotRational as other:
-            if other.position is None:  # what isn't rational is the same
-                other.text = error.text
-                other.position = error.position
-                other.length = error.length
-            reason = other
-            found = None
-        found = found or in_powers(source, limits) or _in_letters(source, limits)
-        if found is None:
-            raise reason from None
-        return found
+
+def _in_other_functions(source: Source, error: NotRational, limits: Limits) -> Parsed:
+    """With coefficients in exp(k x), in powers of x, or with letters for constants: the first that succeeds.
+
+    Raises `NotRational` where none does: the reason why it isn't in exp(k x), where that is known, else the `error`.
+    """
+    from kovacic.reading.exponentials import in_exponentials
+    from kovacic.reading.powers import in_powers
+
+    reason = error
+    found = None
+    try:
+        found = in_exponentials(source, limits)
+    except NotRational as other:
+        if other.position is None:  # what isn't rational is the same
+            other.text = error.text
+            other.position = error.position
+            other.length = error.length
+        reason = other
+    found = found or in_powers(source, limits) or _in_letters(source, limits)
+    if found is None:
+        raise reason from None
+    return found
 
 
 def _constants_in(given: Any) -> set[str]:
@@ -216,17 +222,33 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
     for value in given:
         if _is_sympy(value) and not hasattr(value, "as_numer_denom"):
             raise InputError(f"a coefficient is a function of the variable, not {value}")
-    if any(map(_is_sympy, given)) and not any(isinstance(value, str | RatFunc) for value in given):
-        import sympy
-
-        symbols = {s.name: s for value in given if _is_sympy(value) for s in sorted(value.free_symbols, key=str)}
-        name = _variable_name(var) or (DEFAULT_VARIABLE if len(symbols) != 1 else next(iter(symbols)))
-        y = sympy.Function("y" if "y" not in symbols else "y_")(symbols.get(name, sympy.Symbol(name)))
-        given = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
-        return read_source(source_of(given, None, unknown=y, equation=True), limits)
-    texts = [value.to_str() if isinstance(value, RatFunc) else exact_text(value, "a coefficient") for value in given]
-    line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
+    has_text = any(isinstance(value, str | RatFunc) for value in given)
+    if not has_text and any(map(_is_sympy, given)):
+        y = _new_function(given, _variable_name(var))
+        equation = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
+        return read_source(source_of(equation, None, unknown=y, equation=True), limits)
+    line = "({})*y'' + ({})*y' + ({})*y = {}".format(*map(_coefficient_text, given))
     return read_input(line, var=var, limits=limits)
+
+
+def _coefficient_text(value: Any) -> str:
+    if isinstance(value, RatFunc):
+        return value.to_str()
+    return exact_text(value, "a coefficient")
+
+
+def _new_function(coefficients: Sequence[Any], variable: str | None) -> Any:
+    """y(x) for an equation with these coefficients; x is the only symbol, if the variable isn't given."""
+    import sympy
+
+    symbols: dict[str, Any] = {}
+    for value in filter(_is_sympy, coefficients):
+        symbols |= {symbol.name: symbol for symbol in sorted(value.free_symbols, key=str)}
+    if variable is None:
+        variable = next(iter(symbols)) if len(symbols) == 1 else DEFAULT_VARIABLE
+    x = symbols.get(variable, sympy.Symbol(variable))
+    unknown = "y_" if "y" in symbols else "y"
+    return sympy.Function(unknown)(x)
 
 
 def _is_sympy(value: Any) -> bool:
@@ -234,12 +256,23 @@ def _is_sympy(value: Any) -> bool:
 
 
 def _variable_name(var: Any) -> str | None:
-    name = var.name if _is_sympy(var) and getattr(var, "is_Symbol", False) else var
+    is_symbol = _is_sympy(var) and getattr(var, "is_Symbol", False)
+    name = var.name if is_symbol else var
     if not (name is None or isinstance(name, str)):
         raise InputError(f"{var!r} can't be a variable", hint="give its name, or a SymPy symbol")
     if name is not None and not name.isidentifier():
         raise InputError(f"{name!r} can't be the name of a variable", hint="take a letter or a word: x, t, x1")
     return name
+
+
+def _quotient(numerator: Any, denominator: Any, limits: Limits) -> RatFunc:
+    """The rational function that a pair of sequences of coefficients means."""
+    above = _polynomial(numerator, "numerator", limits)
+    below = _polynomial(denominator, "denominator", limits)
+    if not below:
+        hint = "give the pair (numerator, denominator), low powers first"
+        raise NotRational("the denominator is zero", hint=hint)
+    return RatFunc(above, below)
 
 
 def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:

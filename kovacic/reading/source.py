@@ -17,8 +17,8 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader, as_function
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, check_length, is_equation, tokens_of
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
-from kovacic.reading.notation import GREEK, plain
+from kovacic.reading.names import FUNCTION_NAMES, GREEK, NUMBER_NAMES
+from kovacic.reading.notation import plain
 from kovacic.reading.parser import evaluate, is_letter
 from kovacic.reading.pasted import unwrapped
 

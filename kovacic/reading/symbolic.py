@@ -47,29 +47,36 @@ class _Node:
 
 def walked(expression: Any, reader: RationalReader) -> Any:
     """The value of a SymPy expression; children are on the stack `values` before their parent is combined."""
-    arithmetic = reader.arithmetic
     values: list[Any] = []
+    #: What is still to be done, the next thing last: (node, are the values of its children known?).
     pending: list[tuple[Any, bool]] = [(expression, False)]
     while pending:
-        node, ready = pending.pop()
-        if not ready and (node.is_Add or node.is_Mul or node.is_Pow):
+        node, is_ready = pending.pop()
+        if is_ready:
+            first = len(values) - len(node.args)
+            arguments = values[first:]
+            del values[first:]
+            values.append(_combined(node, arguments, reader))
+        elif node.is_Add or node.is_Mul or node.is_Pow:
             pending.append((node, True))
             pending.extend((child, False) for child in reversed(node.args))
-        elif not ready:
-            values.append(_leaf(node, reader))
         else:
-            arguments = values[-len(node.args) :]
-            del values[1 - len(node.args) :]
-            try:
-                if node.is_Pow:
-                    values[-1] = reader.power(arguments[0], arguments[1], _Node(node))
-                else:
-                    values[-1] = arithmetic.sum(arguments) if node.is_Add else reduce(arithmetic.multiply, arguments)
-            except ZeroDivisionError:
-                raise NotRational(f"division by zero in {shown(node, 60)}") from None
-            except LimitExceeded as error:
-                raise LimitExceeded(f"{shown(node, 60)} would have {error}", limit=error.limit) from None
+            values.append(_leaf(node, reader))
     return values[0]
+
+
+def _combined(node: Any, arguments: list[Any], reader: RationalReader) -> Any:
+    """The value of a sum, a product or a power of these values."""
+    try:
+        if node.is_Pow:
+            return reader.power(arguments[0], arguments[1], _Node(node))
+        if node.is_Add:
+            return reader.arithmetic.sum(arguments)
+        return reduce(reader.arithmetic.multiply, arguments)
+    except ZeroDivisionError:
+        raise NotRational(f"division by zero in {shown(node, 60)}") from None
+    except LimitExceeded as error:
+        raise LimitExceeded(f"{shown(node, 60)} would have {error}", limit=error.limit) from None
 
 
 def _leaf(node: Any, reader: RationalReader) -> Any:
@@ -78,8 +85,9 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
     if node.is_Rational:
         return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
     if node.is_Float and node.is_finite:
-        sign, mantissa, exponent, _ = node._mpf_
-        exact = Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
+        is_negative, mantissa, exponent, _ = node._mpf_
+        size = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+        exact = -size if is_negative else size
         reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
         return reader.arithmetic.constant(exact)
     value = reader.constants.algebraic(node) if node.is_number and node.is_algebraic else None
