@@ -40,13 +40,14 @@ def _terminals(ascii_only: bool) -> re.Pattern[str]:
     beyond = "" if ascii_only else _SUPERSCRIPTS
     primes = "'" if ascii_only else f"[{PRIMES}]"
     superscript = "" if ascii_only else rf"[⁺⁻]?[{_SUPERSCRIPTS}]+ |"
+    alphabet = re.ASCII if ascii_only else re.UNICODE
     return re.compile(
         rf"""
         (?: [0-9]+ (?:\.[0-9]*)? | \.[0-9]+ ) (?: [eE][+-]?[0-9]+(?!\w) )?
       | [^\W\d_{beyond}] [^\W{beyond}]* {primes}*
       | {superscript} \*\* | \S
         """,
-        re.VERBOSE | (re.ASCII if ascii_only else re.UNICODE),
+        re.VERBOSE | alphabet,
     )
 
 
@@ -169,7 +170,7 @@ def tokenize(text: str) -> Tokens:
     for k, kind in enumerate(kinds):
         if kind == "LPAR" and k and kinds[k - 1] in ("NAME", "PRIMED"):
             kinds[k - 1] = "HEAD"
-        elif kind == "NAME" and not (ascii_only or pieces[k].isidentifier()):
+        elif kind == "NAME" and not ascii_only and not pieces[k].isidentifier():
             kinds[k] = "OTHER"
     tokens = Tokens(text, [*kinds, "$END"], [*pieces, ""])
     if "OTHER" in kinds:
@@ -183,11 +184,14 @@ def _unexpected(text: str, start: int, end: int) -> ParseError:
     position = next((start + k for k, char in enumerate(offending) if not offending[: k + 1].isidentifier()), start)
     char = text[position]
     shown = repr(char) if char.isprintable() else f"U+{ord(char):04X}"
-    hint = _HINTS.get(char)
-    if hint is None and ("₀" <= char <= "₉"):
-        hint = "write indices as ordinary digits: x1"
-    elif hint is None and char.isnumeric():
-        hint = "write numbers with the digits 0 to 9: 1/2"
-    elif hint is None:
-        hint = "there are numbers, names, + - * / ^ ( ) = and y''"
-    return ParseError(f"unexpected character {shown}", text=text, position=position, hint=hint)
+    return ParseError(f"unexpected character {shown}", text=text, position=position, hint=_hint_for(char))
+
+
+def _hint_for(char: str) -> str:
+    if char in _HINTS:
+        return _HINTS[char]
+    if "₀" <= char <= "₉":
+        return "write indices as ordinary digits: x1"
+    if char.isnumeric():
+        return "write numbers with the digits 0 to 9: 1/2"
+    return "there are numbers, names, + - * / ^ ( ) = and y''"

@@ -14,7 +14,7 @@ What the numbers, names and calls mean is a reader's affair: a rational function
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.lexer import DERIVATIVES, Tokens
@@ -28,6 +28,8 @@ _OPERANDS = frozenset({"NUMBER", "NAME", "PRIMED", "HEAD", "LPAR"})
 _OPERATORS = (*_BINARY, "CIRCUMFLEX")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
+#: So many parentheses and more are left to the reader to count.
+_COUNTED = 20
 #: So many digits form a group in 1,000.
 _GROUPED = 3
 _SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
@@ -180,7 +182,8 @@ class _Parser:
     def sign(self, k: int) -> bool:
         """Of an operand, or of an exponent: x^-2."""
         after_power = self.pending[-1][0] == _POWER
-        self.pending.append((_POWER if after_power else _SIGN, k))
+        strength = _POWER if after_power else _SIGN
+        self.pending.append((strength, k))
         return True
 
     def head(self, k: int) -> bool:
@@ -383,8 +386,9 @@ _INFIX = {
 def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> None:
     """Refuses a product without a sign whose second factor, from token `right`, can't be told from the first one."""
     left = right - 1
-    applied = tokens.pieces[begin] in DERIVATIVES and tokens.kinds[right] == "LPAR"  # D(y)(x)
-    if tokens.kinds[left] not in ("NAME", "PRIMED") and tokens.kinds[right] != "NUMBER" and not applied:
+    is_applied = tokens.pieces[begin] in DERIVATIVES and tokens.kinds[right] == "LPAR"  # D(y)(x)
+    may_run_together = tokens.kinds[left] in ("NAME", "PRIMED") or tokens.kinds[right] == "NUMBER"
+    if not may_run_together and not is_applied:
         return
     if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and reader.follows_without_sign(tokens.pieces[right]):
         return
@@ -398,11 +402,11 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
 
 def _are_apart(tokens: Tokens, left: int, right: int) -> bool:
     """Are these a letter and another letter or a call, with a space between: a x, a sin(x); or a factor before parentheses?"""
-    if (
-        tokens.kinds[left] == "NAME" and tokens.kinds[right] == "LPAR"
-    ):  # `source` has found that the name is no function
+    if tokens.kinds[left] != "NAME":
+        return False
+    if tokens.kinds[right] == "LPAR":  # `source` has found that the name is no function
         return True
-    if tokens.kinds[left] != "NAME" or tokens.kinds[right] not in ("NAME", "HEAD"):
+    if tokens.kinds[right] not in ("NAME", "HEAD"):
         return False
     if tokens.ends[left] == tokens.starts[right] or not is_letter(tokens.pieces[left]):
         return False
@@ -424,58 +428,104 @@ def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError
     return tokens.error(ParseError, message, site.begin, site.end, hint=hint)
 
 
+class _Fault(NamedTuple):
+    """What is wrong, from the token `begin` up to the token `last`, and what to do about it."""
+
+    message: str
+    begin: int
+    last: int
+    hint: str | None = None
+
+
 def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
     """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
-    kinds = tokens.kinds
-    kind = tokens.kinds[k]
-    before = kinds[k - 1] if k else ""
-    here = tokens.pieces[k]
-    first = k
-    message = f"{here!r} doesn't belong here"
-    hint = None
-    if kind == "$END":
-        first = k - 1
-        if before in (*_OPERATORS, "EQUAL", "COMMA"):
-            message = f"the expression ends after {tokens.pieces[k - 1]!r}"
-            hint = "something is missing after it"
-            k = first
-        elif opened:
-            message = "this parenthesis is never closed"
-            first = opened[-1]
-            k = opened[-1]
-            hint = f"add {')' * len(opened)!r} where it ends" if len(opened) < 20 else "count the parentheses"
-        else:
-            message = "the expression isn't complete"
-            first = k
-    elif kind == "RPAR" and before == "LPAR":
-        message = "there is nothing between these parentheses"
+    if tokens.kinds[k] == "$END":
+        fault = _incomplete(tokens, k, opened)
+    elif tokens.kinds[k] == "RPAR":
+        fault = _closing(tokens, k, opened)
+    elif tokens.kinds[k] == "COMMA":
+        fault = _comma(tokens, k)
+    elif tokens.kinds[k] == "EQUAL":
+        fault = _equals(tokens, k)
+    elif tokens.kinds[k] in (*_OPERATORS, "SUPERSCRIPT"):
+        fault = _operator(tokens, k)
+    else:
+        fault = _misplaced(tokens, k)
+    return tokens.error(ParseError, fault.message, fault.begin, fault.last + 1, hint=fault.hint)
+
+
+def _kind_before(tokens: Tokens, k: int) -> str:
+    return tokens.kinds[k - 1] if k else ""
+
+
+def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
+    """Of the end of the text."""
+    last = end - 1
+    if _kind_before(tokens, end) in (*_OPERATORS, "EQUAL", "COMMA"):
+        return _Fault(f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it")
+    if not opened:
+        return _Fault("the expression isn't complete", end, end)
+    hint = "count the parentheses"
+    if len(opened) < _COUNTED:
+        hint = f"add {')' * len(opened)!r} where it ends"
+    return _Fault("this parenthesis is never closed", opened[-1], opened[-1], hint)
+
+
+def _closing(tokens: Tokens, k: int, opened: Sequence[int]) -> _Fault:
+    """Of a closing parenthesis."""
+    before = _kind_before(tokens, k)
+    if before == "LPAR":
         hint = "leave them out, or write what belongs there"
-        first = k - 1
-    elif kind == "RPAR" and not opened:
-        message = "this parenthesis closes nothing"
-        hint = "remove it, or open it before"
-    elif before in _OPERATORS and kind in (*_OPERATORS, "RPAR", "EQUAL", "COMMA"):
-        message = f"something is missing between {tokens.pieces[k - 1]!r} and {here!r}"
-        first = k - 1
-        hint = "write the number or name that belongs there, or one of the signs"
-    elif kind in (*_OPERATORS, "SUPERSCRIPT"):
-        message = f"there is nothing before {here!r} for it to act on"
-        hint = "write the number or name that belongs there"
-    elif kind == "COMMA":
-        message = "a comma doesn't belong here"
-        hint = "decimals are written with a point, and one expression is one S"
-        if before == kinds[k + 1] == "NUMBER" and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
-            whole = tokens.pieces[k - 1]
-            digits = tokens.pieces[k + 1]
-            first = k - 1
-            hint = f"decimals are written with a point: {whole}.{digits}"
-            if len(digits) == _GROUPED:
-                hint += f"; digits aren't grouped: {whole}{digits}"
-        elif "EQUAL" in tokens.kinds[:k]:
-            hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
-    elif kind == "EQUAL":
-        hint = "an equation has one equals sign, outside all parentheses"
-    return tokens.error(ParseError, message, first, k + 1, hint=hint)
+        return _Fault("there is nothing between these parentheses", k - 1, k, hint)
+    if not opened:
+        return _Fault("this parenthesis closes nothing", k, k, "remove it, or open it before")
+    if before in _OPERATORS:
+        return _missing_operand(tokens, k)
+    return _misplaced(tokens, k)
+
+
+def _comma(tokens: Tokens, k: int) -> _Fault:
+    """Of a comma outside calls, which may be that of a decimal, or separate values."""
+    before = _kind_before(tokens, k)
+    if before in _OPERATORS:
+        return _missing_operand(tokens, k)
+    message = "a comma doesn't belong here"
+    if before == tokens.kinds[k + 1] == "NUMBER" and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
+        whole = tokens.pieces[k - 1]
+        digits = tokens.pieces[k + 1]
+        hint = f"decimals are written with a point: {whole}.{digits}"
+        if len(digits) == _GROUPED:
+            hint += f"; digits aren't grouped: {whole}{digits}"
+        return _Fault(message, k - 1, k, hint)
+    if "EQUAL" in tokens.kinds[:k]:
+        hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
+        return _Fault(message, k, k, hint)
+    return _Fault(message, k, k, "decimals are written with a point, and one expression is one S")
+
+
+def _equals(tokens: Tokens, k: int) -> _Fault:
+    """Of an equals sign."""
+    if _kind_before(tokens, k) in _OPERATORS:
+        return _missing_operand(tokens, k)
+    return _misplaced(tokens, k)._replace(hint="an equation has one equals sign, outside all parentheses")
+
+
+def _operator(tokens: Tokens, k: int) -> _Fault:
+    """Of a sign, or of a power, where an operand is expected."""
+    if _kind_before(tokens, k) in _OPERATORS and tokens.kinds[k] != "SUPERSCRIPT":
+        return _missing_operand(tokens, k)
+    message = f"there is nothing before {tokens.pieces[k]!r} for it to act on"
+    return _Fault(message, k, k, "write the number or name that belongs there")
+
+
+def _missing_operand(tokens: Tokens, k: int) -> _Fault:
+    """Between an operator and token k."""
+    message = f"something is missing between {tokens.pieces[k - 1]!r} and {tokens.pieces[k]!r}"
+    return _Fault(message, k - 1, k, "write the number or name that belongs there, or one of the signs")
+
+
+def _misplaced(tokens: Tokens, k: int) -> _Fault:
+    return _Fault(f"{tokens.pieces[k]!r} doesn't belong here", k, k)
 
 
 def listed(text: str, opening: str = "(", closing: str = ")") -> list[str]:

@@ -44,7 +44,8 @@ def with_calls(text: str) -> str:
     """With the parentheses of functions: abs(x) for |x|, sin(2x) for sin 2x, sin(x)^2 for sin^2(x)."""
     if "|" in text:
         text = _without_bars(text)
-    text = _ROOT.sub(lambda found: f"sqrt({found[1]})" if found[1] else "sqrt", text)
+    text = _ROOT_OF_FACTOR.sub(r"sqrt(\1)", text)
+    text = _ROOT_OF_PARENTHESIS.sub("sqrt", text)
     text = _BEFORE_ONE_FACTOR.sub(lambda found: f"{found[1]}({found[3].strip()}){_power(found[2])}", text)
     return _powers_behind(text) if _BEFORE_PARENTHESIS.search(text) else text
 
@@ -60,11 +61,12 @@ def _without_bars(text: str) -> str:
             is_open.append(False)
         elif character == ")" and len(is_open) > 1:
             is_open.pop()
-        if character == "|":
-            pieces.append(")" if is_open[-1] else " abs(")
-            is_open[-1] = not is_open[-1]
-        else:
+        if character != "|":
             pieces.append(character)
+            continue
+        bar = ")" if is_open[-1] else " abs("
+        pieces.append(bar)
+        is_open[-1] = not is_open[-1]
     return "".join(pieces)
 
 
@@ -76,7 +78,8 @@ _POWER = r"(\s*\^\s*[2-9]|\s*²)"
 _FACTOR = r"(\s\s*\d*\s*[^\W\d_](?!\w)|(?<=²)\s*\d*\s*[^\W\d_](?!\w))"
 _BEFORE_ONE_FACTOR = re.compile(rf"{_FUNCTION}{_POWER}?{_FACTOR}(?=\s*(?:$|[-+=,;)]))")
 #: √x and √2, where no factor follows; √(...).
-_ROOT = re.compile(r"√\s*(?:([0-9]+|[^\W\d_])(?![\w^²³(])|(?=\())")
+_ROOT_OF_FACTOR = re.compile(r"√\s*([0-9]+|[^\W\d_])(?![\w^²³(])")
+_ROOT_OF_PARENTHESIS = re.compile(r"√\s*(?=\()")
 _BEFORE_PARENTHESIS = re.compile(rf"{_FUNCTION}{_POWER}\s*(?=\()")
 
 
