@@ -453,3 +453,18 @@ def test_command_and_values_are_read_in_one_way_with_values_apart() -> None:
     ):
         assert kovacic.dsolve(text) == expected
     assert kovacic.dsolve("y'' + y = 0", ics="y(0) = 1, D(y)(0) = 2") == expected
+
+
+@pytest.mark.parametrize("letter", ["a", "k", "ω", "alpha"])
+@pytest.mark.parametrize("digits", ["0", "1", "12", "307", "10"])
+def test_lowered_digits_are_one_index(letter: str, digits: str) -> None:
+    lowered = "".join(chr(ord("₀") + int(digit)) for digit in digits)
+    expected = read_input(f"y'' = {letter}_{digits}*y")
+    assert read_input(f"y'' = {letter}{lowered}*y").equation == expected.equation
+    assert read_input(f"y'' + x*y' = {letter}{lowered}*x*y").S.field.names == (f"{letter}_{digits}",)
+
+
+@pytest.mark.parametrize("number", ["2", "12", "0.5"])
+def test_a_lowered_digit_behind_a_number_is_no_digit_of_it(number: str) -> None:
+    with pytest.raises(kovacic.ParseError, match="indices"):
+        read_input(f"y'' = {number}₁*y")

@@ -74,23 +74,24 @@ def _unicode(text: str) -> str:
     text = re.sub(r'(?<=\w)"', "''", text)
     if text.isascii():
         return text
-    pieces: list[str] = []
-    for character in text:
-        decomposed = unicodedata.normalize("NFD", character)
-        if decomposed[1:] in _DOT_PRIMES and decomposed[0] in _DOTTED:
-            pieces.append(decomposed[0] + _DOT_PRIMES[decomposed[1:]])
-        elif character in _DOT_PRIMES:
-            pieces.append(_DOT_PRIMES[character])
-        elif "₀" <= character <= "₉":
-            before = pieces[-1] if pieces else ""
-            index = str(ord(character) - ord("₀"))
-            pieces.append(index if before.isdigit() else f"_{index}")
-        else:
-            pieces.append(character)
+    text = _INDEX.sub(lambda found: "_" + unicodedata.normalize("NFKC", found[0]), text)
+    text = "".join(map(_with_primes, text))
     # A small Greek letter is a name of its own: two of them, or one and a Latin letter beside it, are factors.
-    return re.sub(r"(?<=[α-ω])(?=[A-Za-zα-ω])|(?<=[A-Za-z])(?=[α-ω])", " ", "".join(pieces))
+    return re.sub(r"(?<=[α-ω])(?=[A-Za-zα-ω])|(?<=[A-Za-z])(?=[α-ω])", " ", text)
 
 
+def _with_primes(character: str) -> str:
+    """A letter with a prime for each dot above it, dots that follow their letter as primes; others as they are."""
+    decomposed = unicodedata.normalize("NFD", character)
+    letter = decomposed[0]
+    dots = decomposed[1:]
+    if letter in _DOTTED and dots in _DOT_PRIMES:
+        return letter + _DOT_PRIMES[dots]
+    return _DOT_PRIMES.get(character, character)
+
+
+#: All lowered digits behind a letter are one index; behind a number they are none.
+_INDEX = re.compile(r"(?<=[^\W\d_])[₀-₉]+")
 #: Letters that functions have; others with dots are letters of an alphabet.
 _DOTTED = frozenset("xyzuvwqrsθφψ")
 _DOT_PRIMES = {"\u0307": "'", "\u0308": "''"}
