@@ -1,6 +1,7 @@
 """What tests build with, from one place: fields, polynomials, rational functions, equations, and texts that are read.
 
-A test that needs more of the inside than this says so by its imports.
+The parts of the inside that many tests ask are named here, too, so that a part that moves is renamed in one place; a test that
+needs more of the inside says so by its imports.
 
 >>> str(function("(x^2 + 3)/x"))
 '(x**2 + 3)/x'
@@ -22,21 +23,51 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.check import is_exact_solution
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.structure import Triangular
+from kovacic.enclosure.frame import make_frame
+from kovacic.enclosure.points import ExactPoint
+from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.system import System
+from kovacic.engine.places import analyse
+from kovacic.galois import Ground
+from kovacic.parameters import Conditions
 from kovacic.reading.read import read_input
+from kovacic.reading.symbolic import read_expression
+from kovacic.verify import verify
+from kovacic.views.plot import sample
 
 __all__ = [
     "QQ",
     "AlgebraicField",
+    "Atoms",
+    "Conditions",
     "Equation",
+    "ExactPoint",
     "Field",
     "FunctionField",
+    "Ground",
     "Poly",
     "RatFunc",
+    "System",
+    "Triangular",
+    "analyse",
+    "as_problem",
     "ball_to_flint",
     "equation",
+    "evaluate_states",
     "function",
+    "is_exact_solution",
+    "jet",
+    "make_frame",
     "parametrize",
+    "read_expression",
     "read_input",
+    "sample",
+    "verify",
 ]
 
 

@@ -17,7 +17,7 @@ import flint
 import pytest
 import strategies
 import transform
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, parametrize, verify
 from forged import forged_evidence
 from hypothesis import given, settings
 from published import Published, load
@@ -26,7 +26,7 @@ import kovacic
 from kovacic import Solution, Structure, checker
 from kovacic.decision import Decision, Exclusion, NoInvariant
 from kovacic.limits import Budget
-from kovacic.verify import GroupClaim, verify
+from kovacic.verify import GroupClaim
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.views.json import group_dict, to_dict
 

@@ -12,28 +12,19 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, Triangular, is_exact_solution, jet, parametrize
 from flint import acb, arb
 from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
 from kovacic import Limits
-from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
+from kovacic.closed_form.check import is_numerical_solution, residual
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.form import solutions
-from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
 from kovacic.closed_form.product import product
-from kovacic.closed_form.structure import (
-    Conjugate,
-    Diagonal,
-    OnCurve,
-    Triangular,
-    build,
-    curve_of,
-    logarithmic_derivative,
-)
+from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, build, curve_of, logarithmic_derivative
 
 X = RatFunc(QQ.poly([0, 1]))
 

@@ -9,20 +9,19 @@ from typing import Any
 import pytest
 import sympy
 import transform
-from build import QQ, AlgebraicField, Poly, RatFunc, parametrize
+from build import QQ, AlgebraicField, Atoms, Poly, RatFunc, Triangular, is_exact_solution, parametrize
 from flint import acb
 from sympy.abc import x
 
 import kovacic
 from kovacic.algebra.partial_fractions import decompose
-from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual, value_at
+from kovacic.closed_form.check import is_numerical_solution, residual, value_at
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.primitive import RationalPrimitive
 from kovacic.closed_form.product import product
 from kovacic.closed_form.real_pair import is_real_pair
-from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular
+from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO, ONE = RatFunc(QQ.poly([])), QQ.poly([1])

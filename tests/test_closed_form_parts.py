@@ -9,7 +9,7 @@ import flint
 import pytest
 import strategies
 import sympy
-from build import QQ, Poly, RatFunc, parametrize, read_input
+from build import QQ, Atoms, Poly, RatFunc, Triangular, is_exact_solution, jet, parametrize, read_input
 from flint import acb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -18,14 +18,11 @@ from sympy.abc import t, x
 import kovacic
 from kovacic import Structure
 from kovacic.algebra.partial_fractions import _reduce_at, decompose
-from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import is_exact_solution
 from kovacic.closed_form.curve import integrate_on_curve, unit
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.form import ClosedForm, solutions
 from kovacic.closed_form.integrals import logarithms
-from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import RATIOS, KleinForm
 from kovacic.closed_form.primitive import (
     OpenPrimitive,
@@ -33,7 +30,6 @@ from kovacic.closed_form.primitive import (
     integrate_inverse_square,
 )
 from kovacic.closed_form.product import product
-from kovacic.closed_form.structure import Triangular
 from kovacic.closed_form.torsion import completed
 
 X = RatFunc(QQ.poly([0, 1]))

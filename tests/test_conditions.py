@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, FunctionField, parametrize
+from build import QQ, Conditions, FunctionField, parametrize
 from clocks import controlled
 from flint import fmpz_mat
 from hypothesis import given, settings
@@ -20,7 +20,6 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import Limits, Structure
 from kovacic.galois.group import GroupKind
-from kovacic.parameters import Conditions
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import without_constant_pivots

@@ -8,10 +8,9 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import Conditions, parametrize
 
 import kovacic
-from kovacic.parameters import Conditions
 from kovacic.parametric.check import Sampler
 from tests.parametric_cases import FAMILIES, hypergeometric
 

@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 import pytest
 import scipy.special
-from build import QQ, RatFunc, ball_to_flint, parametrize
+from build import QQ, RatFunc, as_problem, ball_to_flint, evaluate_states, parametrize
 from published import load
 
 import kovacic
@@ -26,8 +26,6 @@ from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import omega
 from kovacic.enclosure.points import as_point
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.states import evaluate_states
 from kovacic.limits import CLOCK, bounded_work
 
 TETRAHEDRAL = "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)"

@@ -17,7 +17,7 @@ import flint
 import mpmath
 import pytest
 import sympy
-from build import parametrize
+from build import Atoms, jet, parametrize, read_expression
 from clocks import controlled
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -25,16 +25,13 @@ from sympy import I, Rational, cos, exp, log, sin, sqrt
 
 import kovacic
 from kovacic import dsolve, solve_riccati
-from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges
-from kovacic.closed_form.jets import jet
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis, DefiniteIntegral
 from kovacic.reading.read import read_input
-from kovacic.reading.symbolic import read_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")

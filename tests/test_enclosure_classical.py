@@ -8,17 +8,13 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import QQ, RatFunc, ball_to_flint, parametrize
+from build import QQ, ExactPoint, RatFunc, System, as_problem, ball_to_flint, evaluate_states, parametrize
 from flint import acb, ctx, fmpq
 
 from kovacic import AccuracyWarning, InputError, LimitExceeded, Limits, evaluate
 from kovacic.enclosure import classical
 from kovacic.enclosure.classical import NotServed, classical_of
 from kovacic.enclosure.matrices import product
-from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.states import evaluate_states
-from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.limits import Budget
 from kovacic.special import bessel, gauss

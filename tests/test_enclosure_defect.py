@@ -8,13 +8,12 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from build import parametrize
+from build import ExactPoint, System, make_frame, parametrize
 from flint import acb, acb_poly, arb
 
-from kovacic.enclosure.frame import GaussianParts, make_frame, shift
+from kovacic.enclosure.frame import GaussianParts, shift
 from kovacic.enclosure.frobenius import Majorant
-from kovacic.enclosure.points import ExactPoint, working_precision
-from kovacic.enclosure.system import System
+from kovacic.enclosure.points import working_precision
 from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
 
 Gauss = tuple[int, int]

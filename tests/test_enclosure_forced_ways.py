@@ -6,11 +6,10 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import parametrize
+from build import parametrize, sample
 
 import kovacic
 from kovacic.enclosure import jets
-from kovacic.views.plot import sample
 
 START = {"y0": 1, "dy0": "1/3"}
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import flint
 import pytest
-from build import ball_to_flint, parametrize
+from build import ExactPoint, System, ball_to_flint, evaluate_states, parametrize, sample
 from clocks import controlled
 
 import kovacic
@@ -28,11 +28,8 @@ from kovacic import (
 )
 from kovacic.doubles.lambdify import lambdify
 from kovacic.enclosure.frame import least_growth
-from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.states import evaluate_states
-from kovacic.enclosure.system import System, check_segment
+from kovacic.enclosure.system import check_segment
 from kovacic.enclosure.transport import cover
-from kovacic.views.plot import sample
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
 

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, sample
 
 import kovacic
 from kovacic import Ball
 from kovacic.cli.main import run
 from kovacic.doubles.curve import Arc
-from kovacic.views.plot import _Compressed, plot, sample
+from kovacic.views.plot import _Compressed, plot
 
 
 def test_samples_are_cut_at_singular_points_and_complex_beyond() -> None:

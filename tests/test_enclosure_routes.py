@@ -11,7 +11,7 @@ from typing import Any
 import flint
 import pytest
 import second_opinion
-from build import QQ, RatFunc, ball_to_flint, parametrize
+from build import QQ, Ground, RatFunc, as_problem, ball_to_flint, evaluate_states, parametrize
 from published import load
 from transform import from_omega, from_squared_difference
 
@@ -21,9 +21,7 @@ from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.closed_form import closed_form_of
 from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import identity, multiply
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.states import evaluate_states
-from kovacic.galois import Ground, Group, GroupKind
+from kovacic.galois import Group, GroupKind
 from kovacic.limits import Budget, bounded_work
 from kovacic.special.search import find
 

@@ -9,14 +9,12 @@ from typing import Any
 
 import pytest
 import sympy
-from build import ball_to_flint, parametrize
+from build import ExactPoint, as_problem, ball_to_flint, parametrize
 from flint import acb, arb, ctx, fmpq
 
 import kovacic
 from kovacic import Ball, InputError, connection_matrix, evaluate
 from kovacic.enclosure import frobenius
-from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.singular import Singular
 
 Value = Callable[[acb], acb]

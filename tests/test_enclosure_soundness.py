@@ -9,13 +9,12 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import ball_to_flint, parametrize
+from build import ball_to_flint, evaluate_states, parametrize
 from flint import acb, arb, ctx, fmpq
 
 from kovacic import InputError, connection_matrix, evaluate
 from kovacic.enclosure import transport
 from kovacic.enclosure.precision import Method
-from kovacic.enclosure.states import evaluate_states
 
 Function = Callable[[acb], acb]
 

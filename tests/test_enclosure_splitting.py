@@ -9,19 +9,15 @@ from itertools import pairwise
 
 import flint
 import pytest
-from build import ball_to_flint, parametrize
+from build import ExactPoint, System, as_problem, ball_to_flint, evaluate_states, make_frame, parametrize
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evaluate
 from kovacic.enclosure import transport
-from kovacic.enclosure.frame import Frame, make_frame
+from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
-from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.splitting import LEAF, Recurrence, bit_burst, is_split, make_block, split_legs
-from kovacic.enclosure.states import evaluate_states
-from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import expand, transition
 from kovacic.limits import Budget
 from tests.strategies import Example, examples, fractions, integers, nonzero

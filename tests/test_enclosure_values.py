@@ -14,7 +14,7 @@ from typing import Any
 import flint
 import mpmath
 import pytest
-from build import ball_to_flint, parametrize
+from build import ExactPoint, System, ball_to_flint, evaluate_states, make_frame, parametrize
 from flint import acb, acb_poly, fmpq_poly
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
@@ -22,13 +22,12 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import AccuracyWarning, Ball, InputError, LimitExceeded, Limits, connection_matrix, evaluate
 from kovacic.enclosure.ball import ball_from_flint
-from kovacic.enclosure.frame import make_frame, shift
+from kovacic.enclosure.frame import shift
 from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import product
-from kovacic.enclosure.points import ExactPoint, as_point
+from kovacic.enclosure.points import as_point
 from kovacic.enclosure.precision import Method
-from kovacic.enclosure.states import evaluate_states
-from kovacic.enclosure.system import System, check_segment, distance_lower
+from kovacic.enclosure.system import check_segment, distance_lower
 from kovacic.enclosure.transport import cover, piece_matrices
 from kovacic.limits import Budget
 

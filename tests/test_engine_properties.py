@@ -18,7 +18,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Poly, RatFunc, function, parametrize
+from build import QQ, AlgebraicField, Poly, RatFunc, function, parametrize, verify
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -37,7 +37,6 @@ from kovacic.decision import (
     Rule,
     SemiInvariant,
 )
-from kovacic.verify import verify
 
 FAMILIES = list(strategies.GENERATORS)
 LONG_RUN = int(os.environ.get("KOVACIC_FUZZ", "20000"))

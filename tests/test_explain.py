@@ -15,13 +15,12 @@ import published
 import pytest
 import strategies
 import sympy
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, analyse, parametrize
 from hypothesis import given, settings
 
 import kovacic
 from kovacic.cli.main import run
 from kovacic.engine.paper import Search, _Roots, in_sympy, is_natural, search
-from kovacic.engine.places import analyse
 from kovacic.limits import CLOCK, Budget
 from kovacic.views.explain import rational_form
 from kovacic.views.sentences import formulas_of, normal_form

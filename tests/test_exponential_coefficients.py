@@ -10,11 +10,10 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from build import parametrize, read_input
+from build import parametrize, read_input, sample
 
 import kovacic
 from kovacic.cli import main
-from kovacic.views.plot import sample
 from kovacic.views.text import render
 
 F = Fraction

@@ -14,7 +14,7 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, AlgebraicField, Equation, Field, RatFunc, parametrize
+from build import QQ, AlgebraicField, Equation, Field, Ground, RatFunc, analyse, parametrize, verify
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -24,13 +24,12 @@ from kovacic import checker
 from kovacic.decision import CurveFunction, NoInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Kind as PlaceKind
-from kovacic.engine.places import Problem, analyse
-from kovacic.galois import Ground, Group, GroupKind
+from kovacic.engine.places import Problem
+from kovacic.galois import Group, GroupKind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of
 from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget
-from kovacic.verify import verify
 
 X = RatFunc(QQ.poly([0, 1]))
 

@@ -6,13 +6,12 @@ from fractions import Fraction
 
 import pytest
 import transform
-from build import QQ, RatFunc
+from build import QQ, RatFunc, analyse
 
 import kovacic
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.invariants import bounds, invariants, invariants_modulo, least_valuation
-from kovacic.engine.places import analyse
 from kovacic.engine.riccati import Form, hessian, jacobian
 from kovacic.limits import Budget
 from kovacic.verify import forms, local

@@ -10,16 +10,14 @@ from functools import cache
 import pytest
 import sympy
 import transform
-from build import QQ, RatFunc, parametrize
+from build import QQ, Conditions, RatFunc, analyse, parametrize
 from clocks import controlled
 from sympy.abc import n, x
 
 import kovacic
 from kovacic import LimitExceeded, Limits, Solution
 from kovacic.cli.main import run
-from kovacic.engine.places import analyse
 from kovacic.limits import Budget, check_time, limited, watched_seconds
-from kovacic.parameters import Conditions
 from kovacic.verify.local import points
 from kovacic.writing.formula import Formulas
 

@@ -9,12 +9,11 @@ from random import Random
 
 import pytest
 import sympy
-from build import parametrize
+from build import Conditions, parametrize
 
 import kovacic
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.parameters import Conditions
 from kovacic.parametric.formulas import root_written, written
 from tests.parametric_formulas import all_families, equation_of, misread, wrong_solutions
 

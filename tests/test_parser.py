@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, RatFunc, parametrize, read_input
+from build import QQ, RatFunc, parametrize, read_expression, read_input
 from expressions import Expression, expressions
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -21,7 +21,6 @@ from kovacic.reading.lexer import tokenize
 from kovacic.reading.notation import plain
 from kovacic.reading.parser import Site, evaluate
 from kovacic.reading.pasted import unwrapped
-from kovacic.reading.symbolic import read_expression
 
 # Far from every root that the small numbers of the strategies produce.
 POINTS = (Fraction(10007, 13), Fraction(-9973, 17))

@@ -11,12 +11,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from build import parametrize
+from build import ExactPoint, parametrize
 from flint import acb, arb, arb_poly, fmpq
 
 import kovacic
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State
-from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.way import Local, Way
 from kovacic.limits import bounded_work
 

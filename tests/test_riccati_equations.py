@@ -7,11 +7,10 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, read_expression
 from sympy import Rational, airyai, airybi, cos, erf, exp, log, sin
 
 import kovacic
-from kovacic.reading.symbolic import read_expression
 
 x, C1, a = sympy.symbols("x C1 a")
 w = sympy.Function("w")

@@ -7,7 +7,7 @@ from math import inf
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, read_expression
 from potentials import MORE, QUASI, TABLE, Solvable
 from scipy.integrate import quad
 from shooting import is_level, zeros
@@ -15,7 +15,6 @@ from shooting import is_level, zeros
 import kovacic
 from kovacic.bound_states.answer import Spectrum
 from kovacic.cli.main import run
-from kovacic.reading.symbolic import read_expression
 
 x, n = sympy.symbols("x n")
 HALF = (0, "oo")

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, read_expression
 
 import kovacic
-from kovacic.reading.symbolic import read_expression
 
 EQUATIONS: list[tuple[str, tuple[str, ...] | None]] = [
     # constant coefficients

@@ -15,7 +15,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, RatFunc
+from build import QQ, AlgebraicField, Ground, RatFunc, analyse, verify
 from flint import nmod_poly
 from forged import forged_evidence, primes_with_a_root
 from hypothesis import assume, example, given, settings
@@ -26,11 +26,9 @@ from kovacic import InputError, LimitExceeded, Limits, Structure, VerificationFa
 from kovacic.algebra.modular import rational_function_from_series
 from kovacic.decision import NoInvariant, NoRationalOmega, Rule, SemiInvariant
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
-from kovacic.engine.places import analyse
-from kovacic.galois import Ground
 from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget
-from kovacic.verify import GroupClaim, verify
+from kovacic.verify import GroupClaim
 from kovacic.verify.division import backwards, inverse, quotient
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import is_a_field, is_irreducible
