@@ -2,10 +2,11 @@
 
 In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api` first.  One step a module:
 
+0. `question`: the potential, the domain and the assumptions as they were given;
 1. `ends`: how many solutions are square integrable at each end; `signs`: what is known of the sign of an expression;
 2. `frame`: the coordinates z(x) in which the equation may be a standard one;
 3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E,
-   `waves` writes the solutions and their norms, `ranges` the conditions;
+   `waves` writes the solutions and their norms, `ranges` the conditions, `sequence` makes one of even and odd levels;
 4. `quasi`: where no formula is known, levels one degree at a time; `liouvillian`: are these all with a closed form?
 5. `answer`: what is returned.
 """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -134,7 +134,8 @@ class Spectrum:
     def is_decided(self) -> bool:
         """Were all eigenvalues found, or some, or those with a closed form, or that a boundary condition is missing?"""
         is_proven = self.complete or self.closed_forms_complete
-        return is_proven or bool(self.levels or self.algebraic) or self.needs_boundary_condition
+        has_levels = bool(self.levels or self.algebraic)
+        return is_proven or has_levels or self.needs_boundary_condition
 
     def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[BoundState, ...]:
         """The lowest levels at exact values of the parameters, at most `count` of each formula, by their energies.
@@ -162,10 +163,7 @@ class Spectrum:
         """
         count = whole(count, "count")
         at = self._symbols_at(values or {})
-        for relation in self.excluded:
-            if _is_true(relation, at):
-                hint = "no boundary condition is distinguished" if self.boundary else 'boundary="friedrichs"'
-                raise InputError("both solutions are square integrable at an end", hint=hint)
+        self._check_admitted(at)
         found: dict[Any, BoundState] = {}
         for levels in self.levels:
             for state in _states_of(levels, at, count):
@@ -174,12 +172,19 @@ class Spectrum:
             found.update((state.energy, state) for state in one.states)
         return tuple(sorted(found.values(), key=lambda state: state.energy))
 
+    def _check_admitted(self, at: Mapping[Any, Any]) -> None:
+        """Raises `InputError` for values that the spectrum excludes."""
+        for relation in self.excluded:
+            if _is_true(relation, at):
+                hint = "no boundary condition is distinguished" if self.boundary else 'boundary="friedrichs"'
+                raise InputError("both solutions are square integrable at an end", hint=hint)
+
     def _symbols_at(self, values: Mapping[Any, Any]) -> dict[Any, Any]:
         """The values by symbols.  Raises `InputError` where one is missing, unknown, not real or not admitted."""
         given = {str(name): read_expression(exact_text(v, "the value of a parameter")) for name, v in values.items()}
         if {*given} != {*self.parameters}:
-            missing = ", ".join(name for name in self.parameters if name not in given) or "none"
-            unknown = ", ".join(name for name in given if name not in self.parameters) or "none"
+            missing = _listed(self.parameters, given)
+            unknown = _listed(given, self.parameters)
             raise InputError("values are needed for the parameters", hint=f"missing: {missing}; unknown: {unknown}")
         for name, value in given.items():
             if value.is_real is False:
@@ -222,7 +227,8 @@ class Spectrum:
         for algebraic in self.algebraic:
             lines += _algebraic_lines(algebraic, self.energy)
         lines += [f"  {line}" for line in self._conclusion]
-        if hint := self.shell if shell else self.hint:
+        hint = self.shell if shell else self.hint
+        if hint:
             lines.append(f"  hint: {hint}")
         return visible("\n".join(lines))
 
@@ -268,16 +274,9 @@ class Spectrum:
         """
         rows = []
         for levels in self.levels:
-            n = as_latex(levels.number)
-            conditions = r",\; ".join(as_latex(c) for c in levels.conditions)
-            rows.append(rf"{self.energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = 0, 1, 2, \ldots")
-            rows.append(rf"y_{{{n}}} &= {as_latex(levels.wave)}")
-            if conditions:
-                rows.append(rf"&{conditions}")
+            rows += _latex_rows(levels, self.energy)
         for algebraic in self.algebraic:
-            rows.append(rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0")
-            if algebraic.constraint != 0:
-                rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
+            rows += _algebraic_latex_rows(algebraic)
         if not rows:
             rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
@@ -310,28 +309,8 @@ class Spectrum:
             "boundary": self.boundary,
             "ends": [*self.ends],
             "excluded": [*map(_relation, self.excluded)],
-            "levels": [
-                {
-                    "number": str(levels.number),
-                    "energy": _text(levels.energy),
-                    "wave": _text(levels.wave),
-                    "conditions": [*map(_relation, levels.conditions)],
-                    "zeros": _text(levels.zeros),
-                    "norm": None if levels.norm is None else _text(levels.norm),
-                }
-                for levels in self.levels
-            ],
-            "algebraic": [
-                {
-                    "degree": one.degree,
-                    "constraint": _text(one.constraint),
-                    "polynomial": _text(one.polynomial),
-                    "wave": _text(one.wave),
-                    "conditions": [*map(_relation, one.conditions)],
-                    "states": [{"energy": _text(s.energy), "zeros": s.zeros} for s in one.states],
-                }
-                for one in self.algebraic
-            ],
+            "levels": [_levels_dict(levels) for levels in self.levels],
+            "algebraic": [_algebraic_dict(one) for one in self.algebraic],
             "complete": self.complete,
             "closed_forms_complete": self.closed_forms_complete,
             "reason": self.reason,
@@ -362,7 +341,8 @@ def _is_admitted(known: Known, value: Any) -> bool:
     """Does a real number have the properties that are assumed?"""
     for bound in known.bounds:
         distance = bound.sign * (value - sympy.Rational(bound.end.numerator, bound.end.denominator))
-        if not (distance.is_positive or (distance.is_zero and not bound.strict)):
+        is_at_the_end = distance.is_zero and not bound.strict
+        if not (distance.is_positive or is_at_the_end):
             return False
     if known.coset is not None:
         return bool(value.is_Rational) and known.coset.contains(Fraction(int(value.p), int(value.q)))
@@ -391,32 +371,91 @@ def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
     return bool(found)
 
 
+def _listed(names: Iterable[str], others: Container[str]) -> str:
+    """The names that aren't among the others."""
+    return ", ".join(name for name in names if name not in others) or "none"
+
+
+def _levels_dict(levels: Levels) -> dict[str, Any]:
+    norm = None if levels.norm is None else _text(levels.norm)
+    return {
+        "number": str(levels.number),
+        "energy": _text(levels.energy),
+        "wave": _text(levels.wave),
+        "conditions": [*map(_relation, levels.conditions)],
+        "zeros": _text(levels.zeros),
+        "norm": norm,
+    }
+
+
+def _algebraic_dict(algebraic: Algebraic) -> dict[str, Any]:
+    return {
+        "degree": algebraic.degree,
+        "constraint": _text(algebraic.constraint),
+        "polynomial": _text(algebraic.polynomial),
+        "wave": _text(algebraic.wave),
+        "conditions": [*map(_relation, algebraic.conditions)],
+        "states": [{"energy": _text(state.energy), "zeros": state.zeros} for state in algebraic.states],
+    }
+
+
+def _latex_rows(levels: Levels, energy: str) -> list[str]:
+    n = as_latex(levels.number)
+    rows = [
+        rf"{energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = 0, 1, 2, \ldots",
+        rf"y_{{{n}}} &= {as_latex(levels.wave)}",
+    ]
+    if levels.conditions:
+        conditions = r",\; ".join(as_latex(c) for c in levels.conditions)
+        rows.append(rf"&{conditions}")
+    return rows
+
+
+def _algebraic_latex_rows(algebraic: Algebraic) -> list[str]:
+    rows = [rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0"]
+    if algebraic.constraint != 0:
+        rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
+    return rows
+
+
 def _lines(levels: Levels, energy: str) -> list[str]:
+    """The energy with its conditions, the wave function or its two pieces, the zeros and the norm."""
     n = levels.number
-    conditions = ", ".join(_relation(c) for c in levels.above)
-    where = ", ".join(_relation(c) for c in levels.where)
-    numbers = f"{n} = 0, 1, 2, ..." + (f" with {conditions}" if conditions else "")
-    lines = [f"  {energy}_{n} = {_text(levels.energy)}, {numbers}" + (f", where {where}" if where else "")]
-    waves = [levels.wave]
+    first = f"{energy}_{n} = {_text(levels.energy)}, {n} = 0, 1, 2, ..."
+    if levels.above:
+        first += f" with {_joined(levels.above)}"
+    if levels.where:
+        first += f", where {_joined(levels.where)}"
+    lines = [f"  {first}"]
     if levels.wave.is_Piecewise:
-        waves = [piece for piece, _ in levels.wave.args]
-    kinds = [""] if len(waves) == 1 else [f" ({n} even)", f" ({n} odd)"]
-    lines += [f"      y_{n} = {_text(wave)}{kind}" for wave, kind in zip(waves, kinds, strict=True)]
-    lines.append(
-        f"      {_text(levels.zeros)} zeros" + ("" if levels.norm is None else f", norm^2 = {_text(levels.norm)}")
-    )
+        (even, _), (odd, _) = levels.wave.args
+        lines.append(f"      y_{n} = {_text(even)} ({n} even)")
+        lines.append(f"      y_{n} = {_text(odd)} ({n} odd)")
+    else:
+        lines.append(f"      y_{n} = {_text(levels.wave)}")
+    last = f"{_text(levels.zeros)} zeros"
+    if levels.norm is not None:
+        last += f", norm^2 = {_text(levels.norm)}"
+    lines.append(f"      {last}")
     return lines
 
 
+def _joined(relations: Iterable[Any]) -> str:
+    return ", ".join(map(_relation, relations))
+
+
 def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
-    demands = [] if algebraic.constraint == 0 else [f"{_text(algebraic.constraint)} = 0"]
-    demands += map(_relation, algebraic.conditions)
-    where = f" where {', '.join(demands)}" if demands else ""
-    lines = [
-        f"  d = {algebraic.degree}{where}: {_text(algebraic.polynomial)} = 0",
-        f"      y = {_text(algebraic.wave)}",
-    ]
-    lines += [f"      {energy} = {_text(s.energy)}: {s.zeros} zero{'s' * (s.zeros != 1)}" for s in algebraic.states]
+    """The equation for the energies with its conditions, the wave function, and the levels that are known."""
+    first = f"d = {algebraic.degree}"
+    demands = [*map(_relation, algebraic.conditions)]
+    if algebraic.constraint != 0:
+        demands.insert(0, f"{_text(algebraic.constraint)} = 0")
+    if demands:
+        first += f" where {', '.join(demands)}"
+    lines = [f"  {first}: {_text(algebraic.polynomial)} = 0", f"      y = {_text(algebraic.wave)}"]
+    for state in algebraic.states:
+        zeros = "1 zero" if state.zeros == 1 else f"{state.zeros} zeros"
+        lines.append(f"      {energy} = {_text(state.energy)}: {zeros}")
     return lines
 
 

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
@@ -38,46 +38,62 @@ class DarbouxStep:
     is_level: bool
 
 
+class _Regular(NamedTuple):
+    """A pole c of V with the exponents (1 +- delta)/2."""
+
+    c: Any
+    delta: Any
+
+
+class _Poles(NamedTuple):
+    """The factors at whose roots V ~ 2/(x - c)^2, and the other poles."""
+
+    apparent: list[Any]
+    regular: list[_Regular]
+
+
 def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[DarbouxStep]:
     """The transformations that remove all of the apparent poles, for V = alpha x^2 + ... in real symbols."""
     V = sympy.cancel(sympy.together(V))
-    parts = _poles(V, x)
-    if parts is None or not parts[0]:
+    poles = _poles(V, x)
+    if poles is None or not poles.apparent:
         return
-    apparent, regular = parts
-    quotient = sympy.div(*(sympy.Poly(part, x) for part in sympy.fraction(V)))[0]
-    if quotient.degree() != 2 or not (first_is_sign := signs.sign(quotient.LC())) or first_is_sign < 0:
+    line = _line(V, x, signs)
+    if line is None:
         return
+    q = sympy.Mul(*poles.apparent)
+    for sign, signs_of_delta in product((-1, 1), product((1, -1), repeat=len(poles.regular))):
+        exponents = [(1 + s * delta) / 2 for s, (_, delta) in zip(signs_of_delta, poles.regular, strict=True)]
+        terms = [e / (x - c) for e, (c, _) in zip(exponents, poles.regular, strict=True)]
+        W = sympy.together(-sympy.diff(q, x) / q + sympy.Add(*terms) + sign * line)
+        energy = sympy.cancel(sympy.together(V - W**2 - sympy.diff(W, x)))
+        if energy.has(x):
+            continue
+        powers = [(x - c) ** e for e, (c, _) in zip(exponents, poles.regular, strict=True)]
+        wave = sympy.Mul(*powers) * sympy.exp(sympy.integrate(sign * line, x)) / q
+        is_level = _is_level(sign, dict(zip(poles.regular, exponents, strict=True)), domain, signs)
+        if is_level is not None:
+            yield DarbouxStep(W, energy, wave, is_level)
+
+
+def _line(V: Any, x: Any, signs: Signs) -> Any:
+    """kappa x + beta/(2 kappa) for V = kappa^2 x^2 + beta x + ... with kappa^2 > 0; None for other V."""
+    num, den = sympy.fraction(V)
+    quotient, _ = sympy.div(sympy.Poly(num, x), sympy.Poly(den, x))
+    if quotient.degree() != 2 or signs.sign(quotient.LC()) != 1:
+        return None
     kappa = exact_root(quotient.LC()) or sympy.sqrt(quotient.LC())
-    line = kappa * x + quotient.coeff_monomial(x) / (2 * kappa)
-    q = sympy.Mul(*apparent)
-    options = [[(1 + delta) / 2, (1 - delta) / 2] for _, delta in regular]
-    for sign in (-1, 1):
-        for exponents in product(*options):
-            terms = [e / (x - c) for e, (c, _) in zip(exponents, regular, strict=True)]
-            W = sympy.together(-sympy.diff(q, x) / q + sympy.Add(*terms) + sign * line)
-            energy = sympy.cancel(sympy.together(V - W**2 - sympy.diff(W, x)))
-            if energy.has(x):
-                continue
-            powers = [(x - c) ** e for e, (c, _) in zip(exponents, regular, strict=True)]
-            wave = sympy.Mul(*powers) * sympy.exp(sympy.integrate(sign * line, x)) / q
-            known = _is_level(sign, exponents, regular, domain, signs)
-            if known is not None:
-                yield DarbouxStep(W, energy, wave, known)
+    return kappa * x + quotient.coeff_monomial(x) / (2 * kappa)
 
 
-def _poles(V: Any, x: Any) -> tuple[list[Any], list[tuple[Any, Any]]] | None:
-    """The factors at whose roots V ~ 2/(x - c)^2, and the other poles with delta^2 = 1 + 4 b; None for others."""
-    apparent: list[Any] = []
-    regular: list[tuple[Any, Any]] = []
+def _poles(V: Any, x: Any) -> _Poles | None:
+    """Those of V; None where there are others."""
+    poles = _Poles([], [])
     for factor, multiplicity in sympy.factor_list(sympy.denom(V), x)[1]:
         if multiplicity != 2:
             return None
-        numerator = sympy.cancel(V * factor**2)
-        above, below = sympy.fraction(sympy.together(numerator))
-        residue = sympy.rem(above - 2 * sympy.diff(factor, x) ** 2 * below, factor, x)
-        if sympy.expand(residue) == 0:
-            apparent.append(factor)
+        if _is_apparent(factor, V, x):
+            poles.apparent.append(factor)
             continue
         if sympy.degree(factor, x) > 1:
             return None
@@ -86,24 +102,28 @@ def _poles(V: Any, x: Any) -> tuple[list[Any], list[tuple[Any, Any]]] | None:
         delta = exact_root(sympy.factor(1 + 4 * b))
         if delta is None:
             return None
-        regular.append((c, delta))
-    return apparent, regular
+        poles.regular.append(_Regular(c, delta))
+    return poles
 
 
-def _is_level(
-    sign: int, exponents: tuple[Any, ...], regular: list[tuple[Any, Any]], domain: tuple[Any, Any], signs: Signs
-) -> bool | None:
-    """Is y0 the smaller solution at both ends?  None where that isn't known."""
+def _is_apparent(factor: Any, V: Any, x: Any) -> bool:
+    """Is V ~ 2/(x - c)^2 at the roots of the factor f, where V f^2 = 2 f'^2 mod f?"""
+    above, below = sympy.fraction(sympy.together(sympy.cancel(V * factor**2)))
+    remainder = sympy.rem(above - 2 * sympy.diff(factor, x) ** 2 * below, factor, x)
+    return bool(sympy.expand(remainder) == 0)
+
+
+def _is_level(sign: int, exponents: dict[_Regular, Any], domain: tuple[Any, Any], signs: Signs) -> bool | None:
+    """Is y0 = exp(sign kappa x^2/2) ... the smaller solution at both ends?  None where that isn't known."""
     if sign > 0 and any(end.is_infinite for end in domain):
         return False
     for end in domain:
         if end.is_infinite:
             continue
-        at = [(e, delta) for e, (c, delta) in zip(exponents, regular, strict=True) if sympy.simplify(c - end) == 0]
-        if not at:
+        exponent = next((e for pole, e in exponents.items() if sympy.simplify(pole.c - end) == 0), None)
+        if exponent is None:
             return None
-        e, _ = at[0]
-        excess = signs.sign(2 * e - 1)
+        excess = signs.sign(2 * exponent - 1)
         if excess is None:
             return None
         if excess < 0:

@@ -13,13 +13,17 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.energies import exact_root
-from kovacic.bound_states.frame import SLOPES, Original, Uncovered, is_between
+from kovacic.bound_states.frame import SLOPES, Original, RealPotential, Uncovered, is_between
+from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
-from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.numerals import as_text
 from kovacic.writing.formula import caret
+
+_DECAYS = "V -> oo, one solution decays"
+#: How far from an end, in theta, the sign of a local coordinate is read off.
+_STEP = sympy.Rational(1, 1000)
 
 
 @dataclass(frozen=True)
@@ -44,35 +48,51 @@ class End:
     is_ordinary: bool = False
 
 
-def potential_in_t(S: Any, equation: Equation | None, original: Original, E: Any, t: Any, signs: Signs) -> Any:
-    """V as a function of t."""
+def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:
+    """V as a function of t, which may be complex here."""
+    signs = question.signs
+    parsed = question.parsed
+    equation = parsed.equation
+    t = sympy.Symbol(parsed.variable)
     if equation is None or equation.change is None:
-        return sympy.cancel(S + E)
+        S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
+        return RealPotential(sympy.cancel(S + question.E), original, t)
     quotient = equation.c / equation.a
     c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
-    return sympy.cancel(E - SLOPES[original.kind](t) * original.rate**2 * c)
+    V = sympy.cancel(question.E - SLOPES[original.kind](t) * original.rate**2 * c)
+    return RealPotential(V, original, t)
 
 
-def check_inside(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs) -> None:
+def check_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
     """Raises `InputError` where V has a pole inside the domain, and `Uncovered` where that isn't known."""
-    denominator = sympy.Poly(sympy.denom(V), t)
-    points = real_zeros(denominator, signs)
-    if original.kind == "tan" and sympy.degree(sympy.numer(V), t) > denominator.degree():
-        points.append(sympy.oo)
-    angles = [original.theta_at(end, signs) for end in domain] if points else []
-    inside = []
-    for point in points:
-        found = [a for a in _angles(original.kind, point, angles) if is_between(a, angles[0], angles[1], signs)]
-        inside += [(angle - original.offset) / original.rate for angle in found]
+    x = real.original.x
+    inside = _poles_inside(real, domain, signs)
     if not inside:
         return
-    message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
+    message = f"V isn't regular at {x} = {caret(as_text(inside[0]))}, inside the domain"
     hint = "choose a domain without a pole inside"
     last = _last(inside, signs)
     if last is None:
         raise InputError(message, hint=hint)
     python, shell = domain_as_given(last, domain[1])
     raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
+
+
+def _poles_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
+    """The values of x inside the domain at which V has a pole."""
+    original = real.original
+    denominator = sympy.Poly(sympy.denom(real.V), real.t)
+    points = real_zeros(denominator, signs)
+    if original.kind == "tan" and sympy.degree(sympy.numer(real.V), real.t) > denominator.degree():
+        points.append(sympy.oo)
+    if not points:
+        return []
+    first, last = (original.theta_at(end, signs) for end in domain)
+    inside = []
+    for point in points:
+        found = [a for a in _angles(original.kind, point, (first, last)) if is_between(a, first, last, signs)]
+        inside += [(angle - original.offset) / original.rate for angle in found]
+    return inside
 
 
 def _last(points: list[Any], signs: Signs) -> Any:
@@ -85,13 +105,19 @@ def _last(points: list[Any], signs: Signs) -> Any:
 
 def domain_as_given(first: Any, last: Any) -> tuple[str, str]:
     """How a domain is given in Python and at the command line."""
-    ends = [end if end.is_infinite else sympy.simplify(end) for end in (first, last)]
-    texts = [caret(as_text(end)) for end in ends]
-    quoted = [text if end.is_Integer else f'"{text}"' for end, text in zip(ends, texts, strict=True)]
-    options = [f"--from {quoted[0]}"]
+    start = _as_given(first)
+    stop = _as_given(last)
+    options = f"--from {start}"
     if last != sympy.oo:
-        options.append(f"--to {quoted[1]}")
-    return f"domain=({', '.join(quoted)})", " ".join(options)
+        options = f"{options} --to {stop}"
+    return f"domain=({start}, {stop})", options
+
+
+def _as_given(end: Any) -> str:
+    """An integer as it is, everything else as text in quotes."""
+    shown = end if end.is_infinite else sympy.simplify(end)
+    text = caret(as_text(shown))
+    return text if shown.is_Integer else f'"{text}"'
 
 
 def real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
@@ -107,56 +133,111 @@ def real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
     return [root for root in roots if root.is_real]
 
 
-def _angles(kind: str, point: Any, ends: list[Any]) -> list[Any]:
-    """The real angles at which t has a value."""
-    single = {"x": lambda v: v, "sinh": sympy.asinh}
-    if kind in single:
-        return [single[kind](point)]
+def _angles(kind: str, point: Any, ends: tuple[Any, Any]) -> list[Any]:
+    """The real angles at which t has a value; for a sine, cosine or tangent those near the domain and between its ends."""
+    if kind == "x":
+        return [point]
+    if kind == "sinh":
+        return [sympy.asinh(point)]
     if kind == "exp":
-        return [sympy.log(point)] if point.is_positive is not False else []
+        return [] if point.is_positive is False else [sympy.log(point)]
     if kind == "cosh":
-        return [sign * sympy.acosh(point) for sign in (1, -1)] if sympy.acosh(point).is_real is not False else []
-    inverse = {"cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[kind]
-    first = inverse(point) if point != sympy.oo else sympy.pi / 2
-    if first.is_real is False:
-        return []
-    others = {"cos": -first, "sin": sympy.pi - first, "tan": first + sympy.pi}[kind]
+        angle = sympy.acosh(point)
+        return [] if angle.is_real is False else [angle, -angle]
+    in_a_period = _angles_in_a_period(kind, point)
     lowest = sympy.floor(min(ends) / (2 * sympy.pi)) - 1
     number = int(sympy.ceiling((max(ends) - min(ends)) / (2 * sympy.pi))) + 3
-    return [angle + 2 * sympy.pi * (lowest + k) for angle in dict.fromkeys((first, others)) for k in range(number)]
+    return [angle + 2 * sympy.pi * (lowest + k) for angle in in_a_period for k in range(number)]
 
 
-def end_of(V: Any, original: Original, domain: tuple[Any, Any], t: Any, signs: Signs, *, is_right: bool) -> End:
-    """An end of the domain; the potential is a function of t."""
-    other, at = domain if is_right else domain[::-1]
-    distance = at - original.x if is_right else original.x - at
-    point, mu, direction, end = _end_of(V, original, at, other, distance, t, signs)
-    return replace(end, domain=domain, is_right=is_right, point=point, mu=mu, direction=direction)
+def _angles_in_a_period(kind: str, point: Any) -> list[Any]:
+    """The two real angles in a period 2 pi at which the sine, cosine or tangent has a value, or one, or none."""
+    inverse = {"cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[kind]
+    first = sympy.pi / 2 if point == sympy.oo else inverse(point)
+    if first.is_real is False:
+        return []
+    second = {"cos": -first, "sin": sympy.pi - first, "tan": first + sympy.pi}[kind]
+    return [*dict.fromkeys((first, second))]
 
 
-def _end_of(
-    V: Any, original: Original, at: Any, other: Any, distance: Any, t: Any, signs: Signs
-) -> tuple[Any, int, int, End]:
+@dataclass(frozen=True)
+class _Place:
+    """An end of the domain as a point t = `point` with the local coordinate u: t = point + u, or 1/u.
+
+    `slope` is (du/dx)^2 ~ u^mu, and V ~ strength u^(-pole).  `direction` is the sign of u inside the domain, and
+    `distance` that of x from the end, as it is written.
+    """
+
+    at: Any
+    x: Any
+    distance: Any
+    point: Any
+    u: Any
+    slope: Any
+    mu: int
+    pole: int
+    strength: Any
+    direction: int
+
+    @property
+    def where(self) -> str:
+        """The end, as it is said."""
+        shown = str(self.at) if self.at.is_infinite else caret(as_text(self.at))
+        return f"{self.x} -> {shown}"
+
+    @property
+    def inside(self) -> Any:
+        """The strength for |u|: that of V inside the domain."""
+        return self.strength * self.direction ** abs(self.pole)
+
+
+def end_of(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_right: bool) -> End:
+    """An end of the domain."""
+    place = _place(real, domain, signs, is_right=is_right)
+    if place.at.is_infinite:
+        end = _infinite(place, signs)
+    elif place.pole > 2 - place.mu:
+        end = _unbounded(place, signs)
+    else:
+        end = _finite(place, signs)
+    return replace(end, domain=domain, is_right=is_right, point=place.point, mu=place.mu, direction=place.direction)
+
+
+def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_right: bool) -> _Place:
+    """The end in its local coordinate."""
+    original = real.original
+    first, last = domain
+    if is_right:
+        at = last
+        other = first
+        distance = last - original.x
+    else:
+        at = first
+        other = last
+        distance = original.x - first
     point = original.at(at, signs)
     u = sympy.Dummy("u")
-    value = 1 / u if point == sympy.oo else point + u
-    slope = sympy.cancel(SLOPES[original.kind](value) * original.rate**2 * (u**4 if point == sympy.oo else 1))
-    mu = _order(slope, u)
-    local = sympy.cancel(V.xreplace({t: value}))
-    order, strength = _leading(local, u)
-    direction = _side(original, at, other, point, signs)
-    inside = strength * direction ** abs(order)
-    if at.is_infinite:
-        end = _infinite(at, original.x, mu, -order, inside, signs)
-    elif -order > 2 - mu:
-        end = _irregular(at, original, inside, signs)
+    if point == sympy.oo:
+        t = 1 / u
+        dt_du_squared = u**-4
     else:
-        end = _finite(at, original, distance, mu, -order, strength, slope, u, signs)
-    return point, mu, direction, end
-
-
-def _order(function: Any, u: Any) -> int:
-    return _leading(function, u)[0]
+        t = point + u
+        dt_du_squared = sympy.Integer(1)
+    slope = sympy.cancel(SLOPES[original.kind](t) * original.rate**2 / dt_du_squared)
+    mu, _ = _leading(slope, u)
+    order, strength = _leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
+    return _Place(
+        at,
+        original.x,
+        distance=distance,
+        point=point,
+        u=u,
+        slope=slope,
+        mu=mu,
+        pole=-order,
+        strength=strength,
+        direction=_side(original, at, other, point, signs),
+    )
 
 
 def _leading(function: Any, u: Any) -> tuple[int, Any]:
@@ -164,99 +245,116 @@ def _leading(function: Any, u: Any) -> tuple[int, Any]:
     num, den = (sympy.Poly(part, u) for part in sympy.fraction(sympy.together(function)))
     if num.is_zero:
         return 0, sympy.Integer(0)
-    above = num.terms()[-1]
-    below = den.terms()[-1]
-    return above[0][0] - below[0][0], sympy.factor(above[1] / below[1])
+    (above,), top = num.terms()[-1]
+    (below,), bottom = den.terms()[-1]
+    return above - below, sympy.factor(top / bottom)
 
 
 def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> int:
     """The sign of the local coordinate of t on the domain, near this end."""
     kind = original.kind
-    is_left = at == -sympy.oo or other == sympy.oo or (at != sympy.oo and signs.sign(other - at) == 1)
-    if kind in ("exp", "cosh") and point in (0, sympy.oo):
-        return 1
+    if kind == "cosh" or (kind == "exp" and point in (0, sympy.oo)):
+        return 1  # t > 0, and t > 1 for the hyperbolic cosine
+    is_left = _is_left(at, other, signs)
     if kind in ("x", "exp", "sinh"):
         sign = signs.sign(original.rate)
         if sign is None:
             raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
-        return sign * (1 if is_left != at.is_infinite else -1)
-    if kind == "cosh":
-        return 1
+        is_above = is_left != at.is_infinite
+        return sign if is_above else -sign
     angle = original.theta_at(at, signs)
     if not angle.is_number:
         raise Uncovered(f"the end {at} isn't a multiple of pi/({original.rate})")
-    value = getattr(sympy, kind)(angle + (1 if is_left else -1) * sympy.Rational(1, 1000))
-    distance = 1 / value if point == sympy.oo else value - point
-    return 1 if distance > 0 else -1
+    step = _STEP if is_left else -_STEP
+    t = getattr(sympy, kind)(angle + step)
+    local = 1 / t if point == sympy.oo else t - point
+    return 1 if local > 0 else -1
 
 
-def _infinite(at: Any, x: Any, mu: int, j: int, strength: Any, signs: Signs) -> End:
-    where = f"{x} -> {at}"
-    if j < 0 or strength == 0:
+def _is_left(at: Any, other: Any, signs: Signs) -> bool:
+    """Is this end known to be the left one?"""
+    if at == -sympy.oo or other == sympy.oo:
+        return True
+    return at != sympy.oo and signs.sign(other - at) == 1
+
+
+def _infinite(place: _Place, signs: Signs) -> End:
+    """An infinite end: by what V tends to, and whether x is infinite soon enough for it."""
+    at = place.at
+    where = place.where
+    strength = place.inside
+    if place.pole < 0 or strength == 0:
         return End(at, False, f"{where}: V -> 0, continuous spectrum from 0", threshold=sympy.Integer(0))
-    if j == 0:
+    if place.pole == 0:
         shown = caret(as_text(strength))
         return End(at, False, f"{where}: V -> {shown}, continuous spectrum from there", threshold=strength)
+    if place.mu < place.pole + 2:
+        return _unbounded(place, signs)
     sign = signs.sign(strength)
     if sign == 1:
-        return End(at, False, f"{where}: V -> oo, one solution decays")
-    falls = sympy.Lt(strength, 0)
-    if mu >= j + 2:
-        said = (
-            "V -> -oo, no solution is square integrable" if sign == -1 else "at most one solution is square integrable"
-        )
-        return End(at, False, f"{where}: {said}", oscillates=sign == -1)
+        return End(at, False, f"{where}: {_DECAYS}")
     if sign == -1:
-        return End(
-            at, True, f"{where}: V -> -oo so fast that both solutions are square integrable (limit circle)", True
-        )
-    return End(at, falls, f"{where}: one solution decays where {caret(as_text(strength))} > 0", True)
+        return End(at, False, f"{where}: V -> -oo, no solution is square integrable", oscillates=True)
+    return End(at, False, f"{where}: at most one solution is square integrable")
 
 
-def _irregular(at: Any, original: Original, strength: Any, signs: Signs) -> End:
-    where = f"{original.x} -> {caret(as_text(at))}"
+def _unbounded(place: _Place, signs: Signs) -> End:
+    """Where V -> oo, or V -> -oo so fast that int |V|^(-1/2) dx is finite."""
+    at = place.at
+    where = place.where
+    strength = place.inside
     sign = signs.sign(strength)
     if sign == 1:
-        return End(at, False, f"{where}: V -> oo, one solution decays")
+        return End(at, False, f"{where}: {_DECAYS}")
     if sign == -1:
         said = "V -> -oo so fast that both solutions are square integrable (limit circle)"
-        return End(at, True, f"{where}: {said}", True)
-    return End(at, sympy.Lt(strength, 0), f"{where}: one solution decays where {caret(as_text(strength))} > 0", True)
+        return End(at, True, f"{where}: {said}", oscillates=True)
+    said = f"one solution decays where {caret(as_text(strength))} > 0"
+    return End(at, sympy.Lt(strength, 0), f"{where}: {said}", oscillates=True)
 
 
-def _finite(
-    at: Any, original: Original, distance: Any, mu: int, j: int, strength: Any, slope: Any, u: Any, signs: Signs
-) -> End:
-    where = f"{original.x} -> {caret(as_text(at))}"
-    if mu >= 2:
+def _finite(place: _Place, signs: Signs) -> End:
+    """A finite regular end: V ~ (nu^2 - 1/4)/(x - a)^2."""
+    at = place.at
+    where = place.where
+    if place.mu >= 2:
         raise Uncovered(f"the coordinate isn't regular at {where}")
-    # u ~ (x - a)^p with p = 2/(2 - mu), and (du/dx)^2 ~ C u^mu, so that u is (x - a)^p (C/p^2)^(p/2)
-    p = sympy.Rational(2, 2 - mu)
-    coefficient = sympy.Integer(0)
-    if j == 2 - mu:
-        C = _leading(slope, u)[1]
-        coefficient = sympy.factor(strength * p**2 / C)
-    square = sympy.factor(coefficient + sympy.Rational(1, 4))
+    square = _nu_squared(place)
     circle = _less_than_1(square, signs)
     known = signs.holds(circle)
     if known is False:
-        return End(at, False, f"{where}: y ~ {_powers(distance, square)}, the smaller one is square integrable")
-    negative = signs.is_nonnegative(square) is False
-    if negative:
-        shown = caret(as_text(-sympy.Symbol("c") / distance**2))
-        return End(at, True, f"{where}: V ~ {shown} with c > 1/4, the solutions oscillate (limit circle)", True)
-    said = f"y ~ {_powers(distance, square)}, both are square integrable (limit circle)"
-    where_circle = "" if known else f" where {_relation(tidied([circle], signs)[0])}"
+        powers = _powers(place.distance, square)
+        return End(at, False, f"{where}: y ~ {powers}, the smaller one is square integrable")
+    if signs.is_nonnegative(square) is False:
+        shown = caret(as_text(-sympy.Symbol("c") / place.distance**2))
+        said = f"V ~ {shown} with c > 1/4, the solutions oscillate (limit circle)"
+        return End(at, True, f"{where}: {said}", oscillates=True)
+    said = f"y ~ {_powers(place.distance, square)}, both are square integrable (limit circle)"
     is_ordinary = square == sympy.Rational(1, 4)
-    return End(at, True if known else circle, f"{where}: {said}{where_circle}", is_ordinary=is_ordinary)
+    if known:
+        return End(at, True, f"{where}: {said}", is_ordinary=is_ordinary)
+    relation = _relation(tidied([circle], signs)[0])
+    return End(at, circle, f"{where}: {said} where {relation}", is_ordinary=is_ordinary)
+
+
+def _nu_squared(place: _Place) -> Any:
+    """nu^2, from V ~ strength u^(mu - 2) and (du/dx)^2 ~ C u^mu.
+
+    u ~ (x - a)^p with p = 2/(2 - mu), so that u is (x - a)^p (C/p^2)^(p/2).
+    """
+    p = sympy.Rational(2, 2 - place.mu)
+    coefficient = sympy.Integer(0)
+    if place.pole == 2 - place.mu:
+        _, C = _leading(place.slope, place.u)
+        coefficient = sympy.factor(place.strength * p**2 / C)
+    return sympy.factor(coefficient + sympy.Rational(1, 4))
 
 
 def _less_than_1(square: Any, signs: Signs) -> Any:
     """square < 1, for nu where that is no radical and has a sign."""
     root = exact_root(square)
-    if square.is_number or root is None:
-        return sympy.Lt(square, 1)
-    if signs.holds(sympy.Lt(square, 1)) is not None:
+    is_of_square = square.is_number or root is None or signs.holds(sympy.Lt(square, 1)) is not None
+    if is_of_square:
         return sympy.Lt(square, 1)
     sign = signs.sign(root)
     size = sympy.Abs(root) if sign is None else sign * root
@@ -269,10 +367,14 @@ def _relation(relation: Any) -> str:
 
 def _powers(distance: Any, square: Any) -> str:
     """How the two solutions behave at a distance from an end where the exponents are 1/2 +- nu."""
+    shown = caret(as_text(distance))
+    if square == sympy.Rational(1, 4):
+        return f"{shown} or 1"
     root = exact_root(square)
     nu = sympy.sqrt(square) if root is None else root
-    if square == sympy.Rational(1, 4):
-        return f"{caret(as_text(distance))} or 1"
-    exponents = (sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)) for s in (1, -1))
-    first, second = (caret(as_text(distance**exponent)) for exponent in exponents)
-    return f"{first} or {second}" if square != 0 else f"{first} or {second}*log({caret(as_text(distance))})"
+    larger, smaller = (sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)) for s in (1, -1))
+    first = caret(as_text(distance**larger))
+    second = caret(as_text(distance**smaller))
+    if square == 0:
+        return f"{first} or {second}*log({shown})"
+    return f"{first} or {second}"

@@ -37,6 +37,7 @@ class Root:
         if not square.has(sympy.I):
             symbol = sympy.Dummy("r", positive=True)
             return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),))
+        # sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)
         re, im = (sympy.factor(part(sympy.expand(square))) for part in (sympy.re, sympy.im))
         size = sympy.sqrt(sympy.factor(re**2 + im**2))
         real = sympy.sqrt(2) * sympy.sqrt(size + re) / 2
@@ -49,20 +50,26 @@ def exact_root(square: Any) -> Any:
     """A root without radicals of what isn't a number, over Q(i) where i occurs; None where there is none."""
     if square.is_number:
         return _root_of_number(sympy.expand(square))
-    options = {"extension": sympy.I} if square.has(sympy.I) else {}
+    is_complex = square.has(sympy.I)
     num, den = sympy.fraction(sympy.together(square))
-    product = sympy.Integer(1)
+    root = sympy.Integer(1)
     for part, sign in ((num, 1), (den, -1)):
-        constant, factors = sympy.factor_list(part, **options)
-        root = sympy.sqrt(constant)
-        if options:
-            root = sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant)))
-        product *= root**sign
+        constant, factors = _factored(part, is_complex=is_complex)
+        if any(multiplicity % 2 for _, multiplicity in factors):
+            return None
+        root *= constant**sign
         for factor, multiplicity in factors:
-            if multiplicity % 2:
-                return None
-            product *= factor ** (sign * multiplicity // 2)
-    return sympy.expand(product) if product.has(sympy.I) else product
+            root *= factor ** (sign * multiplicity // 2)
+    return sympy.expand(root) if root.has(sympy.I) else root
+
+
+def _factored(polynomial: Any, *, is_complex: bool) -> tuple[Any, list[tuple[Any, int]]]:
+    """The root of the constant factor, and the other factors with their multiplicities, over Q or Q(i)."""
+    if is_complex:
+        constant, factors = sympy.factor_list(polynomial, extension=sympy.I)
+        return sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))), factors
+    constant, factors = sympy.factor_list(polynomial)
+    return sympy.sqrt(constant), factors
 
 
 def _root_of_number(square: Any) -> Any:
@@ -92,38 +99,47 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
 
     Raises `Uncovered` where that needs a polynomial equation of a degree above 2.
     """
-    unknown = {root.value: root.square for root in roots if root.unknown and equation.has(root.value)}
+    unknown = [root for root in roots if root.unknown and equation.has(root.value)]
     if not unknown:
-        if equation.has(E):
-            for energy in _zeros(equation, E):
-                yield Solved(shortest(energy), {})
+        energies = _zeros(equation, E) if equation.has(E) else []
+        for energy in energies:
+            yield Solved(shortest(energy), {})
         return
-    first, *others = unknown
-    if len(others) > 1:
+    if len(unknown) > 2:
         raise Uncovered("more than two exponents depend on the energy")
-    energy = _zeros(unknown[first] - first**2, E)
-    if len(energy) != 1:
-        raise Uncovered("an exponent isn't the root of a linear function of the energy")
-    reduced = equation.subs(E, energy[0])
-    values: dict[Any, Any] = {}
-    if others:
-        other = others[0]
-        solutions = _zeros(reduced, other)
-        if len(solutions) != 1:
-            raise Uncovered("the exponents satisfy no linear equation")
-        values[other] = solutions[0]
-        reduced = unknown[other].subs(E, energy[0]) - values[other] ** 2
-    for value in _zeros(reduced, first):
-        found = {first: shortest(value), **{r: shortest(v.subs(first, value)) for r, v in values.items()}}
-        yield Solved(shortest(energy[0].subs(first, found[first]), energy[0].subs(first, value)), found)
+    rho = unknown[0].value
+    E_of_rho = _only_zero(
+        unknown[0].square - rho**2, E, "an exponent isn't the root of a linear function of the energy"
+    )
+    reduced = equation.subs(E, E_of_rho)
+    others_of_rho: dict[Any, Any] = {}
+    if len(unknown) == 2:
+        other = unknown[1]
+        other_of_rho = _only_zero(reduced, other.value, "the exponents satisfy no linear equation")
+        others_of_rho[other.value] = other_of_rho
+        reduced = other.square.subs(E, E_of_rho) - other_of_rho**2
+    for value in _zeros(reduced, rho):
+        at = shortest(value)
+        others = {sigma: shortest(function.subs(rho, value)) for sigma, function in others_of_rho.items()}
+        energy = shortest(E_of_rho.subs(rho, at), E_of_rho.subs(rho, value))
+        yield Solved(energy, {rho: at, **others})
+
+
+def _only_zero(equation: Any, unknown: Any, otherwise: str) -> Any:
+    """The zero of a function with one.  Raises `Uncovered`, as `otherwise` says, for others."""
+    zeros = _zeros(equation, unknown)
+    if len(zeros) != 1:
+        raise Uncovered(otherwise)
+    return zeros[0]
 
 
 def _zeros(equation: Any, unknown: Any) -> list[Any]:
     """The zeros of a function whose numerator has at most degree 2."""
     numerator = sympy.Poly(sympy.numer(sympy.together(equation)), unknown)
-    if numerator.degree() > 2:
-        raise Uncovered(f"the energies are roots of an equation of degree {numerator.degree()}")
-    return [] if numerator.degree() < 1 else list(sympy.roots(numerator))
+    degree = numerator.degree()
+    if degree > 2:
+        raise Uncovered(f"the energies are roots of an equation of degree {degree}")
+    return [] if degree < 1 else list(sympy.roots(numerator))
 
 
 def shortest(*forms: Any) -> Any:
@@ -132,15 +148,19 @@ def shortest(*forms: Any) -> Any:
     forms = (*(form for form in real if form is not None), *forms)
     candidates = [*forms]
     for form in forms:
-        expanded = sympy.expand(form)
-        candidates += [sympy.factor(form), expanded, sympy.factor_terms(expanded)]
-        number = next((s for s in form.free_symbols if isinstance(s, sympy.Dummy) and s.is_integer), None)
-        if number is not None and form.is_rational_function(number):
-            fractions = [
-                _shifted(part, number) for part in sympy.Add.make_args(sympy.apart(sympy.factor(form), number))
-            ]
-            candidates.append(sympy.Add(*fractions))
+        candidates += _written(form)
     return min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(str(form)), str(form)))
+
+
+def _written(form: Any) -> Iterator[Any]:
+    """As a product, as a sum, with common factors before a sum, and as partial fractions in n where it is rational."""
+    factored = sympy.factor(form)
+    expanded = sympy.expand(form)
+    yield from (factored, expanded, sympy.factor_terms(expanded))
+    number = next((s for s in form.free_symbols if isinstance(s, sympy.Dummy) and s.is_integer), None)
+    if number is not None and form.is_rational_function(number):
+        fractions = sympy.Add.make_args(sympy.apart(factored, number))
+        yield sympy.Add(*(_shifted(part, number) for part in fractions))
 
 
 def _real_part(form: Any) -> Any:

@@ -34,7 +34,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.energies import Root, Solved, conjugate, solved
+from kovacic.bound_states.energies import Root, conjugate, solved
 from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered
 from kovacic.bound_states.signs import Signs
 
@@ -63,22 +63,17 @@ class Ends:
 
     def conditions(self, domain: tuple[Any, Any], spot: Spot, delta: Any) -> list[Any]:
         """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the Friedrichs one."""
-        found = []
-        for role in spot.roles:
-            if role == "fold":
-                continue
-            end = domain[role == "right"]
-            if end.is_infinite:
-                if spot.mu < 2:
-                    raise Uncovered(f"the end {end} is a finite point of the coordinate")
-                least = 2 * (spot.mu / 2 - 1)
-                found.append(_above(delta, 0 if spot.mu == 2 else least, strict=True))
-            else:
-                if spot.mu >= 2:
-                    raise Uncovered(f"the end {end} is at infinity in the coordinate")
-                least = 0 if self.friedrichs else 2 / spot.p
-                found.append(_above(delta, least, strict=False))
-        return found
+        return [self._condition(domain[role == "right"], spot, delta) for role in spot.roles if role != "fold"]
+
+    def _condition(self, end: Any, spot: Spot, delta: Any) -> Any:
+        if end.is_infinite and spot.mu < 2:
+            raise Uncovered(f"the end {end} is a finite point of the coordinate")
+        if end.is_infinite:
+            return _above(delta, spot.mu - 2, strict=True)
+        if spot.mu >= 2:
+            raise Uncovered(f"the end {end} is at infinity in the coordinate")
+        least = 0 if self.friedrichs else 2 / spot.p
+        return _above(delta, least, strict=False)
 
 
 def _above(delta: Any, least: Any, *, strict: bool) -> Any:
@@ -94,8 +89,8 @@ def _radicals(roots: list[Root]) -> tuple[tuple[Any, Any], ...]:
 
 def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
     """That what stands under the square roots isn't negative; or that it is positive."""
-    squares = (root.square for root in roots if root.radicals and not root.square.has(sympy.I))
-    return [sympy.Gt(square, 0) if positive else sympy.Ge(square, 0) for square in squares]
+    relation = sympy.Gt if positive else sympy.Ge
+    return [relation(root.square, 0) for root in roots if root.radicals and not root.square.has(sympy.I)]
 
 
 def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
@@ -112,40 +107,56 @@ def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelF
             for spot, delta in zip(frame.spots, values, strict=True):
                 conditions += ends.conditions(frame.domain, spot, delta)
             if possible(conditions, ends.signs):
-                yield _jacobi(frame, roots, values, found, conditions, ends.signs)
+                from kovacic.bound_states.waves import jacobi_wave
+
+                wave, norm = jacobi_wave(frame, roots, values, ends.signs)
+                zeros = _zeros(frame, values, ends.signs)
+                yield LevelFamily(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
 
 
 def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
-    """The signs of the roots: those of unknowns are part of them, but for unknowns with the same square.
+    """The roots with their signs: those of unknowns are part of them, but for unknowns with the same square.
 
     A pair of complex conjugate roots has one sign, since n is real.
     """
-    options: list[list[Any]] = []
-    seen: dict[Any, tuple[Any, bool]] = {}
-    pairs = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
-    if len(pairs) == 1:
+    pair = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
+    if len(pair) == 1:
         return  # n isn't real
-    if len(pairs) == 3:
+    if len(pair) == 3:
         raise Uncovered("no exponent is real")
-    for k, (spot, root) in enumerate(zip(spots, roots, strict=True)):
-        is_end = bool(spot.roles)
-        if root.unknown and root.square not in seen:
-            seen[root.square] = root.value, is_end
-            options.append([root.value])
-        elif root.unknown:
-            known, was_end = seen[root.square]
-            both_positive = is_end and was_end
-            options.append([known] if both_positive else [known, -known])
-        elif root.value == 0 or k in pairs[1:]:
-            options.append([root.value])
-        else:
-            options.append([root.value, -root.value])
+    options = [_signed(k, spots, roots) for k in range(len(roots))]
+    if pair:
+        _, second = pair
+        options[second] = [roots[second].value]
     for chosen in product(*options):
         choice = [*chosen]
-        if pairs:
-            first, second = pairs
+        if pair:
+            first, second = pair
             choice[second] = conjugate(choice[first])
         yield choice
+
+
+def _signed(k: int, spots: tuple[Spot, ...], roots: list[Root]) -> list[Any]:
+    """The root of number k with each of its signs: an unknown with that of an earlier one of the same square.
+
+    At two ends both of them are positive.
+    """
+    root = roots[k]
+    if not root.unknown:
+        return _with_signs(root)
+    earlier = next((j for j in range(k) if roots[j].unknown and roots[j].square == root.square), None)
+    if earlier is None:
+        return [root.value]
+    known = roots[earlier].value
+    are_ends = spots[k].roles and spots[earlier].roles
+    return [known] if are_ends else [known, -known]
+
+
+def _with_signs(root: Root) -> list[Any]:
+    """The root with both of its signs; an unknown has its own one."""
+    if root.unknown or root.value == 0:
+        return [root.value]
+    return [root.value, -root.value]
 
 
 def possible(conditions: list[Any], signs: Signs) -> bool:
@@ -167,21 +178,19 @@ def _check_ends(frame: SingularFrame) -> None:
             raise Uncovered(f"V isn't regular at {frame.x} = {frame.fold}, inside the domain")
 
 
-def _jacobi(
-    frame: SingularFrame, roots: list[Root], deltas: list[Any], found: Solved, conditions: list[Any], signs: Signs
-) -> LevelFamily:
-    from kovacic.bound_states.waves import jacobi_wave
-
-    wave, norm = jacobi_wave(frame, roots, deltas, signs)
-    return LevelFamily(found.energy, wave, tuple(conditions), _zeros(frame, deltas, signs), norm, _radicals(roots))
-
-
 def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs) -> Any:
-    """n, or for a half of the domain twice as many and maybe one in the middle."""
+    """The number of zeros inside the domain, with the differences at the points of the frame."""
     for spot, delta in zip(frame.spots, deltas, strict=True):
         if "fold" in spot.roles:
-            return 2 * signs.n + (1 if delta.is_positive else 0)
+            return _zeros_for(spot, delta, signs)
     return signs.n
+
+
+def _zeros_for(spot: Spot, delta: Any, signs: Signs) -> Any:
+    """n; twice as many, and maybe one in the middle, where this point is the middle of the domain."""
+    if "fold" not in spot.roles:
+        return signs.n
+    return 2 * signs.n + int(bool(delta.is_positive))
 
 
 def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
@@ -194,17 +203,17 @@ def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
     q, r, b = (parts.coeff_monomial(z**k) for k in (2, 1, 0))
     _check_ends(frame)
     origin = next((spot for spot in frame.spots if spot.point == 0), Spot(sympy.Integer(0), 1 + 4 * b, 0))
-    roots = [Root.of(sympy.factor(q), E), Root.of(sympy.factor(1 + 4 * b), E)]
-    for kappa, delta in product(
-        *([root.value] if root.unknown or root.value == 0 else [root.value, -root.value] for root in roots)
-    ):
+    root_of_q = Root.of(sympy.factor(q), E)
+    root_at_0 = Root.of(sympy.factor(1 + 4 * b), E)
+    roots = [root_of_q, root_at_0]
+    for kappa, delta in product(_with_signs(root_of_q), _with_signs(root_at_0)):
         equation = -r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
         for found in solved(equation, roots, E):
             rate = kappa.xreplace(found.values)
             difference = delta.xreplace(found.values)
             conditions = [
-                *_are_real(roots[:1], positive=True),
-                *_are_real(roots[1:]),
+                *_are_real([root_of_q], positive=True),
+                *_are_real([root_at_0]),
                 *_decay(frame, rate),
                 *ends.conditions(frame.domain, origin, difference),
             ]
@@ -212,21 +221,17 @@ def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
                 from kovacic.bound_states.waves import laguerre_wave
 
                 wave, norm = laguerre_wave(frame, origin, rate, difference, ends.signs)
-                zeros = ends.signs.n
-                if "fold" in origin.roles:
-                    zeros = 2 * zeros + int(bool(difference.is_positive))
+                zeros = _zeros_for(origin, difference, ends.signs)
                 yield LevelFamily(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
 
 
 def _decay(frame: SingularFrame, kappa: Any) -> list[Any]:
     """When exp(-kappa z) decays at the end where z is infinite."""
-    conditions = []
-    for spot in frame.spots:
-        for role in spot.roles:
-            if spot.point == sympy.oo and role != "fold":
-                direction = _direction(frame, role)
-                conditions.append(_above(direction * kappa, 0, strict=True))
-    return conditions
+    at_infinity = next((spot for spot in frame.spots if spot.point == sympy.oo), None)
+    if at_infinity is None:
+        return []
+    ends = [role for role in at_infinity.roles if role != "fold"]
+    return [_above(_direction(frame, role) * kappa, 0, strict=True) for role in ends]
 
 
 def _direction(frame: SingularFrame, role: str) -> int:
@@ -249,9 +254,10 @@ def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamil
     """
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
-    is_bessel = not sympy.denom(square).has(z) and sympy.degree(sympy.numer(square), z) == 1
+    is_of_degree_1 = not sympy.denom(square).has(z) and sympy.degree(sympy.numer(square), z) == 1
     points = {spot.point for spot in frame.ends}
-    if not (is_bessel and points == {0, sympy.oo} and not sympy.diff(square, z).has(E)):
+    is_bessel = is_of_degree_1 and points == {0, sympy.oo}
+    if not is_bessel or sympy.diff(square, z).has(E):
         raise Uncovered("the equation isn't Bessel's")
     yield from ()
 
@@ -261,8 +267,7 @@ def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
 
     Beside an infinite end one solution decays for E < V, which has no zero, and none for E >= V.
     """
-    is_in_x = frame.original.kind == "x" and frame.m == 1 and frame.base == sympy.Symbol(frame.problem_variable)
-    if frame.S.has(frame.z) or not is_in_x:
+    if frame.S.has(frame.z) or frame.m != 1 or not frame.is_in_x:
         raise Uncovered("V isn't constant")
     first, last = frame.domain
     if first.is_infinite or last.is_infinite:
@@ -277,13 +282,9 @@ def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
 def hermite_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """The oscillator on the whole line."""
     z = frame.z
-    is_oscillator = frame.S.is_polynomial(z) and sympy.degree(frame.S, z) == 2
-    if (
-        not is_oscillator
-        or frame.original.kind != "x"
-        or frame.base != sympy.Symbol(frame.problem_variable)
-        or frame.domain != (-sympy.oo, sympy.oo)
-    ):
+    is_quadratic = frame.S.is_polynomial(z) and sympy.degree(frame.S, z) == 2
+    is_on_line = frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)
+    if not is_quadratic or not is_on_line:
         raise Uncovered("the equation isn't that of the oscillator on the whole line")
     alpha, beta, gamma = (sympy.Poly(frame.S, z).coeff_monomial(z**k) for k in (2, 1, 0))
     root = Root.of(sympy.factor(alpha), E)

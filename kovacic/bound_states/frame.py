@@ -20,6 +20,7 @@ from typing import Any
 import sympy
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import Equation
@@ -96,27 +97,48 @@ class Original:
         """t at an end of the domain, a number or oo (both of its ends are one point)."""
         theta = self.theta_at(end, signs)
         if not theta.is_infinite:
-            value = theta if self.kind == "x" else sympy.simplify(getattr(sympy, self.kind)(theta))
-            return sympy.oo if value.is_infinite else value
+            return self._at_angle(theta)
         if self.kind in ("sin", "cos", "tan"):
             raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {end}")
-        return sympy.Integer(0) if self.kind == "exp" and theta == -sympy.oo else sympy.oo
+        is_zero = self.kind == "exp" and theta == -sympy.oo
+        return sympy.Integer(0) if is_zero else sympy.oo
+
+    def _at_angle(self, theta: Any) -> Any:
+        """The value of t, the pole of a tangent as oo."""
+        if self.kind == "x":
+            return theta
+        value = sympy.simplify(getattr(sympy, self.kind)(theta))
+        return sympy.oo if value.is_infinite else value
 
     def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
         """Where dt/dx vanishes inside the domain."""
-        period = {"cosh": None, "cos": sympy.Integer(0), "sin": sympy.pi / 2}
-        if self.kind not in period:
+        if self.kind not in ("cosh", "cos", "sin"):
             return []
         first, last = (self.theta_at(end, signs) for end in domain)
         if self.kind == "cosh":
             angles = [sympy.Integer(0)]
+        elif first.is_number and last.is_number:
+            angles = _turning_angles(self.kind, first, last)
         else:
-            if not (first.is_number and last.is_number):
-                raise Uncovered(f"the ends of the domain aren't multiples of pi/({self.rate})")
-            lowest = sympy.floor(min(first, last) / sympy.pi)
-            number = int(sympy.ceiling(abs(last - first) / sympy.pi)) + 2
-            angles = [period[self.kind] + sympy.pi * (lowest + k) for k in range(number)]
+            raise Uncovered(f"the ends of the domain aren't multiples of pi/({self.rate})")
         return [(a - self.offset) / self.rate for a in angles if is_between(a, first, last, signs)]
+
+
+def _turning_angles(kind: str, first: Any, last: Any) -> list[Any]:
+    """The angles at which the sine or the cosine is 1 or -1, from below the domain to above it."""
+    start = sympy.pi / 2 if kind == "sin" else sympy.Integer(0)
+    lowest = sympy.floor(min(first, last) / sympy.pi)
+    number = int(sympy.ceiling(abs(last - first) / sympy.pi)) + 2
+    return [start + sympy.pi * (lowest + k) for k in range(number)]
+
+
+@dataclass(frozen=True)
+class RealPotential:
+    """V as a function of a real t, and what t is."""
+
+    V: Any
+    original: Original
+    t: Any
 
 
 def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
@@ -164,10 +186,17 @@ class SingularFrame:
     domain: tuple[Any, Any]
     fold: Any
     problem: Problem = field(repr=False)
+    problem_variable: str = "t"
+    limits_of_t: tuple[Any, Any] = (None, None)
 
     @property
     def x(self) -> Any:
         return self.original.x
+
+    @property
+    def is_in_x(self) -> bool:
+        """Is z a power of the user's variable?"""
+        return self.original.kind == "x" and self.base == sympy.Symbol(self.problem_variable)
 
     @property
     def ends(self) -> list[Spot]:
@@ -187,65 +216,86 @@ class SingularFrame:
         t = sympy.Symbol(self.problem_variable)
         return (self.base**self.m).xreplace({t: self.original.t})
 
-    problem_variable: str = "t"
-    limits_of_t: tuple[Any, Any] = (None, None)
+
+@dataclass(frozen=True)
+class _Coordinate:
+    """z = s^m, s = `base`, a Moebius function of t."""
+
+    base: Any
+    m: int
+    t: Any
+
+    def at(self, t: Any) -> Any:
+        """z at a value of t, or oo."""
+        num, den = sympy.fraction(sympy.together(self.base))
+        if t == sympy.oo:
+            return _at_infinity(num, den, self.t) ** self.m
+        below = sympy.simplify(den.xreplace({self.t: t}))
+        if below == 0:
+            return sympy.oo
+        return sympy.simplify(num.xreplace({self.t: t}) / below) ** self.m
 
 
-def frames(
-    S: RatFunc,
-    variable: str,
-    equation: Equation | None,
-    domain: tuple[Any, Any],
-    x: Any,
-    E: Any,
-    signs: Signs,
-    budget: Budget,
-) -> Iterator[SingularFrame]:
+def _at_infinity(num: Any, den: Any, t: Any) -> Any:
+    """The limit of num/den, both polynomials of degree 1 or 0, or oo."""
+    top = _degree(num, t)
+    bottom = _degree(den, t)
+    if top > bottom:
+        return sympy.oo
+    if top < bottom:
+        return sympy.Integer(0)
+    return sympy.LC(num, t) / sympy.LC(den, t)
+
+
+def _degree(polynomial: Any, t: Any) -> int:
+    return int(sympy.degree(polynomial, t)) if polynomial.has(t) else 0
+
+
+def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
     """The equation as it was read, and in each coordinate that its symmetries give."""
-    original = Original.of(equation, x, signs)
+    S = question.parsed.S
+    variable = question.parsed.variable
+    signs = question.signs
+    original = Original.of(question.parsed.equation, question.x, signs)
     problem = analyse(S, budget)
     t = sympy.Symbol(variable)
-    yield _frame(original, t, 1, problem, variable, domain, signs)
+    yield _frame(question, original, _Coordinate(t, 1, t), problem)
     z = RatFunc(problem.field.poly([0, 1]))
     for coordinate, num, den in symmetries(problem, variable):
         n = coordinate.n
-        if coordinate.base == variable and n == 1:
+        is_another = n % 2 == 0 or (n == 1 and coordinate.base != variable)
+        if not is_another:
             continue
-        if n % 2 == 0 or n == 1:
-            base = signs.real(read_expression(coordinate.base))
-            if base.has(E):
-                continue
+        base = signs.real(read_expression(coordinate.base))
+        if not base.has(question.E):
             S_z = (RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2
-            yield _frame(original, base, n, analyse(S_z, budget), variable, domain, signs)
+            yield _frame(question, original, _Coordinate(base, n, t), analyse(S_z, budget))
 
 
-def _frame(
-    original: Original, base: Any, m: int, problem: Problem, variable: str, domain: tuple[Any, Any], signs: Signs
-) -> SingularFrame:
-    t = sympy.Symbol(variable)
-    s = sympy.Dummy("s")
-    Z = sympy.Dummy("Z")
-    back = sympy.solve(base - s, t)[0]
-    slope = m**2 * s ** (2 * m - 2) * (sympy.diff(base, t) ** 2 * SLOPES[original.kind](t)).xreplace({t: back})
-    constant, powers = _powers(sympy.factor(slope * original.rate**2), s, m)
-    fold = _fold(original, base, m, t, domain, signs)
+def _frame(question: SpectralProblem, original: Original, coordinate: _Coordinate, problem: Problem) -> SingularFrame:
+    """The problem v'' = S_z v is in z."""
+    domain = question.domain
+    signs = question.signs
+    constant, powers = _powers(original, coordinate)
+    fold = _fold(original, coordinate, domain, signs)
     half = domain if fold is None else (fold, domain[1])
-    first, last = (_value(base, t, original.at(end, signs)) ** m for end in half)
+    first, last = (coordinate.at(original.at(end, signs)) for end in half)
     at = {"left": first, "right": last} if fold is None else {"right": last, "fold": first}
+    Z = sympy.Dummy("Z")
     S = signs.real(sympy.sympify(problem.S.num.to_sympy(Z) / problem.S.den.to_sympy(Z)))
     return SingularFrame(
         original,
-        base,
-        m,
-        S,
-        Z,
-        constant,
-        tuple(_spots(problem, powers, at, signs)),
-        domain,
-        fold,
-        problem,
-        variable,
-        range_of(original, half, signs),
+        coordinate.base,
+        coordinate.m,
+        S=S,
+        z=Z,
+        constant=constant,
+        spots=tuple(_spots(problem, powers, at, signs)),
+        domain=domain,
+        fold=fold,
+        problem=problem,
+        problem_variable=question.parsed.variable,
+        limits_of_t=range_of(original, half, signs),
     )
 
 
@@ -273,78 +323,78 @@ def _roles(point: Any, at: Mapping[str, Any]) -> tuple[str, ...]:
 
 def range_of(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
     """The least and the largest value of t, where it is monotonic and they are known."""
+    if original.kind == "tan":
+        return None, None
     if original.kind == "x":
         first, last = half
     else:
-        angles = [original.theta_at(end, signs) for end in half]
-        function = getattr(sympy, original.kind)
-        first, last = (
-            sympy.limit(function(sympy.Symbol("u")), sympy.Symbol("u"), a) if a.is_infinite else function(a)
-            for a in angles
-        )
-    if original.kind == "tan":
-        return None, None
+        first, last = (_limit(original.kind, original.theta_at(end, signs)) for end in half)
     difference = sympy.simplify(last - first)
     is_increasing = difference.is_positive or last == sympy.oo or first == -sympy.oo
     low, high = (first, last) if is_increasing else (last, first)
-    return (None if low == -sympy.oo else low, None if high == sympy.oo else high)
+    return _unless(low, -sympy.oo), _unless(high, sympy.oo)
 
 
-def _powers(slope: Any, s: Any, m: int) -> tuple[Any, dict[Any, Any]]:
+def _limit(kind: str, theta: Any) -> Any:
+    """The value of exp, sinh, ... at an angle, which may be infinite."""
+    function = getattr(sympy, kind)
+    if not theta.is_infinite:
+        return function(theta)
+    u = sympy.Symbol("u")
+    return sympy.limit(function(u), u, theta)
+
+
+def _unless(value: Any, infinite: Any) -> Any:
+    """The value, None for the infinite one."""
+    return None if value == infinite else value
+
+
+def _powers(original: Original, coordinate: _Coordinate) -> tuple[Any, dict[Any, Any]]:
     """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
+    t = coordinate.t
+    m = coordinate.m
+    s = sympy.Dummy("s")
+    t_of_s = sympy.solve(coordinate.base - s, t)[0]
+    ds_dx_squared = (sympy.diff(coordinate.base, t) ** 2 * SLOPES[original.kind](t)).xreplace({t: t_of_s})
+    slope = m**2 * s ** (2 * m - 2) * ds_dx_squared
     constant = sympy.Integer(1)
     found = dict[Any, Any]()
-    for factor in sympy.Mul.make_args(slope):
+    for factor in sympy.Mul.make_args(sympy.factor(slope * original.rate**2)):
         base, exponent = factor.as_base_exp()
         if not base.has(s):
             constant *= factor
             continue
         polynomial = sympy.Poly(base, s)
         constant *= polynomial.LC() ** exponent
-        if base == s:
-            found[sympy.Integer(0)] = found.get(sympy.Integer(0), 0) + exponent / sympy.Integer(m)
-            continue
         for root, multiplicity in sympy.roots(polynomial).items():
             share = multiplicity * exponent / sympy.Integer(m)  # m roots s for one z
             found[root**m] = found.get(root**m, 0) + share
     return constant, found
 
 
-def _fold(original: Original, base: Any, m: int, t: Any, domain: tuple[Any, Any], signs: Signs) -> Any:
+def _fold(original: Original, coordinate: _Coordinate, domain: tuple[Any, Any], signs: Signs) -> Any:
     """The only point inside the domain at which dz/dx vanishes; None where there is none."""
     found = original.turning_points(domain, signs)
-    if m % 2 == 0:
-        zeros = _zeros(original, base, t)
+    if coordinate.m % 2 == 0:
+        zeros = _zeros(original, coordinate)
         found += [x for x in zeros if x not in found and is_between(x, *domain, signs)]
     if not found:
         return None
     middle = found[0]
     first, last = domain
-    symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
-    if len(found) > 1 or not symmetric:
+    is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
+    if len(found) > 1 or not is_symmetric:
         raise Uncovered(f"the domain isn't symmetric about {original.x} = {middle}, and the equation is")
     return middle
 
 
-def _zeros(original: Original, base: Any, t: Any) -> list[Any]:
+def _zeros(original: Original, coordinate: _Coordinate) -> list[Any]:
     """Where s vanishes: only points of the real axis count."""
-    value = sympy.solve(sympy.numer(sympy.together(base)), t)
+    values = sympy.solve(sympy.numer(sympy.together(coordinate.base)), coordinate.t)
     theta = {"x": lambda v: v, "sinh": sympy.asinh}.get(original.kind)
     if theta is None:
         return []
-    return [(theta(v) - original.offset) / original.rate for v in value if v.is_real is not False]
-
-
-def _value(base: Any, t: Any, at: Any) -> Any:
-    """s at a value of t, or oo."""
-    num, den = sympy.fraction(sympy.together(base))
-    if at == sympy.oo:
-        top, bottom = (sympy.degree(part, t) if part.has(t) else 0 for part in (num, den))
-        if top != bottom:
-            return sympy.oo if top > bottom else sympy.Integer(0)
-        return sympy.LC(num, t) / sympy.LC(den, t)
-    below = sympy.simplify(den.xreplace({t: at}))
-    return sympy.oo if below == 0 else sympy.simplify(num.xreplace({t: at}) / below)
+    return [(theta(v) - original.offset) / original.rate for v in values if v.is_real is not False]
 
 
 def _same(first: Any, second: Any) -> bool:
@@ -354,28 +404,34 @@ def _same(first: Any, second: Any) -> bool:
 
 
 def _points(place: Place, signs: Signs) -> Iterator[tuple[Any, Any]]:
-    """The points of a place, with delta^2; conjugate points one by one."""
-    x = sympy.Dummy("x")
-    regular = place.kind in (Kind.ORDINARY, Kind.REGULAR)
-    if place.at_infinity:
-        yield sympy.oo, _square(place, x, None, signs) if regular else None
-        return
-    if place.degree > 2:
-        raise Uncovered(f"the roots of {place.factor} aren't used")
-    half = place.factor[1]
-    rest = place.factor[0]
-    if place.degree == 1:
-        points = [signs.real((-place.factor[0]).to_sympy(x))]
-    else:
-        middle, product = (signs.real(part.to_sympy(x)) for part in (half, rest))
-        root = sympy.sqrt(sympy.factor(middle**2 - 4 * product))
-        points = [(-middle + sign * root) / 2 for sign in (1, -1)]
-    for point in points:
-        yield point, _square(place, x, point, signs) if regular else None
+    """The points of a place, each with delta^2; conjugate points one by one."""
+    for point in _roots(place, signs):
+        yield point, _square(place, point, signs)
 
 
-def _square(place: Place, x: Any, point: Any, signs: Signs) -> Any:
+def _square(place: Place, point: Any, signs: Signs) -> Any:
+    """delta^2 at one of the points of a place; None where they are irregular."""
     if place.kind is Kind.ORDINARY:
         return sympy.Integer(1)
+    if place.kind is not Kind.REGULAR:
+        return None
+    x = sympy.Dummy("x")
     square = signs.real(riemann.difference_squared(place).to_sympy(x))
-    return square if point is None else sympy.expand(square.xreplace({x: point}))
+    if point == sympy.oo:
+        return square
+    return sympy.expand(square.xreplace({x: point}))
+
+
+def _roots(place: Place, signs: Signs) -> list[Any]:
+    """oo, or the roots of a factor of degree 1 or 2.  Raises `Uncovered` for others."""
+    if place.at_infinity:
+        return [sympy.oo]
+    if place.degree > 2:
+        raise Uncovered(f"the roots of {place.factor} aren't used")
+    x = sympy.Dummy("x")
+    rest = signs.real(place.factor[0].to_sympy(x))
+    if place.degree == 1:
+        return [-rest]
+    middle = signs.real(place.factor[1].to_sympy(x))
+    root = sympy.sqrt(sympy.factor(middle**2 - 4 * rest))
+    return [(-middle + sign * root) / 2 for sign in (1, -1)]

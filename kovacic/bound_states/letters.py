@@ -33,10 +33,10 @@ def with_named_roots(V: Any) -> tuple[Any, dict[str, Any]]:
     except (InputError, sympy.SympifyError):  # said where it is read
         return V, {}
     roots = sorted(_roots_in(expression), key=sympy.default_sort_key)
-    is_enough = len(roots) > 1 or (roots and expression.has(TrigonometricFunction))
-    if not is_enough:
+    least = 1 if expression.has(TrigonometricFunction) else 2
+    if len(roots) < least:
         return V, {}
-    outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
+    outermost = [root for root in roots if not _is_inside(root, roots)]
     meanings = dict(zip(_free_names(expression), outermost, strict=False))
     return expression.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()}), meanings
 
@@ -47,6 +47,11 @@ def _roots_in(expression: Any) -> Iterator[Any]:
         is_root = power.is_number and not power.exp.is_Integer
         if is_root and power.is_positive and power.is_algebraic:
             yield power
+
+
+def _is_inside(root: Any, roots: list[Any]) -> bool:
+    """Does another of the roots contain it?"""
+    return any(root is not other and other.has(root) for other in roots)
 
 
 def _free_names(expression: Any) -> Iterator[str]:
@@ -62,16 +67,18 @@ def assumed_of_letters(
     assume: Mapping[Any, Any] | None, letters: Sequence[tuple[str, Any]]
 ) -> Mapping[Any, Any] | None:
     """What is assumed, and the sign of a letter for log(2), or for sqrt(a): not negative, and positive where a is."""
+    if not letters:
+        return assume
     found = dict(assume or {})
     for letter, meaning in letters:
         base, exponent = meaning.as_base_exp()
         if exponent == sympy.S.Half and base.is_Symbol:
             own = next((key for key in found if str(key) == base.name), None)
-            word = found.pop(own, "nonnegative") if own is not None else "nonnegative"
+            word = found.pop(own, None)
             found[letter] = "positive" if word in ("positive", ">0") else "nonnegative"
         elif meaning.is_number and meaning.is_real:
             found[letter] = "positive" if meaning.is_positive else "negative"
-    return found if letters else assume
+    return found
 
 
 def between(value: Any, name: str) -> str:
@@ -83,10 +90,10 @@ def between(value: Any, name: str) -> str:
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
     """The answer with the meanings in the place of the letters."""
     letters = _LetterMeanings(meanings)
-    levels = [letters.in_levels(one) for one in found.levels]
-    algebraic = [letters.in_algebraic(one) for one in found.algebraic]
-    excluded = [letters.put_in(relation) for relation in found.excluded]
     known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
+    excluded = map(letters.put_in, found.excluded)
+    levels = map(letters.in_levels, found.levels)
+    algebraic = map(letters.in_algebraic, found.algebraic)
     return replace(
         found,
         potential=letters.put_in(found.potential),
@@ -129,13 +136,14 @@ class _LetterMeanings:
 
     def in_levels(self, one: Levels) -> Levels:
         """The same levels without letters."""
+        norm = None if one.norm is None else self.put_in(one.norm)
         return replace(
             one,
             energy=self.put_in(one.energy),
             wave=self.put_in(one.wave),
             conditions=self.conditions(one),
             zeros=self.put_in(one.zeros),
-            norm=None if one.norm is None else self.put_in(one.norm),
+            norm=norm,
         )
 
     def in_algebraic(self, one: Algebraic) -> Algebraic:

@@ -15,7 +15,6 @@ others they may take minutes.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -38,9 +37,8 @@ def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limit
     conditions = _conditions(parsed, known, limits)
     if conditions is None:
         return found
-    listed = _polynomials((one.polynomial for one in found.algebraic), found.energy)
     possible = _possible(found, conditions)
-    if possible is not None and possible <= listed:
+    if possible is not None and possible <= _listed(found):
         return replace(found, closed_forms_complete=True, reason=_reason(found, conditions), hint="", shell="")
     if found.algebraic and all(region.case == 1 for region in conditions.regions):
         shown = found.reason.partition(";")[0]
@@ -55,11 +53,17 @@ def _has_rational_poles(parsed: Parsed) -> bool:
 
 def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> ParametricAnswer | None:
     """For which E and parameters is there a Liouvillian solution?  None where that isn't proven, or holds in general."""
-    with suppress(LimitExceeded):
+    try:
         conditions = conditions_of(parsed, known, 0, limits)
-        if conditions.complete is True and conditions.generic.known and conditions.generic.case is None:
-            return conditions
-    return None
+    except LimitExceeded:
+        return None
+    is_proven = conditions.complete is True and conditions.generic.known
+    return conditions if is_proven and conditions.generic.case is None else None
+
+
+def _listed(found: Spectrum) -> set[Any]:
+    """The irreducible polynomials whose zeros are the levels that were found."""
+    return _polynomials((one.polynomial for one in found.algebraic), found.energy)
 
 
 def _possible(found: Spectrum, conditions: ParametricAnswer) -> set[Any] | None:
@@ -68,14 +72,9 @@ def _possible(found: Spectrum, conditions: ParametricAnswer) -> set[Any] | None:
         return set()
     if found.parameters:
         return None
-    functions: list[Any] = []
-    for region in conditions.regions:
-        zeros = _zeros_of(region.statement)
-        if zeros is None:
-            return None
-        functions += zeros
+    functions = _zeros_of_all(region.statement for region in conditions.regions)
     energy = sympy.Symbol(found.energy)
-    if any(function.free_symbols != {energy} for function in functions):
+    if functions is None or any(function.free_symbols != {energy} for function in functions):
         return None
     possible = _polynomials(functions, found.energy)
     return {polynomial for polynomial in possible if sympy.Poly(polynomial, energy).count_roots()}
@@ -85,11 +84,16 @@ def _zeros_of(statement: Statement) -> list[Any] | None:
     """The functions of which one vanishes, if the statement says just that."""
     if isinstance(statement, Vanishes):
         return [statement.function.to_sympy(sympy.Dummy("x"))]
-    if not isinstance(statement, Either):
-        return None
+    if isinstance(statement, Either):
+        return _zeros_of_all(statement.parts)
+    return None
+
+
+def _zeros_of_all(statements: Iterable[Statement]) -> list[Any] | None:
+    """The functions of which one vanishes where one of the statements holds."""
     functions: list[Any] = []
-    for part in statement.parts:
-        zeros = _zeros_of(part)
+    for statement in statements:
+        zeros = _zeros_of(statement)
         if zeros is None:
             return None
         functions += zeros

@@ -14,7 +14,7 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.ends import domain_as_given, real_zeros
-from kovacic.bound_states.frame import Original, Uncovered
+from kovacic.bound_states.frame import Original, RealPotential, Uncovered
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
 from kovacic.numerals import as_text
@@ -25,15 +25,17 @@ NO_LEVELS = "a periodic potential: what decays at one end grows at the other (Fl
 _LONGEST = 30
 
 
-def on_real_circle(V: Any, original: Original, t: Any) -> tuple[Any, Original]:
+def on_real_circle(real: RealPotential) -> RealPotential:
     """A function of exp(i theta) as one of tan(theta/2); any other one as it is."""
+    original = real.original
+    t = real.t
     if not original.is_circular:
-        return V, original
+        return real
     rate = sympy.expand(original.rate / sympy.I)
     offset = sympy.expand(original.offset / sympy.I)
     value = (1 + sympy.I * t) / (1 - sympy.I * t)
-    real = sympy.cancel(sympy.together(V.xreplace({t: value})), extension=sympy.I)
-    return _with_real_parts(real, t), Original(original.x, "tan", rate / 2, offset / 2)
+    V = sympy.cancel(sympy.together(real.V.xreplace({t: value})), extension=sympy.I)
+    return RealPotential(_with_real_parts(V, t), Original(original.x, "tan", rate / 2, offset / 2), t)
 
 
 def _with_real_parts(V: Any, t: Any) -> Any:
@@ -43,31 +45,41 @@ def _with_real_parts(V: Any, t: Any) -> Any:
     return sympy.expand(sympy.expand(num / scale)) / sympy.expand(sympy.expand(den / scale))
 
 
-def check_poles(V: Any, original: Original, t: Any, signs: Signs) -> None:
+def check_poles(real: RealPotential, signs: Signs) -> None:
     """Raises `InputError` where V has a real pole, with a domain between two, and `Uncovered` where that isn't known."""
-    angles = _poles(V, original, t, signs)
+    original = real.original
+    angles = _poles(real, signs)
     if not angles:
         return
     period = sympy.pi if original.kind == "tan" else 2 * sympy.pi
-    places = sorted((angle + k * period for angle in angles for k in (-1, 0, 1)), key=float)
-    last = min((angle for angle in places if angle > 0), key=float)
-    first = places[places.index(last) - 1]
-    ends = [sympy.simplify((angle - original.offset) / original.rate) for angle in (first, last)]
-    place = caret(as_text(ends[1]))
+    first, last = _about_0(angles, period)
+    start = sympy.simplify((first - original.offset) / original.rate)
+    stop = sympy.simplify((last - original.offset) / original.rate)
+    place = caret(as_text(stop))
     message = f"V has poles on the line, one at {original.x} = {place} and others in each period of it"
     hint = "choose the domain between two neighbouring poles"
     if len(place) > _LONGEST:
         raise InputError(message, hint=hint)
-    python, shell = domain_as_given(*ends)
+    python, shell = domain_as_given(start, stop)
     raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
 
 
-def _poles(V: Any, original: Original, t: Any, signs: Signs) -> list[Any]:
+def _about_0(angles: list[Any], period: Any) -> tuple[Any, Any]:
+    """The least positive one of the angles, which come back in each period, after the one before it."""
+    places = [angle + k * period for angle in angles for k in (-1, 0, 1)]
+    places.sort(key=float)
+    last = next(k for k, angle in enumerate(places) if angle > 0)
+    return places[last - 1], places[last]
+
+
+def _poles(real: RealPotential, signs: Signs) -> list[Any]:
     """The real angles theta of poles in a period."""
     u = sympy.Dummy("u")
-    values = {"tan": u, "sin": 2 * u / (1 + u**2), "cos": (1 - u**2) / (1 + u**2)}
-    angle = 1 if original.kind == "tan" else 2
-    num, den = (sympy.Poly(part, u) for part in sympy.fraction(sympy.cancel(V.xreplace({t: values[original.kind]}))))
+    kind = real.original.kind
+    t_of_u = {"tan": u, "sin": 2 * u / (1 + u**2), "cos": (1 - u**2) / (1 + u**2)}
+    angle = 1 if kind == "tan" else 2
+    V = sympy.cancel(real.V.xreplace({real.t: t_of_u[kind]}))
+    num, den = (sympy.Poly(part, u) for part in sympy.fraction(V))
     found = [angle * sympy.atan(root) for root in real_zeros(den, signs)]
     may_have_more = signs.sign(den.LC()) is None  # where the degree falls there is a pole at u = oo
     if may_have_more or not all(theta.is_number for theta in found):

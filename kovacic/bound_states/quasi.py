@@ -13,7 +13,7 @@ M. Razavy, Amer. J. Phys. 48 (1980) 285.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Any
@@ -29,16 +29,20 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.bound_states.ends import End
 from kovacic.bound_states.families import Ends, possible
 from kovacic.bound_states.frame import Spot, Uncovered
+from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.signs import Signs
 from kovacic.engine.places import Kind, Problem, analyse
-from kovacic.equation import Equation, parameters_of
+from kovacic.equation import parameters_of
 from kovacic.limits import Budget
-from kovacic.parametric.exponents import Exponents, choices, choices_of_degree
+from kovacic.parametric.exponents import Exponents, LocalPart, choices, choices_of_degree
 from kovacic.parametric.functions import irreducible_factors, over_parameters
-from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.solutions import Given, has_radicals, solution_of_degree
 
 #: Higher degrees aren't proposed.
 _HIGHEST = 50
+#: The distance of a zero from an end that is at infinity.
+_INSIDE = arb(1)
 #: Conjugate poles that are used beside parameters.
 _CONJUGATES = 2
 
@@ -57,36 +61,60 @@ class QuasiSolution:
     P: Any
     conditions: tuple[Any, ...]
 
+    @property
+    def key(self) -> tuple[Any, Any, Any]:
+        """Two with the same are one."""
+        return self.constraint, self.polynomial, self.wave
+
+
+@dataclass(frozen=True)
+class _Restricted:
+    """Where the degree is d: a function that vanishes there, S there, and what is known of parameters that are eliminated."""
+
+    given: FunctionPoly
+    S: RatFunc
+    bounds: tuple[Any, ...] = ()
+
 
 def found_of_degree(
-    S: RatFunc, equation: Equation | None, variable: str, d: int, ends: list[End], demands: Ends, E: str, budget: Budget
+    question: SpectralProblem, d: int, ends: Sequence[End], demands: Ends, budget: Budget
 ) -> Iterator[QuasiSolution]:
     """All of them; raises `Uncovered` where the exponents need too large an extension of the field."""
-    problem = analyse(S, budget)
-    if any(place.kind is Kind.RAMIFIED for place in problem.places):
-        raise Uncovered("at a ramified singular point no solution has a polynomial in it")
-    generic = None if _has_many_conjugates(problem, E) else choices(problem)
-    if generic is None:
-        raise Uncovered("the exponents need too large an extension of the field")
+    S = question.parsed.S
     seen: set[Any] = set()
-    for choice in generic:
-        degree = _over_base(choice.degree, problem.field)
-        if degree is None:
-            continue
-        for given, restricted, bounds in _of_degree(degree, d, S, problem.field, demands):
-            for special in choices_of_degree(analyse(restricted, budget), d) or ():
-                conditions = [*bounds, *(c for end in ends for c in _decay(special, end, demands))]
+    for degree in _degrees(analyse(S, budget), question.energy):
+        for restricted in _restricted(S, degree, d, demands.signs):
+            for choice in choices_of_degree(analyse(restricted.S, budget), d) or ():
+                conditions = [*restricted.bounds]
+                for end in ends:
+                    conditions += _decay(choice, end, demands)
                 if not possible(conditions, demands.signs):
                     continue
-                found = _found(special, d, variable, given, equation, E, tuple(conditions))
-                if found is not None and (found.constraint, found.polynomial, found.wave) not in seen:
-                    seen.add((found.constraint, found.polynomial, found.wave))
+                found = _found(question, choice, d, restricted.given, tuple(conditions))
+                if found is not None and found.key not in seen:
+                    seen.add(found.key)
                     yield found
 
 
-def _has_many_conjugates(problem: Problem, E: str) -> bool:
+def _degrees(problem: Problem, energy: str) -> Iterator[Poly]:
+    """The degrees of P that the exponents give, as functions of the parameters and E.
+
+    Raises `Uncovered` where a point is ramified, or the exponents aren't looked for.
+    """
+    if any(place.kind is Kind.RAMIFIED for place in problem.places):
+        raise Uncovered("at a ramified singular point no solution has a polynomial in it")
+    found = None if _has_many_conjugates(problem, energy) else choices(problem)
+    if found is None:
+        raise Uncovered("the exponents need too large an extension of the field")
+    for choice in found:
+        degree = _over_base(choice.degree, problem.field)
+        if degree is not None:
+            yield degree
+
+
+def _has_many_conjugates(problem: Problem, energy: str) -> bool:
     """Are there more poles than one pair outside of a field with parameters beside E, where factoring takes minutes?"""
-    beside = set(parameters_of(problem.field)) - {E}
+    beside = set(parameters_of(problem.field)) - {energy}
     return bool(beside) and prod(place.degree for place in problem.finite_places) > _CONJUGATES
 
 
@@ -96,15 +124,18 @@ def degree_beyond(S: RatFunc, d: int, budget: Budget) -> int | None:
     None where P has no higher degree, or where none is below `_HIGHEST`.
     """
     problem = analyse(S, budget)
-    degrees = [_over_base(choice.degree, problem.field) for choice in choices(problem) or ()]
+    found = [_over_base(choice.degree, problem.field) for choice in choices(problem) or ()]
+    degrees = [degree for degree in found if degree is not None]
     for higher in range(d + 1, _HIGHEST):
-        for degree in degrees:
-            if degree is None:
-                continue
-            difference = over_parameters(degree - higher)
-            if not difference or irreducible_factors(difference):
-                return higher
+        if any(_may_be(degree, higher) for degree in degrees):
+            return higher
     return None
+
+
+def _may_be(degree: Poly, d: int) -> bool:
+    """Is the degree d, or is it d for some values of the parameters and E?"""
+    difference = over_parameters(degree - d)
+    return not difference or bool(irreducible_factors(difference))
 
 
 def _over_base(value: Poly, base: Field) -> Poly | None:
@@ -117,92 +148,97 @@ def _over_base(value: Poly, base: Field) -> Poly | None:
     return value
 
 
-def _of_degree(
-    degree: Poly, d: int, S: RatFunc, field: Field, demands: Ends
-) -> Iterator[tuple[FunctionPoly, RatFunc, list[Any]]]:
-    """Where the degree is d: a function that vanishes there, S there, and what is known of parameters that were eliminated."""
+def _restricted(S: RatFunc, degree: Poly, d: int, signs: Signs) -> Iterator[_Restricted]:
+    """Everything, where the degree is d; the hypersurfaces on which it is, as far as the assumptions admit them."""
     difference = over_parameters(degree - d)
     if not difference:
-        yield difference, S, []
+        yield _Restricted(difference, S)
         return
     for factor in irreducible_factors(difference):
         surface = hypersurface(factor)
         if surface.curve is not None:
             continue
-        signs = demands.signs
-        values = {
-            name: signs.real(v.to_sympy(sympy.Dummy("x")))
-            for name, v in zip(surface.names, surface.values, strict=True)
-        }
-        eliminated = {name: value for name, value in values.items() if str(value) != name}
+        eliminated = _eliminated(surface, signs)
         if all(signs.admits(name, value) for name, value in eliminated.items()):
             bounds = [bound for name, value in eliminated.items() for bound in signs.bounds_of(name, value)]
-            yield factor, surface.restricted(S), bounds
+            yield _Restricted(factor, surface.restricted(S), tuple(bounds))
+
+
+def _eliminated(surface: Hypersurface, signs: Signs) -> dict[str, Any]:
+    """The parameters that are functions of others on it, with their values."""
+    x = sympy.Dummy("x")
+    values = {name: signs.real(v.to_sympy(x)) for name, v in zip(surface.names, surface.values, strict=True)}
+    return {name: value for name, value in values.items() if str(value) != name}
 
 
 def _decay(choice: Exponents, end: End, demands: Ends) -> list[Any]:
     """When the exponent at an end is that of a square integrable solution."""
     x = sympy.Dummy("x")
     signs = demands.signs
-    for part in choice.parts:
-        point = sympy.oo if part.factor is None else signs.real(sympy.simplify((-part.factor[0]).to_sympy(x)))
-        if point != end.point:
-            continue
-        if not part.main:
-            delta = signs.real(sympy.simplify(2 * part.exponent.to_sympy(x) - 1))
-            spot = Spot(point, None, sympy.Integer(end.mu), ("right" if end.is_right else "left",))
-            return demands.conditions(end.domain, spot, delta)
+    part = next((part for part in choice.parts if _point_of(part, signs) == end.point), None)
+    if part is None:
+        raise Uncovered(f"x = {end.at} is an ordinary point")
+    if part.main:
         rate = -signs.real(part.main.lc.to_sympy(x)) * end.direction ** (part.main.degree + 1)
-        return [sympy.false if rate.is_number and rate.is_real is False else sympy.Gt(rate, 0)]
-    raise Uncovered(f"x = {end.at} is an ordinary point")
+        if rate.is_number and rate.is_real is False:
+            return [sympy.false]
+        return [sympy.Gt(rate, 0)]
+    delta = signs.real(sympy.simplify(2 * part.exponent.to_sympy(x) - 1))
+    role = "right" if end.is_right else "left"
+    spot = Spot(end.point, None, sympy.Integer(end.mu), (role,))
+    return demands.conditions(end.domain, spot, delta)
+
+
+def _point_of(part: LocalPart, signs: Signs) -> Any:
+    """The value of t that it belongs to."""
+    if part.factor is None:
+        return sympy.oo
+    return signs.real(sympy.simplify((-part.factor[0]).to_sympy(sympy.Dummy("x"))))
 
 
 def _found(
-    choice: Exponents,
-    d: int,
-    variable: str,
-    given: FunctionPoly,
-    equation: Equation | None,
-    E: str,
-    demands: tuple[Any, ...],
+    question: SpectralProblem, choice: Exponents, d: int, given: FunctionPoly, demands: tuple[Any, ...]
 ) -> QuasiSolution | None:
-    solution = solution_of_degree(choice, d, variable, given)
+    """The solution with these exponents, and the equation for its energies; None where there is none."""
+    parsed = question.parsed
+    solution = solution_of_degree(choice, d, parsed.variable, given)
     system = choice.polynomial(d)
     if system is None or not has_radicals(choice.field):
         raise Uncovered(f"the polynomials of degree {d} don't follow from their highest coefficients")
-    if solution is None:  # none exists
+    if solution is None:
         return None
     y = _joined(solution.y, choice.field)
     constraint, *conditions = solution.conditions
-    energy = sympy.Symbol(E)
+    E = sympy.Symbol(question.energy)
     polynomial = sympy.Integer(0)
     for condition in conditions:
         polynomial = sympy.gcd(polynomial, sympy.numer(sympy.together(condition)))
-    if constraint.has(energy):
+    if constraint.has(E):
         if polynomial != 0:  # E is given, and P exists for some values of the parameters only
             return None
-        constraint, polynomial = sympy.Integer(0), sympy.numer(sympy.together(constraint))
-        energies = sympy.solve(polynomial, energy)
+        polynomial = sympy.numer(sympy.together(constraint))
+        energies = sympy.solve(polynomial, E)
         if len(energies) != 1:
             return None
-        y = y.xreplace({energy: energies[0]})
-        demands = tuple(c.subs(energy, energies[0]) for c in demands)
-    if not polynomial.has(energy):
+        constraint = sympy.Integer(0)
+        y = y.xreplace({E: energies[0]})
+        demands = tuple(c.subs(E, energies[0]) for c in demands)
+    if not polynomial.has(E):
         return None
-    if not polynomial.is_polynomial(energy):
+    if not polynomial.is_polynomial(E):
         raise Uncovered("the energies aren't the zeros of a polynomial")
-    t = sympy.Symbol(variable)
-    wave = y if equation is None else Given(lambda _: (), equation).translated(y)
-    P = system[0].to_sympy(t)
+    wave = y
+    if parsed.equation is not None:
+        wave = Given(lambda _: (), parsed.equation).translated(y)
+    P = system[0].to_sympy(sympy.Symbol(parsed.variable))
     return QuasiSolution(d, constraint, sympy.factor(polynomial), wave, P, demands)
 
 
 def _joined(y: Any, field: Field) -> Any:
-    """With the powers of conjugate factors as one power."""
+    """With the square roots that generate the field written out, and the powers of conjugate factors as one power."""
     while isinstance(field, AlgebraicField):
         if field.name.isidentifier() and field.name != "I" and field.dimension == 2:
-            middle, rest = (field.modulus[k].to_sympy(sympy.Dummy("x")) for k in (1, 0))
-            y = y.xreplace({sympy.Symbol(field.name): sympy.sqrt(middle**2 / 4 - rest) - middle / 2})
+            y = y.xreplace({sympy.Symbol(field.name): _root_of(field)})
         field = field.base
     powers: dict[Any, list[Any]] = {}
     for part in sympy.Mul.make_args(y):
@@ -211,8 +247,18 @@ def _joined(y: Any, field: Field) -> Any:
     return sympy.Mul(*(_product(bases) ** exponent for exponent, bases in powers.items()))
 
 
+def _root_of(field: AlgebraicField) -> Any:
+    """The generator a of a quadratic extension, a^2 + middle a + rest = 0."""
+    middle, rest = (field.modulus[k].to_sympy(sympy.Dummy("x")) for k in (1, 0))
+    return sympy.sqrt(middle**2 / 4 - rest) - middle / 2
+
+
 def _product(bases: list[Any]) -> Any:
-    return bases[0] if len(bases) == 1 else sympy.Mul(*bases[:-2], sympy.expand(bases[-2] * bases[-1]))
+    """The product, of whose factors the last two are multiplied out."""
+    if len(bases) == 1:
+        return bases[0]
+    *others, first, second = bases
+    return sympy.Mul(*others, sympy.expand(first * second))
 
 
 def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
@@ -225,22 +271,28 @@ def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
         yield from zip(sympy.Poly(factor, E).real_roots(), real, strict=True)
 
 
-def zeros_inside(P: Any, t: Any, E: Any, ball: arb, low: Any, high: Any) -> int | None:
-    """How many zeros P has between low and high, None for no bound; None where the balls are too large."""
-    coefficients = [_value(c, E, ball) for c in reversed(sympy.Poly(P, t).all_coeffs())]
+def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
+    """How many zeros the polynomial P has between two bounds, each None where there is none, at the E in the ball.
+
+    None where the balls are too large.
+    """
+    coefficients = [_value(c, E, ball) for c in reversed(P.all_coeffs())]
     if len(coefficients) < 2:
         return 0
-    count = 0
+    low, high = bounds
+    distances = []
     for root in acb_poly(coefficients).roots():
-        if not root.imag.contains(0):
-            continue
-        sides = [None if end is None else root.real - arb(str(sympy.N(end, 30))) for end in (low, high)]
-        if any(side is not None and side.contains(0) for side in sides):
-            return None
-        above = sides[0] is None or sides[0] > 0
-        below = sides[1] is None or sides[1] < 0
-        count += above and below
-    return count
+        if root.imag.contains(0):
+            above = _INSIDE if low is None else root.real - _as_ball(low)
+            below = _INSIDE if high is None else _as_ball(high) - root.real
+            distances.append((above, below))
+    if any(above.contains(0) or below.contains(0) for above, below in distances):
+        return None
+    return sum(bool(above > 0 and below > 0) for above, below in distances)
+
+
+def _as_ball(bound: Any) -> arb:
+    return arb(str(sympy.N(bound, 30)))
 
 
 def _value(coefficient: Any, E: Any, ball: arb) -> acb:

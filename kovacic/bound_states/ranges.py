@@ -22,38 +22,50 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     roots = {symbol: square for symbol, square in squares.items() if not _radicals(square)}
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
     found: list[Any] = []
-    any_squared = False
+    implied = {sympy.true}
     for condition in _paired(left, signs):
-        squared = _squared(_solved(condition, signs), roots)
+        solved = _solved(condition, signs)
+        squared = _squared(solved, roots)
         if squared is None:
-            found.append(_solved(condition, signs).xreplace(meanings))
+            found.append(solved.xreplace(meanings))
         else:
             found.append(_solved(squared, signs))
-            any_squared = True
-    implied = {sympy.true}
-    if any_squared:
-        implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
+            implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
     return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
 
 
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
     """Without those that others imply; (False,) where two of them exclude each other."""
-    implied: list[Any] = []
-    for first, second in combinations(conditions, 2):
-        if sympy.false in (first, second) or first.lhs != second.lhs:
-            continue
-        gap = first.rhs - second.rhs
-        if _is_lower_bound(first) and _is_lower_bound(second):
-            if signs.is_positive(gap):
-                implied.append(second)
-            elif signs.is_positive(-gap):
-                implied.append(first)
-        elif _is_lower_bound(first):
-            if signs.is_positive(gap):
-                return (sympy.false,)
-        elif _is_lower_bound(second) and signs.is_positive(-gap):
-            return (sympy.false,)
-    return tuple(c for c in conditions if c not in implied)
+    pairs = [*combinations(conditions, 2)]
+    if any(_exclude(first, second, signs) for first, second in pairs):
+        return (sympy.false,)
+    weaker = [_weaker(first, second, signs) for first, second in pairs]
+    return tuple(c for c in conditions if c not in weaker)
+
+
+def _exclude(first: Any, second: Any, signs: Signs) -> bool:
+    """Is one a lower bound of what the other one bounds from above, and larger?"""
+    if not _are_comparable(first, second) or _is_lower_bound(first) == _is_lower_bound(second):
+        return False
+    low, high = (first, second) if _is_lower_bound(first) else (second, first)
+    return signs.is_positive(low.rhs - high.rhs) is True
+
+
+def _weaker(first: Any, second: Any, signs: Signs) -> Any:
+    """The one of two lower bounds that the other one implies; None where there is none."""
+    if not _are_comparable(first, second):
+        return None
+    if not (_is_lower_bound(first) and _is_lower_bound(second)):
+        return None
+    gap = first.rhs - second.rhs
+    if signs.is_positive(gap):
+        return second
+    return first if signs.is_positive(-gap) else None
+
+
+def _are_comparable(first: Any, second: Any) -> bool:
+    """Are both relations, with the same at their left?"""
+    return sympy.false not in (first, second) and bool(first.lhs == second.lhs)
 
 
 def _is_lower_bound(condition: Any) -> bool:
@@ -66,52 +78,83 @@ def _radicals(expression: Any) -> set[Any]:
 
 def _squared(condition: Any, roots: Mapping[Any, Any]) -> Any:
     """r > c, c >= 0 a number, as r^2 > c^2; None for another condition."""
-    if condition in (sympy.true, sympy.false) or condition.lhs not in roots or not condition.rhs.is_number:
+    if condition in (sympy.true, sympy.false) or not _is_lower_bound(condition):
         return None
-    if condition.rhs.is_negative or not _is_lower_bound(condition):
+    bound = condition.rhs
+    if condition.lhs not in roots or not bound.is_number or bound.is_negative:
         return None
-    return condition.func(roots[condition.lhs], condition.rhs**2)
+    return condition.func(roots[condition.lhs], bound**2)
 
 
 def _paired(conditions: list[Any], signs: Signs) -> list[Any]:
-    """s + t > 0 and s - t > 0 as s > sqrt(|s t|), where s t doesn't depend on n: s > 0, and s^2 > |s t| means s > |t|."""
+    """The conditions, with each two that `_pair` says in one."""
     for first, second in combinations(conditions, 2):
-        one, other = (condition.gts - condition.lts for condition in (first, second))
-        if not (isinstance(first, sympy.StrictGreaterThan) and one.has(signs.n) and other.has(signs.n)):
-            continue
-        half = sympy.simplify((one + other) / 2)
-        product = sympy.simplify(half * (one - other) / 2)
-        if product.has(signs.n) or sympy.degree(sympy.numer(sympy.together(half)), signs.n) != 1:
-            continue
-        sign = signs.sign(product)
-        size = sympy.Abs(product) if sign is None else sign * product
-        together = sympy.StrictGreaterThan(half, sympy.sqrt(sympy.factor(size)))
-        return _paired([together, *(c for c in conditions if c not in (first, second))], signs)
+        together = _pair(first, second, signs)
+        if together is not None:
+            others = [c for c in conditions if c not in (first, second)]
+            return _paired([together, *others], signs)
     return conditions
 
 
+def _pair(first: Any, second: Any, signs: Signs) -> Any:
+    """s + t > 0 and s - t > 0 as s > sqrt(|s t|), where s t doesn't depend on n: s > 0, and s^2 > |s t| means s > |t|.
+
+    None for other conditions.
+    """
+    n = signs.n
+    if not isinstance(first, sympy.StrictGreaterThan):
+        return None
+    one = first.gts - first.lts
+    other = second.gts - second.lts
+    if not (one.has(n) and other.has(n)):
+        return None
+    s = sympy.simplify((one + other) / 2)
+    st = sympy.simplify(s * (one - other) / 2)
+    if st.has(n) or sympy.degree(sympy.numer(sympy.together(s)), n) != 1:
+        return None
+    sign = signs.sign(st)
+    size = sympy.Abs(st) if sign is None else sign * st
+    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(size)))
+
+
 def _solved(condition: Any, signs: Signs) -> Any:
-    if condition in (sympy.true, sympy.false) or (condition.has(sympy.Abs) and not condition.has(signs.n)):
+    """The condition for n, or else for a parameter, where it is linear in it; for (n + h)^2 where it is quadratic in n."""
+    n = signs.n
+    if condition in (sympy.true, sympy.false):
         return condition
-    strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
-    greater = sympy.StrictGreaterThan if strict else sympy.GreaterThan
-    less = sympy.StrictLessThan if strict else sympy.LessThan
+    if condition.has(sympy.Abs) and not condition.has(n):
+        return condition
+    is_strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
     rest = _without_signs(condition.gts - condition.lts, signs)
     number, factor = rest.as_coeff_Mul()
     base, exponent = factor.as_base_exp()
-    if strict and exponent == -1:  # 1/p > 0 where p > 0
+    if is_strict and exponent == -1:  # 1/p > 0 where p > 0
         rest = sympy.expand(number * base)
-    for unknown in (signs.n, *sorted(rest.free_symbols - {signs.n}, key=str)):
-        if not rest.is_polynomial(unknown) or sympy.degree(rest, unknown) != 1:
+    for unknown in (n, *sorted(rest.free_symbols - {n}, key=str)):
+        if _degree(rest, unknown) != 1:
             continue
         slope = rest.coeff(unknown, 1)
         sign = signs.sign(slope)
         if sign is not None:
             bound = shortest(sympy.factor(-rest.coeff(unknown, 0) / slope))
-            return greater(unknown, bound) if sign == 1 else less(unknown, bound)
-    if rest.is_polynomial(signs.n) and sympy.degree(rest, signs.n) == 2:
-        return _square(rest, signs, greater, less)
-    return greater(rest, 0)
+            return _beyond(unknown, bound, sign, is_strict=is_strict)
+    if _degree(rest, n) == 2:
+        return _solved_for_square(rest, signs, is_strict=is_strict)
+    return _beyond(rest, 0, 1, is_strict=is_strict)
+
+
+def _degree(expression: Any, unknown: Any) -> Any:
+    """As a polynomial in the unknown; None where it is none."""
+    return sympy.degree(expression, unknown) if expression.is_polynomial(unknown) else None
+
+
+def _beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
+    """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
+    if sign == 1:
+        relation = sympy.StrictGreaterThan if is_strict else sympy.GreaterThan
+    else:
+        relation = sympy.StrictLessThan if is_strict else sympy.LessThan
+    return relation(unknown, bound)
 
 
 def _without_signs(difference: Any, signs: Signs) -> Any:
@@ -119,16 +162,16 @@ def _without_signs(difference: Any, signs: Signs) -> Any:
     rest = sympy.Integer(1)
     for factor in sympy.Mul.make_args(sympy.factor(sympy.together(difference))):
         sign = signs.sign(factor)
-        rest *= factor if sign is None else sign
+        rest *= sign or factor
     return sympy.expand(rest)
 
 
-def _square(rest: Any, signs: Signs, greater: Any, less: Any) -> Any:
+def _solved_for_square(rest: Any, signs: Signs, *, is_strict: bool) -> Any:
     """c (n + h)^2 + k > 0 as (n + h)^2 < -k/c."""
     c, b, k = (rest.coeff(signs.n, i) for i in (2, 1, 0))
     sign = signs.sign(c)
     if sign is None:
-        return greater(rest, 0)
+        return _beyond(rest, 0, 1, is_strict=is_strict)
     square = (signs.n + shortest(sympy.factor(b / (2 * c)))) ** 2
     bound = shortest(sympy.factor((b**2 / (4 * c) - k) / c))
-    return greater(square, bound) if sign == 1 else less(square, bound)
+    return _beyond(square, bound, sign, is_strict=is_strict)

@@ -24,7 +24,8 @@ class Signs:
         self.symbols = {name: _real(name, found.get(name)) for name in names}
         #: The number of a level.
         self.n = sympy.Dummy("n", integer=True, nonnegative=True)
-        self._bounds = [(self.symbols[name], known.of(name).bounds) for name in self.symbols if known.of(name).bounds]
+        bounds = {name: known.of(name).bounds for name in self.symbols}
+        self._bounds = {name: those for name, those in bounds.items() if those}
 
     def real(self, expression: Any) -> Any:
         """The expression in the real symbols, in the place of plain ones of the same names."""
@@ -33,11 +34,10 @@ class Signs:
 
     def bounds_of(self, name: str, expression: Any) -> list[Any]:
         """What is known about the parameter, said about an expression that is its value."""
-        bounds = dict(self._bounds).get(self.symbols[name], [])
         found = []
-        for bound in bounds:
-            difference = bound.sign * (expression - sympy.Rational(bound.end.numerator, bound.end.denominator))
-            found.append(sympy.Gt(difference, 0) if bound.strict else sympy.Ge(difference, 0))
+        for bound in self._bounds.get(name, ()):
+            relation = sympy.Gt if bound.strict else sympy.Ge
+            found.append(relation(bound.sign * (expression - _end_of(bound)), 0))
         return found
 
     def admits(self, name: str, expression: Any) -> bool:
@@ -45,8 +45,11 @@ class Signs:
         coset = self._known_of(name).coset
         if coset is not None and expression.is_Rational:
             return bool(coset.contains(Fraction(int(expression.p), int(expression.q))))
-        facts = self.symbols[name].assumptions0
-        return all(getattr(expression, f"is_{fact}", None) in (None, value) for fact, value in facts.items())
+        for fact, value in self.symbols[name].assumptions0.items():
+            known = getattr(expression, f"is_{fact}", None)
+            if known is not None and known != value:
+                return False
+        return True
 
     def holds(self, relation: Any) -> bool | None:
         """Is the relation true for all values, false for all values, or neither of these as far as is known?
@@ -74,21 +77,26 @@ class Signs:
         return -1 if self.is_positive(-expression) else None
 
     def _known(self, expression: Any, question: str) -> bool | None:
+        """What SymPy says in the first of the charts in which it says something."""
         for values in self._charts():
             factored = sympy.factor(sympy.together(sympy.sympify(expression).xreplace(values)))
-            parts = [sympy.expand(part) if part.is_Add else part for part in sympy.Mul.make_args(factored)]
-            found = getattr(sympy.Mul(*parts, evaluate=False), question)
-            if found is None:
-                found = getattr(factored, question)
-            if found is not None:
-                return bool(found)
+            expanded = map(_expanded, sympy.Mul.make_args(factored))
+            for form in (sympy.Mul(*expanded, evaluate=False), factored):
+                found = getattr(form, question)
+                if found is not None:
+                    return bool(found)
         return None
 
     def _charts(self) -> Iterator[dict[Any, Any]]:
         """Each parameter with bounds as one of them and a variable with a sign."""
-        for chosen in product(*(bounds for _, bounds in self._bounds)):
-            symbols = (symbol for symbol, _ in self._bounds)
+        symbols = [self.symbols[name] for name in self._bounds]
+        for chosen in product(*self._bounds.values()):
             yield {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
+
+
+def _expanded(factor: Any) -> Any:
+    """A sum as a sum of products."""
+    return sympy.expand(factor) if factor.is_Add else factor
 
 
 def _real(name: str, known: Any) -> Any:
@@ -96,9 +104,13 @@ def _real(name: str, known: Any) -> Any:
     return sympy.Symbol(name, **{**facts, "real": True})
 
 
+def _end_of(bound: Bound) -> Any:
+    return sympy.Rational(bound.end.numerator, bound.end.denominator)
+
+
 def _beyond(bound: Bound, symbol: Any) -> Any:
+    """The bound and a variable with a sign, an integer where that is known."""
     facts = {"positive": True} if bound.strict else {"nonnegative": True}
     if bound.end.denominator == 1 and symbol.is_integer:
         facts["integer"] = True
-    end = sympy.Rational(bound.end.numerator, bound.end.denominator)
-    return end + bound.sign * sympy.Dummy("s", **facts)
+    return _end_of(bound) + bound.sign * sympy.Dummy("s", **facts)

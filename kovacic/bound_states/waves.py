@@ -38,22 +38,29 @@ class WaveProduct:
         return sympy.Mul(*parts) * sympy.exp(shortest(self.exponent))
 
 
-def factor_at(frame: SingularFrame, c: Any, t: Any) -> WaveProduct:
+def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     """|t - c| on the domain."""
     original = frame.original
-    half = frame.original.theta / 2
-    is_above = _is_above(frame, c)
-    kind = original.kind
-    if kind == "exp" and c == 0:
-        return WaveProduct(exponent=original.theta)
-    if kind == "exp" and c == -1:
-        return WaveProduct(sympy.Integer(2), half, {sympy.cosh(half): 1})
-    if kind == "exp" and c == 1:
-        return WaveProduct(sympy.Integer(2), half, {sympy.sinh(half if is_above else -half): 1})
-    if kind in ("cosh", "cos") and c in (1, -1):
-        small, large = (sympy.sinh, sympy.cosh) if kind == "cosh" else (sympy.sin, sympy.cos)
-        return WaveProduct(sympy.Integer(2), powers={(small if c == 1 else large)(half): 2})
-    return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
+    half = original.theta / 2
+    two = sympy.Integer(2)
+    match original.kind, c:
+        case "exp", 0:
+            return WaveProduct(exponent=original.theta)
+        case "exp", -1:
+            return WaveProduct(two, half, {sympy.cosh(half): 1})
+        case "exp", 1:
+            angle = half if _is_above(frame, c) else -half
+            return WaveProduct(two, half, {sympy.sinh(angle): 1})
+        case "cosh", 1:
+            return WaveProduct(two, powers={sympy.sinh(half): 2})
+        case "cosh", -1:
+            return WaveProduct(two, powers={sympy.cosh(half): 2})
+        case "cos", 1:
+            return WaveProduct(two, powers={sympy.sin(half): 2})
+        case "cos", -1:
+            return WaveProduct(two, powers={sympy.cos(half): 2})
+    distance = original.t - c if _is_above(frame, c) else c - original.t
+    return WaveProduct(powers={distance: 1})
 
 
 def _is_above(frame: SingularFrame, c: Any) -> bool:
@@ -65,8 +72,9 @@ def _is_above(frame: SingularFrame, c: Any) -> bool:
     return not is_below
 
 
-def as_product(frame: SingularFrame, expression: Any, t: Any) -> WaveProduct:
+def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
     """|expression|, a rational function of t, up to its sign."""
+    t = sympy.Symbol(frame.problem_variable)
     found = WaveProduct()
     for factor in sympy.Mul.make_args(sympy.factor(expression)):
         base, k = factor.as_base_exp()
@@ -76,7 +84,7 @@ def as_product(frame: SingularFrame, expression: Any, t: Any) -> WaveProduct:
         polynomial = sympy.Poly(base, t)
         found.constant *= sympy.Abs(polynomial.LC()) ** k
         for root, multiplicity in sympy.roots(polynomial).items():
-            found = found.times(factor_at(frame, root, t), k * multiplicity)
+            found = found.times(factor_at(frame, root), k * multiplicity)
     return found
 
 
@@ -103,36 +111,81 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     return [*others, last]
 
 
+@dataclass(frozen=True)
+class _Point:
+    """One of the points w = 1, -1, oo: its mu, delta with its sign, and whether it is an end or the middle of the domain."""
+
+    spot: Spot
+    delta: Any
+
+    @property
+    def mu(self) -> Any:
+        return self.spot.mu
+
+    @property
+    def is_used(self) -> bool:
+        return bool(self.spot.roles)
+
+    @property
+    def exponent(self) -> Any:
+        """e, as in y = (1 - w)^e1 (1 + w)^e2 P(w)."""
+        return (1 + self.delta) / 2 - self.mu / 4
+
+
+@dataclass(frozen=True)
+class _JacobiForm:
+    """y = (1 - w)^e1 (1 + w)^e2 P_n^(d1, d2)(w) with the points w = 1, -1, oo in this order.
+
+    (dw/dx)^2 = `scale` (1 - w)^mu1 (1 + w)^mu2.
+    """
+
+    frame: SingularFrame
+    w: Any
+    points: tuple[_Point, _Point, _Point]
+    scale: Any
+    n: Any
+
+    @property
+    def has_constant_scale(self) -> bool:
+        return not self.scale.has(self.frame.z)
+
+
 def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> tuple[Any, Any]:
     """The solution, and the integral of its square where it is known."""
-    order = _ordered(frame, roots)
-    t = sympy.Symbol(frame.problem_variable)
+    form = _jacobi_form(frame, roots, deltas, signs)
+    if form.w.has(sympy.I):
+        return _complex_pair(form)
+    first, second, _ = form.points
+    minus = as_product(frame, 1 - form.w)
+    plus = as_product(frame, 1 + form.w)
+    whole = WaveProduct().times(minus, first.exponent).times(plus, second.exponent)
+    polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
+    wave = whole.shown() * polynomial
+    norm = _norm(form) if form.has_constant_scale else None
+    if norm is None:
+        return wave, None
+    return wave, _on_domain(frame, norm / whole.constant**2)
+
+
+def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> _JacobiForm:
+    """With w of z for the points in their order."""
     z = frame.z
-    n = signs.n
+    order = _ordered(frame, roots)
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     if _is_negative_line(w_of_z, z):
         order[0], order[1] = order[1], order[0]
         w_of_z = moebius(z, *(frame.spots[k].point for k in order))
-    first, second, third = (frame.spots[k] for k in order)
-    a, b, c = (deltas[k] for k in order)
+    first, second, third = (_Point(frame.spots[k], deltas[k]) for k in order)
     w = sympy.factor(w_of_z.xreplace({z: frame.base**frame.m}))
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
     scale = sympy.simplify(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu))
-    e1 = (1 + a) / 2 - first.mu / 4
-    e2 = (1 + b) / 2 - second.mu / 4
-    if w.has(sympy.I):
-        return _complex_pair(frame, w, t, (a, b), e1, (first, second), scale, n)
-    minus = as_product(frame, 1 - w, t)
-    plus = as_product(frame, 1 + w, t)
-    whole = WaveProduct().times(minus, e1).times(plus, e2)
-    argument = _argument(frame, w, t)
-    wave = whole.shown() * jacobi(n, shortest(a), shortest(b), argument)
-    if scale.has(z):
-        return wave, None
-    norm = _norm((first, second, third), (a, b, c), (e1, e2), sympy.Abs(scale), n)
-    if norm is None:
-        return wave, None
-    return wave, _tidy(norm / whole.constant**2) * (2 if frame.fold is not None else 1)
+    return _JacobiForm(frame, w, (first, second, third), scale, signs.n)
+
+
+def _on_domain(frame: SingularFrame, norm: Any) -> Any:
+    """The norm on the whole domain from that on its right half, where the problem is one on this half."""
+    tidy = _tidy(norm)
+    return tidy if frame.fold is None else 2 * tidy
 
 
 def _is_negative_line(w: Any, z: Any) -> bool:
@@ -140,53 +193,62 @@ def _is_negative_line(w: Any, z: Any) -> bool:
     return any(sympy.cancel(w + sympy.I * form) == 0 for form in (z, 1 / z))
 
 
-def _argument(frame: SingularFrame, w: Any, t: Any) -> Any:
+def _argument(frame: SingularFrame, w: Any) -> Any:
     """w in the user's variable."""
     original = frame.original
-    half = frame.original.theta / 2
-    if original.kind == "exp":
-        known = {(t - 1) / (t + 1): sympy.tanh(half), (t + 1) / (t - 1): sympy.coth(half)}
-        for form, written in known.items():
-            for sign in (1, -1):
-                if sympy.cancel(w - sign * form) == 0:
-                    return sign * written
-        return (
-            sympy.expand(sympy.apart(w, t))
-            .xreplace({t: original.t})
-            .replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
-        )
-    return sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
+    t = sympy.Symbol(frame.problem_variable)
+    in_x = sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
+    if original.kind != "exp":
+        return in_x
+    half = original.theta / 2
+    known = {(t - 1) / (t + 1): sympy.tanh(half), (t + 1) / (t - 1): sympy.coth(half)}
+    for form, written in known.items():
+        for sign in (1, -1):
+            if sympy.cancel(w - sign * form) == 0:
+                return sign * written
+    return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
 
 
-def _complex_pair(
-    frame: SingularFrame, w: Any, t: Any, deltas: tuple[Any, Any], e1: Any, spots: tuple[Spot, Spot], scale: Any, n: Any
-) -> tuple[Any, Any]:
+def _complex_pair(form: _JacobiForm) -> tuple[Any, Any]:
     """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
-    r = sympy.factor(w / sympy.I)
+    first, second, _ = form.points
+    original = form.frame.original
+    t = sympy.Symbol(form.frame.problem_variable)
+    n = form.n
+    e1 = first.exponent
     p = sympy.expand((e1 + conjugate(e1)) / 2)
     q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
-    original = frame.original
-    a, b = map(shortest, deltas)
+    r_of_t = sympy.factor(form.w / sympy.I)
+    r = r_of_t.xreplace({t: original.t})
     dropped = sympy.Integer(1)
-    if original.kind == "sinh" and sympy.expand(r**2 - t**2) == 0:
-        real = r.xreplace({t: original.t})
-        wave = sympy.cosh(original.theta) ** shortest(2 * p) * sympy.exp(2 * q * sympy.atan(real))
-    elif original.kind == "tan" and sympy.cancel(r**2 - t**-2) == 0:
-        sign = 1 if sympy.cancel(r - 1 / t) == 0 else -1
-        real = sign * sympy.cot(original.theta)
+    if original.kind == "sinh" and sympy.expand(r_of_t**2 - t**2) == 0:
+        wave = sympy.cosh(original.theta) ** shortest(2 * p) * sympy.exp(2 * q * sympy.atan(r))
+    elif original.kind == "tan" and sympy.cancel(r_of_t**2 - t**-2) == 0:
+        sign = 1 if sympy.cancel(r_of_t - 1 / t) == 0 else -1
+        r = sign * sympy.cot(original.theta)
         wave = sympy.sin(original.theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * original.theta)
         dropped = sympy.exp(2 * sympy.pi * q * sign)
     else:
-        real = r.xreplace({t: original.t})
-        wave = (1 + real**2) ** p * sympy.exp(2 * q * sympy.atan(real))
-    wave *= (-sympy.I) ** n * jacobi(n, a, b, sympy.I * real)
-    shifts = tuple(1 - spot.mu for spot in spots)
-    middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
-    norm = _jacobi_integral(a, b, shifts, n, middle)
-    is_whole_line = any(len(spot.roles) == 2 for spot in frame.spots)
-    if norm is None or not is_whole_line or scale.has(frame.z):
+        wave = (1 + r**2) ** p * sympy.exp(2 * q * sympy.atan(r))
+    a = shortest(first.delta)
+    b = shortest(second.delta)
+    wave *= (-sympy.I) ** n * jacobi(n, a, b, sympy.I * r)
+    norm = _norm_on_line(form, a, b)
+    if norm is None:
         return wave, None
-    return wave, _tidy(-norm / sympy.sqrt(sympy.Abs(scale)) / dropped)
+    return wave, _tidy(-norm / dropped)
+
+
+def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
+    """int y^2 dx for w = i r, up to its sign; None where it isn't known, or r doesn't run through the whole line."""
+    first, second, _ = form.points
+    n = form.n
+    is_whole_line = any(len(spot.roles) == 2 for spot in form.frame.spots)
+    if not is_whole_line or not form.has_constant_scale:
+        return None
+    middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
+    integral = _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle)
+    return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
 
 
 def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
@@ -213,40 +275,41 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
     return known.get(shifts)
 
 
-def _norm(
-    spots: tuple[Spot, Spot, Spot], deltas: tuple[Any, Any, Any], powers: tuple[Any, Any], scale: Any, n: Any
-) -> Any:
-    """int y^2 dx for y = |1 - w|^e1 |1 + w|^e2 P_n(w), (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2."""
-    first, second, third = spots
-    a, b, c = deltas
-    e1, e2 = powers
-
-    def middle(a: Any, b: Any) -> Any:
-        return sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
-
-    if first.roles and second.roles:
-        integral = _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle(a, b))
+def _norm(form: _JacobiForm) -> Any:
+    """int y^2 dx between two of the points w = 1, -1, oo; None where it isn't known."""
+    first, second, third = form.points
+    n = form.n
+    scale = sympy.Abs(form.scale)
+    if first.is_used and second.is_used:
+        integral = _integral_between(first, second, n)
         return None if integral is None else integral / sympy.sqrt(scale)
-    if second.roles:  # w -> -w
-        first, second, a, b, e1, e2 = second, first, b, a, e2, e1
-    if not (first.roles and third.roles):
+    if second.is_used:  # w -> -w
+        first, second = second, first
+    if not (first.is_used and third.is_used):
         return None
     # w = (3 - v)/(1 + v): P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v)
-    integral = _jacobi_integral(a, c, (1 - first.mu, 1 - third.mu), n, middle(a, c))
+    integral = _integral_between(first, third, n)
     if integral is None:
         return None
     scale *= 2 ** (first.mu + 2 * second.mu - 4)
-    return 2 ** (2 * e1 + 4 * e2 + 2 * n) * integral / sympy.sqrt(scale)
+    return 2 ** (2 * first.exponent + 4 * second.exponent + 2 * n) * integral / sympy.sqrt(scale)
+
+
+def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
+    """The integral of `_jacobi_integral` for the deltas and the mu of two points."""
+    a = first.delta
+    b = second.delta
+    middle = sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
+    return _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle)
 
 
 def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> tuple[Any, Any]:
     """The solution, and the integral of its square where it is known."""
-    t = sympy.Symbol(frame.problem_variable)
     n = signs.n
     z = frame.z
     power = (1 + delta) / 2 - origin.mu / 4
-    whole = WaveProduct().times(as_product(frame, frame.base, t), frame.m * power)
-    in_x = _argument(frame, frame.base, t) ** frame.m
+    whole = WaveProduct().times(as_product(frame, frame.base), frame.m * power)
+    in_x = _argument(frame, frame.base) ** frame.m
     rate = shortest(2 * kappa)
     wave = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
     scale = sympy.simplify(frame.slope / z**origin.mu)
@@ -255,8 +318,8 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, si
     j = 1 - origin.mu
     if j not in known or scale.has(z) or signs.sign(kappa) == -1:
         return wave, None
-    norm = rate ** (origin.mu - 2 - delta) * weight * known[j] / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2
-    return wave, _tidy(norm) * (2 if frame.fold is not None else 1)
+    integral = rate ** (origin.mu - 2 - delta) * weight * known[j]
+    return wave, _on_domain(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2)
 
 
 def _tidy(norm: Any) -> Any:

@@ -1,0 +1,214 @@
+"""What is asked: V - E as the user has written it, the domain, and what is known of the parameters, in real symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import sympy
+
+from kovacic.bound_states.letters import assumed_of_letters
+from kovacic.bound_states.signs import Signs
+from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, Parsed, parameters_of
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.exact import exact_text
+from kovacic.limits import Limits
+from kovacic.numerals import as_text
+from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.reading.read import read_input
+from kovacic.reading.source import USUAL_VARIABLES, chosen_variable
+from kovacic.reading.substitution import with_values
+from kovacic.reading.symbolic import LIMITS as SYMBOLIC
+from kovacic.reading.symbolic import names_of, read_expression
+
+FRIEDRICHS = "friedrichs"
+#: Names for the number of a level: the first one that the user hasn't taken.
+_NUMBERS = ("n", "k", "j", "m", "n_")
+_INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+
+
+@dataclass(frozen=True)
+class SpectralProblem:
+    """The problem: V - E as it was read, and the domain, in real symbols."""
+
+    V: Any
+    parsed: Parsed
+    domain: tuple[Any, Any]
+    variable: str
+    energy: str
+    known: Assumptions
+    signs: Signs
+    friedrichs: bool
+    notices: tuple[str, ...] = ()
+
+    @property
+    def x(self) -> Any:
+        return sympy.Symbol(self.variable, real=True)
+
+    @property
+    def E(self) -> Any:
+        return self.signs.symbols[self.energy]
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        constants = self.constants
+        return tuple(name for name in self.signs.symbols if name != self.energy and name not in constants)
+
+    @property
+    def constants(self) -> dict[str, Any]:
+        return _constants(self.V, self.signs.symbols)
+
+    def with_potential(self, V: Any) -> SpectralProblem:
+        """The same for another potential, in real symbols."""
+        plain = self.plain(V)
+        text = f"({as_text(plain)}) - {self.energy}"
+        return replace(self, V=plain, parsed=read_input(text, var=self.variable, exponentials=True))
+
+    def plain(self, expression: Any) -> Any:
+        """In plain symbols of the same names, as users write them; n for the number of a level."""
+        taken = {*self.signs.symbols, self.variable}
+        number = next(name for name in _NUMBERS if name not in taken)
+        symbols = [s for s in expression.free_symbols if not isinstance(s, sympy.Dummy)]
+        constants = self.constants
+        names = {s: constants.get(s.name, sympy.Symbol(s.name)) for s in symbols}
+        return expression.xreplace({**names, self.signs.n: sympy.Symbol(number)})
+
+
+class _Potential(NamedTuple):
+    """V as an expression, and V - E as it is read: text where V is."""
+
+    expression: Any
+    S: Any
+
+
+class _Variable(NamedTuple):
+    """The name of the variable, and a note where the user may not expect it."""
+
+    name: str
+    notices: tuple[str, ...] = ()
+
+
+def read_question(
+    V: Any,
+    domain: Sequence[Any],
+    *,
+    energy: str,
+    var: Any,
+    assume: Mapping[Any, Any] | None,
+    boundary: str | None,
+    limits: Limits,
+) -> SpectralProblem:
+    """The question that `kovacic.spectrum` was asked; its parameters are described there.
+
+    Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
+    """
+    _check_options(energy, boundary)
+    expression, S = _read_potential(V, energy)
+    variable = _Variable(str(var))
+    if var is None:
+        variable = _variable_of(expression)
+    if len(domain) != 2 or isinstance(domain, str):
+        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    parsed = read_input(S, var=variable.name, limits=limits, exponentials=True)
+    S, parsed, assume = with_values(S, parsed, assume, limits)
+    assume = assumed_of_letters(assume, parsed.letters)
+    ends = [_read_end(value) for value in domain]
+    names = _names(parsed, ends, variable=variable.name, energy=energy)
+    known = read_assumptions(assume, V, names)
+    for constant in _constants(expression, names):
+        known = known.also(constant, ("irrational", "positive"))
+    signs = Signs(known, names)
+    if isinstance(S, str):  # the values of parameters are in it
+        expression = read_expression(S[: S.rindex(" - ")])
+    return SpectralProblem(
+        expression,
+        parsed,
+        domain=_checked_domain(ends, signs),
+        variable=variable.name,
+        energy=energy,
+        known=known,
+        signs=signs,
+        friedrichs=boundary == FRIEDRICHS,
+        notices=variable.notices,
+    )
+
+
+def _check_options(energy: Any, boundary: str | None) -> None:
+    """Raises `InputError` for an unknown boundary condition, and for what can't be the name of the energy."""
+    if boundary not in (None, FRIEDRICHS):
+        raise InputError(f"{boundary!r} isn't a boundary condition", hint=f'boundary="{FRIEDRICHS}", or none')
+    if not isinstance(energy, str) or not energy.isidentifier():
+        raise InputError(f"{energy!r} can't be the name of the energy")
+
+
+def _names(parsed: Parsed, ends: list[Any], *, variable: str, energy: str) -> tuple[str, ...]:
+    """The energy and the parameters, those of the ends last.  Raises `InputError` for ends that aren't constant."""
+    in_the_domain = {symbol.name for end in ends for symbol in end.free_symbols}
+    if in_the_domain & {variable, energy}:
+        raise InputError(f"an end of the domain contains {variable} or {energy}")
+    names = parameters_of(parsed.S.field)
+    return (*names, *sorted(in_the_domain - {*names}))
+
+
+def _variable_of(expression: Any) -> _Variable:
+    """x, or the only name if it usually is a variable; and a note where it isn't x.  Raises `InputError` for several names."""
+    names = names_of(expression)
+    if DEFAULT_VARIABLE in names or not names:
+        return _Variable(DEFAULT_VARIABLE)
+    only = chosen_variable(names)
+    if only in USUAL_VARIABLES:
+        return _Variable(only, (f"{only} is taken for the variable, of which V is a function",))
+    return _Variable(DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",))
+
+
+def _read_potential(V: Any, energy: str) -> _Potential:
+    """Raises `InputError` for what isn't a real potential."""
+    potential = _as_written(V, energy)
+    expression = potential.expression
+    if energy in {s.name for s in expression.free_symbols}:
+        raise InputError(
+            f"the potential contains {energy}, the energy",
+            hint="energy= gives it another name",
+            shell="--energy gives it another name",
+        )
+    numbers = expression.atoms(sympy.Rational)
+    longest = max((max(abs(int(c.p)), int(c.q)) for c in numbers), default=0)
+    if longest.bit_length() > SYMBOLIC.bits:
+        raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
+    if expression.has(sympy.I):
+        raise InputError("the potential isn't real")
+    return potential
+
+
+def _as_written(V: Any, energy: str) -> _Potential:
+    """The potential as text, as an expression, or as a number."""
+    if isinstance(V, str):
+        return _Potential(read_expression(V, what="the potential"), f"({V}) - {energy}")
+    expression = V
+    if not hasattr(V, "free_symbols"):
+        expression = read_expression(exact_text(V, "the potential"))
+    return _Potential(expression, expression - sympy.Symbol(energy))
+
+
+def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:
+    """pi and e, which are parameters for the program, and aren't for users."""
+    symbols = {symbol.name for symbol in expression.free_symbols}
+    meanings = {PI: sympy.pi, EULER: sympy.E}
+    return {name: value for name, value in meanings.items() if name in names and name not in symbols}
+
+
+def _read_end(value: Any) -> Any:
+    text = exact_text(value, "an end of the domain")
+    if text in _INFINITE:
+        return _INFINITE[text]
+    return read_expression(text, what="an end of the domain")
+
+
+def _checked_domain(ends: list[Any], signs: Signs) -> tuple[Any, Any]:
+    """The ends in real symbols.  Raises `InputError` where nothing lies between them."""
+    first, last = (signs.real(end) for end in ends)
+    is_empty = signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo
+    if is_empty:
+        raise InputError(f"the domain is empty: {first} isn't below {last}")
+    return first, last
