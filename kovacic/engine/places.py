@@ -15,7 +15,7 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
@@ -25,7 +25,7 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.factors import expansions, product
-from kovacic.algebra.homomorphism import BadPrimeError
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -39,6 +39,21 @@ class Kind(Enum):
     REGULAR = "regular singular point"
     UNRAMIFIED = "irregular singular point, unramified"
     RAMIFIED = "irregular singular point, ramified"
+
+
+@dataclass(frozen=True, eq=False)
+class Images:
+    """A fraction modulo primes, each computed once for all places that ask for it."""
+
+    num: Poly
+    den: Poly
+    found: dict[Homomorphism, tuple[Any, Any]] = field(default_factory=dict)
+
+    def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
+        """Numerator and denominator; raises `BadPrimeError` where the denominator loses its degree."""
+        if h not in self.found:
+            self.found[h] = (h(self.num), h.keeping_degree(self.den))
+        return self.found[h]
 
 
 @dataclass(frozen=True)
@@ -56,6 +71,7 @@ class Place:
     den: Poly
     near: tuple[Poly, Poly]
     budget: Budget
+    images: Images = field(compare=False, repr=False)
 
     @cached_property
     def delta_squared(self) -> Poly | None:
@@ -96,9 +112,9 @@ class Place:
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
-                    num = translate(h(self.num), root)
-                    den = translate(h.keeping_degree(self.den), root)
-                    return logarithm_obstruction(local_equation(num, den, 2), n) != 0
+                    num, den = self.images.modulo(h)
+                    equation = local_equation(translate(num, root), translate(den, root), 2)
+                    return logarithm_obstruction(equation, n) != 0
             except BadPrimeError:
                 pass
         raise AssertionError("the sequence of primes is infinite")
@@ -175,11 +191,11 @@ def analyse(S: RatFunc, budget: Budget) -> Problem:
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
     num, den, order = at_infinity(S)
     infinity = (S.field.poly([0, 1]), order)
-    places = [
-        Place(p, at_end, k, above, below, near, budget)
-        for above, below, found, at_end in ((S.num, S.den, factors, False), (num, den, [infinity], True))
-        for (p, k), near in zip(found, expansions(above, below, found), strict=True)
-    ]
+    places = []
+    for above, below, found, at_end in ((S.num, S.den, factors, False), (num, den, [infinity], True)):
+        images = Images(above, below)
+        for (p, k), near in zip(found, expansions(above, below, found), strict=True):
+            places.append(Place(p, at_end, k, above, below, near, budget, images))
     return Problem(S, tuple(places), budget)
 
 
@@ -247,7 +263,8 @@ def logarithm_obstruction(equation: LocalEquation, delta: int) -> int:
     """The term of order delta that the series with exponent (1 - delta)/2 can't compensate, modulo p."""
     p = equation.p
     alpha = (1 - delta) * pow(2, -1, p)
-    second, first, zeroth = reduced_equation(equation, nmod_poly([alpha], p))
+    needed = LocalEquation(equation.N.truncate(delta + 1), equation.E.truncate(delta + 1), equation.nu)
+    second, first, zeroth = reduced_equation(needed, nmod_poly([alpha], p))
     u = series_solution(second, first, zeroth, delta)
     residual = second * u.derivative().derivative() + first * u.derivative() + zeroth * u
     return int(residual[delta - 1])

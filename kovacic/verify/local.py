@@ -27,7 +27,7 @@ from kovacic.verify.series import solution_at_singular_point
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    `expansions` has `near` for all finite points of its kind.
+    `expansions` has what is computed once for all finite points of its kind.
     """
 
     factor: Poly
@@ -111,11 +111,18 @@ class Point:
 
     def localised(self, h: Homomorphism, root: int) -> tuple[Any, Any]:
         """M and E with S = M/(t^k E) at a root modulo p, k the order of the pole (2 for order 1), E(0) not 0."""
-        den = translated(h.keeping_degree(self.den), root)
+        above, below = self._modulo(h)
+        den = translated(below, root)
         if any(int(den[i]) for i in range(self.order)) or not int(den[self.order]):
             raise BadPrimeError("the order of a pole changes")
-        num = translated(h(self.num), root)
+        num = translated(above, root)
         return num.left_shift(max(2 - self.order, 0)), den.right_shift(self.order)
+
+    def _modulo(self, h: Homomorphism) -> tuple[Any, Any]:
+        """num and den modulo a prime."""
+        if self.expansions is None:
+            return h(self.num), h.keeping_degree(self.den)
+        return self.expansions.modulo(h)
 
 
 def points(S: RatFunc, budget: Budget) -> list[Point]:
@@ -151,9 +158,10 @@ def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
 
 @dataclass(frozen=True, eq=False)
 class Expansions:
-    """`_near` of S for some factors with their orders: of the first one alone, which is often enough, of the others together.
+    """What the points at some factors of the denominator, with these orders, have in common.
 
-    A claim at irregular points, where there are many digits, may need one of them, or all.
+    `_near` is computed for the first one alone, which is often enough, and for the others together.  A claim at irregular
+    points, where there are many digits, may need one of them, or all.
     """
 
     S: RatFunc
@@ -162,6 +170,16 @@ class Expansions:
     def at(self, factor: Poly) -> tuple[Poly, Poly]:
         p, order = self.factors[0]
         return _near(self.S.num, self.S.den, p, order) if factor == p else self.together[factor]
+
+    def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
+        """Numerator and denominator modulo a prime."""
+        if h not in self._images:
+            self._images[h] = (h(self.S.num), h.keeping_degree(self.S.den))
+        return self._images[h]
+
+    @cached_property
+    def _images(self) -> dict[Homomorphism, tuple[Any, Any]]:
+        return {}
 
     @cached_property
     def together(self) -> dict[Poly, tuple[Poly, Poly]]:
@@ -193,6 +211,8 @@ def has_no_series(M: Any, E: Any, n: int) -> bool:
     in it doesn't depend on u_n, and must vanish [Frobenius].
     """
     p = E.modulus()
+    E = E.truncate(n + 1)  # no later terms have a part in it
+    M = M.truncate(n + 1)
     e = (1 - n) * pow(2, -1, p) % p
     second = E.left_shift(1)
     first = 2 * e * E
