@@ -171,6 +171,40 @@ def test_it_runs_alone(tmp_path: Path) -> None:
     assert done.stdout.splitlines()[-1].startswith(f"{wrong}:2: refuted: ")
 
 
+EQUATION = "equation.change, equation.f, equation.h, equation.text, equation.unknown"
+
+
+@pytest.mark.parametrize(
+    ("text", "checked", "others"),
+    [
+        ("x^2 + 3", "S from input; case; omega; group", "notices, seconds, solutions, line"),
+        ("x", "S from input; case; group", "notices, seconds, solutions, line"),
+        ("0*sqrt(x^2) + x", "case; group", "input, notices, seconds, solutions, line"),
+        (
+            "y'' + 2*x*y' + 2*y = 0",
+            "y'' = S y from a, b, c; gauge; case; omega; group",
+            f"input, notices, seconds, solutions, {EQUATION}, line",
+        ),
+    ],
+)
+def test_a_verdict_says_what_was_looked_at_and_what_not(text: str, checked: str, others: str) -> None:
+    """The key `line` is the user's."""
+    data = json.loads(kovacic.solve(text).to_json(full=True)) | {"line": 7}
+    assert checker.verdict(json.dumps(data)) == f"checked: {checked}; not checked: {others}"
+    del data["notices"]
+    assert checker.verdict(json.dumps(data)).startswith("refuted: it isn't shown that the answer has the key")
+
+
+def test_a_line_without_an_answer_has_no_verdict() -> None:
+    """One of a batch that says what was wrong with the input; but an answer with that status is a wrong one."""
+    for status in ("error", "solved"):
+        assert checker.verdict(json.dumps({"schema": 1, "status": status, "input": "1/2x"})).startswith(
+            "not checked: the line"
+        )
+        data = json.loads(kovacic.solve("x").to_json()) | {"status": status}
+        assert checker.verdict(json.dumps(data)).startswith("refuted: it isn't shown that the status is")
+
+
 UNDECIDED = '{"schema": 1, "proof": {"undecided": "a\\nb", "structure": null, "excluded": []}, "status": "undecided"'
 
 
