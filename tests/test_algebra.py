@@ -20,7 +20,7 @@ from kovacic.algebra.extension import norm
 from kovacic.algebra.factors import _remainders, expansions, product, products
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
-from kovacic.algebra.rationals import RationalPoly, _factored
+from kovacic.algebra.rationals import RationalPoly, _factored, square_part
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import _factored_over_q, factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root
@@ -427,6 +427,13 @@ def test_a_product_with_the_degree_of_a_power_is_none() -> None:
     a, b = (QQ.poly([c, 1] + [0] * 29 + [1]) for c in (3, 5))
     numerator = (a * b**3).rep.numer()  # type: ignore[attr-defined]
     assert sorted((str(f), k) for f, k in _factored(numerator)) == sorted((str(f), k) for f, k in numerator.factor()[1])
+
+
+@given(st.fractions(-5000, 5000, max_denominator=500).filter(bool))
+def test_the_square_part_leaves_no_square(value: Fraction) -> None:
+    outer, rest = square_part(value)
+    assert outer * outer * rest == value
+    assert all(exponent == 1 for exponent in sympy.factorint(abs(rest)).values())
 
 
 @pytest.mark.parametrize("bits", [50, 20_000])

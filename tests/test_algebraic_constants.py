@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 import strategies
 import sympy
-from build import QQ, AlgebraicField, Field, Poly, RatFunc, parametrize
+from build import QQ, AlgebraicField, Field, Poly, RatFunc, function, parametrize
 from hypothesis import given, settings
 from strategies import Example
 from transform import hypergeometric
@@ -193,6 +193,25 @@ def test_primitive_elements(radicals: tuple[int, ...]) -> None:
         assert root.field == field
         assert root * root == radicand
         assert abs(complex(approximation(root)) - complex(radicand) ** 0.5) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "sqrt(2 - sqrt(3))",
+        "sqrt(5 - 2*sqrt(5))",
+        "sqrt(1 - sqrt(2))",
+        "sqrt(3 - 2*sqrt(2))",
+        "(2 - sqrt(3))**(1/3)",
+        "sqrt(I - 2)",
+        "sqrt(2) + sqrt(3 - sqrt(5))",
+    ],
+)
+def test_a_nested_radical_has_its_principal_value(text: str) -> None:
+    """By SymPy's number: not that of a conjugate, of which a nearer one may have a larger real part."""
+    S = function(f"x**2*({text})")
+    value = approximation(S.num.lc) / approximation(S.den.lc)
+    assert abs(complex(value) - complex(sympy.sympify(text).evalf(20))) < 1e-12
 
 
 @parametrize("modulus", [[-1, -1, 0, 0, 0, 1], [-1, -1, 0, 0, 0, 0, 0, 1], [1, -1, *[0] * 8, 1]], ordinary=1)
