@@ -10,6 +10,8 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from itertools import product
+from operator import mul
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ import transform
 from build import QQ, RatFunc, parametrize, verify
 from forged import forged_evidence
 from hypothesis import given, settings
+from hypothesis import strategies as st
 from published import Published, load
 
 import kovacic
@@ -111,6 +114,79 @@ def test_evidence_against_omega_is_refuted_where_it_says_something_else(key: str
         assert said.startswith("refuted"), (value, said)
 
 
+X = RatFunc(QQ.poly([0, 1]))
+
+
+@pytest.mark.parametrize(
+    "omega",
+    [
+        1 + 1 / X**3,
+        X + 1 / X**2,
+        2 + 1 / X**4 + 1 / (X - 1),
+        X**2 + 3 / X**5,
+        1 + 1 / (3 * X),
+        X - 1 / (4 * X) + 3 / (5 * (X - 1)),
+        X + 5 / (4 * X),
+        X + (X + 1) / (X**2 - 2),
+        (3 * X - 2) / (X**2 + X - 1) + 1,
+        1 / (X**2 - 3) ** 2 + X,
+    ],
+    ids=str,
+)
+def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
+    """Its expansion is among those that the solutions can have, at irregular places, at regular and at conjugate ones."""
+    data = json.loads(solve(transform.from_omega(omega)).to_json())
+    exclusions = checker.Answer(data).exclusions
+    places = [place for place in exclusions.places if place.tells_solutions_apart]
+    assert places
+    for place in places:
+        q, _ = next(place.roots(checker.PRIMES))
+        name = "infinity" if place.infinite else str(QQ.poly([Fraction(str(c)) for c in place.p.coeffs()]))
+        with flint.ctx.workprec(333), pytest.raises(AssertionError, match="no expansion of omega"):
+            exclusions.no_expansion(q, name)
+
+
+@given(
+    st.fractions(-5, 5, max_denominator=12),
+    st.lists(st.fractions(0, 3, max_denominator=12), max_size=5),
+)
+def test_the_largest_natural_sum_is_that_of_all_signs(total: Fraction, choices: list[Fraction]) -> None:
+    sums = [total + sum(map(mul, choices, signs)) for signs in product((1, -1), repeat=len(choices))]
+    natural = [int(value) for value in sums if value.denominator == 1 and value >= 0]
+    exact = [flint.fmpq(choice.numerator, choice.denominator) for choice in choices]
+    found = checker.largest_natural_sum(flint.fmpq(total.numerator, total.denominator), exact)
+    assert found == max(natural, default=-1)
+
+
+@pytest.mark.parametrize("omega", [2 * X, 1 / X**2, 1 + 1 / (X - 1) ** 2])
+def test_a_form_with_an_exponential_isnt_rational(omega: RatFunc) -> None:
+    """y1^2 = exp(2 int omega) is a form, and its logarithmic derivative 2 omega has a pole that isn't simple."""
+    data = json.loads(solve(transform.from_omega(omega)).to_json(full=True))
+    assert checker.verdict(json.dumps(data)).startswith(GROUP_TOO)
+    data["proof"]["invariant"] = {"degree": 2, "theta": str(2 * omega), "P": "1"}
+    assert checker.verdict(json.dumps(data)) == "refuted: it isn't shown that a form is a rational function"
+
+
+DIHEDRAL = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3))
+
+
+@pytest.mark.parametrize(
+    ("S", "order"),
+    [
+        (transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 3)), 24),
+        (transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)), 48),
+        (transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 5)), 120),
+        (DIHEDRAL, 12),
+        (transform.moebius(DIHEDRAL, 2, 1, 1, 0), 12),
+    ],
+)
+def test_finite_groups_of_triangles_are_checked(S: RatFunc, order: int) -> None:
+    """The last one has all its singular points at finite places."""
+    answer = solve(S)
+    assert answer.group.order == order
+    assert checker.verdict(answer.to_json(full=True)).startswith(GROUP_TOO)
+
+
 def test_exponents_at_conjugate_places() -> None:
     """S = (8 + 4 x)/(x^2-2)^2: Delta^2 = 1 + 4 (8 + 4 r)/(4 * 2) = 5 + 2 r at r = sqrt(2) and at -sqrt(2)."""
     p = QQ.poly([-2, 0, 1])
@@ -182,6 +258,11 @@ EQUATION = "equation.change, equation.f, equation.h, equation.text, equation.unk
         ("0*sqrt(x^2) + x", "case; group", "input, notices, seconds, solutions, line"),
         (
             "y'' + 2*x*y' + 2*y = 0",
+            "y'' = S y from a, b, c; gauge; case; omega; group",
+            f"input, notices, seconds, solutions, {EQUATION}, line",
+        ),
+        (
+            "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
             "y'' = S y from a, b, c; gauge; case; omega; group",
             f"input, notices, seconds, solutions, {EQUATION}, line",
         ),
@@ -313,6 +394,25 @@ def refuse(text: str) -> None:
         assert said.startswith("refuted"), (evidence, said)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "2",
+        "x^2 + 3",
+        "(x+1)^2 + 3",
+        "3/(4*x^2)",
+        "-1/(4*x^2)",
+        "1/x^4",
+        "1/x^2",
+        "1/x - 3/(16*x^2)",
+        "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))",
+        "(-135*x^2 + 115*x - 108)/(576*x^4 - 1152*x^3 + 576*x^2)",
+    ],
+)
+def test_no_solvable_equation_of_the_simplest_has_a_proof_of_none(text: str) -> None:
+    refuse(text)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("entry", SOLVABLE[::16], ids=lambda entry: entry.id)
 def test_no_solvable_equation_has_a_proof_of_none(entry: Published) -> None:
@@ -432,6 +532,14 @@ def lines_with_orders() -> Iterator[tuple[RatFunc, dict[str, Any]]]:
     for S in equations:
         answer = solve(S)
         yield S, json.loads(json.dumps({**to_dict(answer), "group": group_dict(answer)}))
+
+
+def test_orders_modulo_primes_are_checked() -> None:
+    for _, data in lines_with_orders():
+        assert checker.verdict(json.dumps(data)).startswith(GROUP_TOO)
+        for entry in data["group"]["orders"]:
+            entry["order"] += 1
+        assert checker.verdict(json.dumps(data)).startswith("refuted: ")
 
 
 @pytest.mark.long

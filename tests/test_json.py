@@ -262,6 +262,8 @@ def test_constants_of_no_field_are_refused(S: str, polynomial: str) -> None:
     data = json.loads(kovacic.solve(S).to_json())
     with pytest.raises(InputError, match="isn't monic and irreducible"):
         loads({**data, "constants": {**data["constants"], "minimal_polynomial": polynomial}})
+    data["constants"]["minimal_polynomial"] = polynomial
+    assert verdict(json.dumps(data)).startswith("refuted: ")
 
 
 def test_a_rational_form_that_isnt_that_of_omega_is_refused() -> None:
