@@ -91,7 +91,7 @@ def walk(functions: CoefficientField, a: ExactPoint, b: ExactPoint, prec: int) -
             if jets is not None:
                 break
             e -= 1
-            _check_size(functions, a, b, t, e, number == 0)
+            _check_size(a, b, t, e, number == 0)
         enter = a + length.scaled(t)
         t += 2 * half
         leave = b if t == 1 else a + length.scaled(t)
@@ -120,7 +120,7 @@ def _exponent(square: Any) -> int:
     return int(square.p.bit_length() - square.q.bit_length() + 1) // 2
 
 
-def _check_size(functions: CoefficientField, a: ExactPoint, b: ExactPoint, t: Any, e: int, first: bool) -> None:
+def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, first: bool) -> None:
     """Raise InputError where steps are too small for what lies behind and ahead: a singular point is there."""
     square = (b - a).norm_squared()
     behind = square * t * t

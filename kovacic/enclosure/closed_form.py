@@ -57,7 +57,10 @@ class Exponential:
 
     def constants(self) -> list[acb | None]:
         """The conjugate values of the generator of the field, at the working precision in force."""
-        return conjugates(self.P.field if isinstance(self.P.field, AlgebraicField) else self.theta.field)
+        field = self.P.field
+        if not isinstance(field, AlgebraicField):
+            field = self.theta.field
+        return conjugates(field)
 
     def constant(self) -> acb | None:
         """The one that is meant."""
@@ -126,10 +129,17 @@ class CaseOneForm:
     def _square(self) -> list[tuple[Poly, int]] | None:
         """The factors, with exponents, of a rational function with logarithmic derivative 2 theta; None if there is none."""
         parts = decompose(self.first.theta * 2)
-        exponents = [r.value.field.rational_value(r.value) if r.is_constant else None for r in parts.residues]
-        if parts.exact or any(e is None or e.denominator != 1 for e in exponents):
+        if parts.exact:
             return None
-        return [(r.factor, int(e)) for r, e in zip(parts.residues, exponents, strict=True) if e is not None]
+        found = []
+        for residue in parts.residues:
+            if not residue.is_constant:
+                return None
+            exponent = residue.value.field.rational_value(residue.value)
+            if exponent is None or exponent.denominator != 1:
+                return None
+            found.append((residue.factor, int(exponent)))
+        return found
 
     @property
     def square_size(self) -> int | None:
@@ -184,7 +194,10 @@ class CaseOneForm:
         """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
         ends = to_acb(a), to_acb(b)
-        first, second = [y.states(*ends) for y in self.branches] if len(self.branches) == 2 else self._pair(*ends)
+        if len(self.branches) == 2:
+            first, second = (y.states(*ends) for y in self.branches)
+        else:
+            first, second = self._pair(*ends)
         start, end = (fundamental(y, z) for y, z in zip(first, second, strict=True))
         return multiply(end, inverse(start))
 
@@ -259,9 +272,13 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
     closed = closed_form_of(problem)
     if closed is None:
         return []
-    found = [*closed.branches, *([closed.companion] if len(closed.branches) == 1 and closed.companion else [])]
+    found = list(closed.branches)
+    if len(found) == 1 and closed.companion is not None:
+        found.append(closed.companion)
     gauge = problem.gauge
-    return found if gauge is None else [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
+    if gauge is None:
+        return found
+    return [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
 
 
 def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
@@ -298,16 +315,23 @@ def omega(problem: NumericProblem, which: int, x0: ExactPoint, bits: int) -> acb
     while prec <= max(4 * bits, _HIGHEST):
         with working_precision(prec):
             found = omegas(problem, x0)
-            if found and not 0 <= which < len(found):
-                names = "only which = 0" if len(found) == 1 else f"which = 0, ..., {len(found) - 1}"
-                hint = "tabulate gives every solution, by initial values"
-                raise InputError(f"which = {in_a_message(which)}: the equation has {names} here", hint=hint)
+            if found:
+                _check_number(which, len(found))
             if found and found[which].is_finite():
                 ball = found[which]
                 if ball.rel_accuracy_bits() >= bits or ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)):
                     return ball
         prec *= 2
     raise ZeroDivisionError(f"the logarithmic derivative isn't finite at {x0}")
+
+
+def _check_number(which: int, count: int) -> None:
+    """Raise InputError unless there is a solution of this number."""
+    if 0 <= which < count:
+        return
+    names = "only which = 0" if count == 1 else f"which = 0, ..., {count - 1}"
+    hint = "tabulate gives every solution, by initial values"
+    raise InputError(f"which = {in_a_message(which)}: the equation has {names} here", hint=hint)
 
 
 def finite_base(problem: NumericProblem, which: int, candidates: list[ExactPoint]) -> ExactPoint:

@@ -231,21 +231,20 @@ class Prepared:
         shape = getattr(x, "shape", None)
         if shape is None:
             is_many = isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
-            found = self._at([*x] if is_many else [x], derivative)  # type: ignore[misc]
-            return tuple(found) if is_many else found[0]
+            if is_many:
+                return tuple(self._at([*x], derivative))  # type: ignore[misc]
+            return self._at([x], derivative)[0]
 
         import numpy as np
 
         points = list(np.asarray(x, dtype=object).flat) if shape else [x]
         holes = [point != point for point in points]  # NaN is no number
         known = iter(self._at([point for point, hole in zip(points, holes, strict=True) if not hole], derivative))
-        values = [math.nan if hole else next(known) for hole in holes]
-        if shape == ():
-            return values[0]
-        array = np.empty(len(points), dtype=object)
-        for i, value in enumerate(values):
-            array[i] = value
-        return array.reshape(shape)
+        values = np.full(len(points), math.nan, dtype=object)
+        for i, hole in enumerate(holes):
+            if not hole:
+                values[i] = next(known)
+        return values.reshape(shape) if shape else values[0]
 
     def _at(self, points: list[Any], derivative: bool) -> list[Any]:
         """The values, or pairs with the derivatives; a warning where accuracy was lost."""
@@ -253,7 +252,9 @@ class Prepared:
         for result in results:
             if result.note is not None:
                 warn_user(f"at x = {result.x}: {result.note}", AccuracyWarning)
-        return [(result.y, result.dy) if derivative else result.y for result in results]
+        if derivative:
+            return [(result.y, result.dy) for result in results]
+        return [result.y for result in results]
 
 
 @limited

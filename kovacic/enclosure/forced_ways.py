@@ -56,15 +56,19 @@ class ForcedWays:
         stops = [middle(target) for target in targets]
         if not stops:
             return False
-        if not here.is_real() or not all(stop.is_real() for stop in stops):
+        if not all(point.is_real() for point in (here, *stops)):
             return self.is_removable
         self.served += len(targets)
-        ends = [min(stop.x for stop in stops), max(stop.x for stop in stops)]
-        if self.asked.side is not None and not all(self._is_free(ExactPoint(end)) for end in ends):
+        ends = [pick(stop.x for stop in stops) for pick in (min, max)]
+        if not all(self._is_allowed(ExactPoint(end)) for end in ends):
             return False
         growth = max(self._growth(here.x, end) for end in ends)
         is_worth = self.is_removable or self.served > _FEW or growth > _FAR
         return is_worth and growth < _STEEP
+
+    def _is_allowed(self, end: ExactPoint) -> bool:
+        """May one go straight to this end, whatever side of singular points was asked for?"""
+        return self.asked.side is None or self._is_free(end)
 
     def _is_free(self, end: ExactPoint) -> bool:
         """Is there no pole of the coefficients on the straight way?  Then it is homotopic to those on either side."""
@@ -88,8 +92,10 @@ class ForcedWays:
     @property
     def _here(self) -> ExactPoint:
         """Where the straight ways begin."""
-        journey = self.journey
-        return middle(journey.vertices[-1] if journey.vertices else journey.x0)
+        last = self.journey.x0
+        if self.journey.vertices:
+            last = self.journey.vertices[-1]
+        return middle(last)
 
 
 @lru_cache(maxsize=32)

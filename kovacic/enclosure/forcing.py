@@ -25,7 +25,7 @@ from kovacic.enclosure.constants import in_balls, to_ball
 from kovacic.enclosure.embedded import Embedded, check_apart
 from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, to_acb
+from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import System, check_segment
 from kovacic.enclosure.taylor import error_radii
@@ -99,9 +99,12 @@ class Forcing:
         centre = to_acb(frame.centre)
         h = acb(arb((1, frame.e)))
         unit = acb(arb((1, -expansion.w)))
-        polys = [
-            acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im) for re, im in expansion.columns
-        ]
+        polys = []
+        for re, im in expansion.columns:
+            poly = acb_poly(re)
+            if im is not None:
+                poly += acb(0, 1) * acb_poly(im)
+            polys.append(poly)
         start = to_acb(leg.disc.enter)
         stop = to_acb(leg.disc.leave)
         real = self.real and start.imag.is_zero() and stop.imag.is_zero()
@@ -121,7 +124,8 @@ class Forcing:
 
             area = integral(integrand, start, stop) * unit
             error = (size * error_radii(arb((defect + 1, -expansion.w)), frame)[0]).upper()
-            found.append(acb(area.real + arb(0, error), 0 if real else area.imag + arb(0, error)))
+            total = area + around_zero(error, real=real)
+            found.append(acb(total.real) if real else total)
         here = (-found[1] * h, found[0])
         if leg.to_centre is None:
             return here

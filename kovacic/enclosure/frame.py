@@ -255,7 +255,8 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     """
     total = 0.0
     degree = max(len(system.num), len(system.den))
-    towards = _towards_zero(_HALVINGS if degree <= _LONG else _FEW_HALVINGS)
+    halvings = _HALVINGS if degree <= _LONG else _FEW_HALVINGS
+    towards = _towards_zero(halvings)
     with working_precision(_BITS + 4 * min(degree, _LONG)):
         start = to_acb(a)
         step = to_acb(b - a)

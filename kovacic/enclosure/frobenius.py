@@ -180,9 +180,10 @@ def _expansions(
         dominant = _Beginning(lower, delta, start=(0, 1))
     else:
         dominant = _Beginning(lower, delta, _resonance(point, op, lower))
-    found: list[FrobeniusSeries | None] = []
-    for beginning, is_needed in zip((dominant, _Beginning(upper, arb(0))), needed, strict=True):
-        found.append(_expand(balls, beginning, length, bound, prec) if is_needed else None)
+    found: list[FrobeniusSeries | None] = [None, None]
+    for k, beginning in enumerate((dominant, _Beginning(upper, arb(0)))):
+        if needed[k]:
+            found[k] = _expand(balls, beginning, length, bound, prec)
     return found
 
 

@@ -79,9 +79,11 @@ def _of_input(equation: Any, limits: Limits) -> Coefficients:
 def _nothing_cancels(part: Any, x: Any) -> bool:
     """Is at most one term singular somewhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2?"""
     singular = [term for term in sympy.Add.make_args(part) if _may_be_singular(term, x)]
+    if not singular:
+        return True
     if len(singular) > 1:
         return False
-    factors = [factor for term in singular for factor in sympy.Mul.make_args(term) if factor.has(x)]
+    factors = [factor for factor in sympy.Mul.make_args(singular[0]) if factor.has(x)]
     return len(factors) <= 1 and all(isinstance(f.as_base_exp()[0], sympy.Function) for f in factors)
 
 
@@ -101,7 +103,8 @@ def _of_parsed(parsed: Any) -> Coefficients:
 
 def as_written(equation: Any, var: Any, limits: Limits) -> Coefficients:
     """What stands there, over the coefficient of y''."""
-    source = source_of(equation, None if var is None else str(var), limits)
+    name = None if var is None else str(var)
+    source = source_of(equation, name, limits)
     (a, b, c, rest), _ = parts_of(source, limits)
     return Coefficients(sympy.Symbol(source.variable), b / a, c / a, -rest / a)
 

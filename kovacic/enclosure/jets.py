@@ -140,20 +140,30 @@ class CoefficientField:
         cap = ctx.cap
         ctx.cap = terms
         try:
-            found = self.values(acb_series([to_acb(centre), arb((1, e))]))
-            rows = [(value * arb((1, k * e))) for k, value in zip((1, 2, 2), found, strict=True)]
-            rows = [row.coeffs() if isinstance(row, acb_series) else [row] for row in rows]
+            b, c, f = self.values(acb_series([to_acb(centre), arb((1, e))]))
+            H = arb((1, e))
+            rows = [_coefficients(b * H), _coefficients(c * H**2), _coefficients(f * H**2)]
         except (ZeroDivisionError, ValueError):
             return None
         finally:
             ctx.cap = cap
-        if not all(value.is_finite() for row in rows for value in row):
+        values = [value for row in rows for value in row]
+        if not all(value.is_finite() for value in values):
             return None
-        if (self.is_real and centre.is_real()) or all(value.imag.is_zero() for row in rows for value in row):
-            b, c, f = (arb_poly([value.real for value in row]) for row in rows)
-        else:
-            b, c, f = map(acb_poly, rows)
-        return b, c, f
+        is_real = (self.is_real and centre.is_real()) or all(value.imag.is_zero() for value in values)
+        B, C, F = (_polynomial(row, real=is_real) for row in rows)
+        return B, C, F
+
+
+def _coefficients(value: Any) -> list[Any]:
+    """Those of a series; a number is one, too."""
+    return value.coeffs() if isinstance(value, acb_series) else [value]
+
+
+def _polynomial(coefficients: list[Any], *, real: bool) -> Any:
+    if real:
+        return arb_poly([value.real for value in coefficients])
+    return acb_poly(coefficients)
 
 
 def are_real(coefficients: Coefficients) -> bool:
@@ -203,7 +213,8 @@ class JetBasis:
         with working_precision(self.jets.precision):
             for factor, column in zip(state, self._columns, strict=True):
                 if not factor.is_zero():
-                    total = total + column.poly * (factor.real if factor.imag.is_zero() else factor)
+                    weight = factor.real if factor.imag.is_zero() else factor
+                    total = total + column.poly * weight
                     error += abs(factor).upper() * column.error
             if self._own is not None:
                 total = total + self._own.poly
@@ -242,7 +253,8 @@ def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
     B, C, F = jets.parts
     kind = arb_poly if jets.is_real else acb_poly
     number = arb if jets.is_real else acb
-    recurrence = _Recurrence(kind(B), kind(C), kind(F if right else []), kind, jets.bits)
+    right_side = kind(F) if right else kind([])
+    recurrence = _Recurrence(kind(B), kind(C), right_side, kind, jets.bits)
     values = recurrence.run((number(start[0]), number(start[1])))
     with working_precision(_ROUGH):
         rho = _defect(jets, values, right)

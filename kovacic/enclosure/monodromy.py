@@ -13,7 +13,7 @@ Reference: M. van der Put and M. F. Singer, "Galois Theory of Linear Differentia
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -191,17 +191,12 @@ def connection_matrix(
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
     problem = as_problem(with_variable(equation, var, limits), params, constants=True)
-    if len(path) < 2:
-        raise InputError("a path needs at least two vertices")
-    ends = [_end(problem, value) for value in (path[0], path[-1])]
-    middle = [as_point(v, "a vertex") for v in path[1:-1]]
-    if len(path) == 2 and isinstance(ends[0], Singular) and isinstance(ends[1], Singular):
-        middle = [_between(ends[0], ends[1])]
+    way = _Way.of(problem, path)
     budget = Budget(limits)
     prec = start_bits(digits)
     while True:
         with working_precision(prec + 40), budget.watched():
-            entries = _connection(problem.at(prec), ends[0], middle, ends[1], prec)
+            entries = _connection(problem.at(prec), way, prec)
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
@@ -211,6 +206,26 @@ def connection_matrix(
             return (balls[0], balls[1]), (balls[2], balls[3])
         prec += max(16, prec // 4)
         budget.check()
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A polygon between two ends."""
+
+    first: ExactPoint | Singular
+    middle: list[ExactPoint]
+    last: ExactPoint | Singular
+
+    @classmethod
+    def of(cls, problem: NumericProblem, path: Sequence[object]) -> _Way:
+        """That through these vertices; two singular points alone get one between them."""
+        if len(path) < 2:
+            raise InputError("a path needs at least two vertices")
+        first, last = (_end(problem, value) for value in (path[0], path[-1]))
+        middle = [as_point(v, "a vertex") for v in path[1:-1]]
+        if len(path) == 2 and isinstance(first, Singular) and isinstance(last, Singular):
+            middle = [_between(first, last)]
+        return cls(first, middle, last)
 
 
 def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
@@ -228,16 +243,14 @@ def _between(a: Singular, b: Singular) -> ExactPoint:
     return (a.near + b.near).scaled(fmpq(1, 2)).rounded(-64)
 
 
-def _connection(
-    problem: NumericProblem, a: ExactPoint | Singular, middle: list[ExactPoint], b: ExactPoint | Singular, prec: int
-) -> Matrix:
+def _connection(problem: NumericProblem, way: _Way, prec: int) -> Matrix:
     """The matrix at about so many bits."""
-    traveller = Traveller.at(problem, a, None, prec)
+    traveller = Traveller.at(problem, way.first, None, prec)
     both = (acb(1), acb(1))
-    for vertex in middle:
+    for vertex in way.middle:
         traveller.go(vertex, both)
     there = None
-    end = b
+    end = way.last
     if isinstance(end, Singular):
         here = traveller.here
         assert isinstance(here, ExactPoint)
@@ -320,35 +333,56 @@ def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
 def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint, ...], ExactPoint]]:
     """Loops from one base point with the points that they enclose, in the order of their directions (left ones first).
 
-    Each is a segment to a square around the point, the square counter-clockwise, and the segment back.  The squares keep
-    off the other segments, so the segments are a star with the points at its ends.
+    The squares around the points keep off the segments to the others, so the segments are a star with the points at its ends.
     """
     if not places:
         return []
+    star = max((_Star.seen_from(base, places) for base in _bases(places)), key=lambda star: star.share)
+    if star.share == 0:
+        raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
+    base = star.base
+    loops = [(_loop(base, z, radius), z) for (z, _), radius in zip(places, star.radii, strict=True)]
+    return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
+
+
+def _bases(places: list[tuple[ExactPoint, Any]]) -> Iterator[ExactPoint]:
+    """Some points above all of the singular ones."""
     centres = [z for z, _ in places]
     spread = max(abs(p.x - q.x) + abs(p.y - q.y) for p in centres for q in centres)
     top = max(z.y for z in centres) + max(fmpq(1), spread)
     middle = sum((z.x for z in centres), fmpq(0)) / len(centres)
-    found = []
+    e = int(spread.p.bit_length() - spread.q.bit_length()) - 10
     for shift in (1, -3, 10, -17, 29, -41):
-        base = ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(
-            int(spread.p.bit_length() - spread.q.bit_length()) - 10
-        )
-        radii = [_radius(z, r, base, centres) for z, r in places]
-        found.append((min(radius / r for radius, (_, r) in zip(radii, places, strict=True)), base, radii))
-    narrowest, base, radii = max(found, key=lambda item: item[0])
-    if narrowest == 0:
-        raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
-    quarter = ExactPoint(0, 1)
-    loops = []
-    for z, radius in zip(centres, radii, strict=True):
-        offset = base - z
-        corner = offset.scaled(_root_below(radius * radius / offset.norm_squared()))
-        corners = [corner]
-        for _ in range(4):
-            corners.append(corners[-1] * quarter)
-        loops.append(((base, *(z + c for c in corners), base), z))
-    return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
+        yield ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(e)
+
+
+@dataclass(frozen=True)
+class _Star:
+    """The segments from a base point to the singular points, and the radii of squares around these that keep off the others.
+
+    `share` is the least of the radii over what is allowed.
+    """
+
+    base: ExactPoint
+    radii: list[Any]
+    share: Any
+
+    @classmethod
+    def seen_from(cls, base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> _Star:
+        """The star of a base point."""
+        centres = [z for z, _ in places]
+        radii = [_radius(z, largest, base, centres) for z, largest in places]
+        share = min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
+        return cls(base, radii, share)
+
+
+def _loop(base: ExactPoint, z: ExactPoint, radius: Any) -> tuple[ExactPoint, ...]:
+    """A segment to a square around the point, the square counter-clockwise, and the segment back."""
+    offset = base - z
+    corners = [offset.scaled(_root_below(radius * radius / offset.norm_squared()))]
+    for _ in range(4):
+        corners.append(corners[-1] * ExactPoint(0, 1))
+    return (base, *(z + corner for corner in corners), base)
 
 
 def _radius(z: ExactPoint, largest: Any, base: ExactPoint, centres: Sequence[ExactPoint]) -> Any:

@@ -64,8 +64,12 @@ class ExactPoint:
     y: Any
 
     def __init__(self, re: Any, im: Any = 0) -> None:
-        _set_x(self, re if type(re) is fmpq else to_fmpq(re))
-        _set_y(self, im if type(im) is fmpq else to_fmpq(im))
+        if type(re) is not fmpq:
+            re = to_fmpq(re)
+        if type(im) is not fmpq:
+            im = to_fmpq(im)
+        _set_x(self, re)
+        _set_y(self, im)
 
     def __hash__(self) -> int:  # that of FLINT's rationals goes by way of fractions
         return hash((self.x.p, self.x.q, self.y.p, self.y.q))
@@ -117,7 +121,8 @@ class ExactPoint:
     def __str__(self) -> str:
         if self.is_real():
             return _short(self.re)
-        return f"{_short(self.re)} {'-' if self.im < 0 else '+'} {_short(abs(self.im))}i"
+        sign = "-" if self.im < 0 else "+"
+        return f"{_short(self.re)} {sign} {_short(abs(self.im))}i"
 
     def __repr__(self) -> str:
         return f"ExactPoint({self})"

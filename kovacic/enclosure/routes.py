@@ -174,7 +174,8 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
     stops = [middle(vertex) for vertex in journey.vertices]
     for a, b in (*pairwise([here, *stops]), *_ways([here, *stops][-1], targets, journey.chain)):
         with working_precision(_BITS):
-            (num, den), poles = problem.polynomials(), [root for root, _ in problem.poles(_BITS)]
+            num, den = problem.polynomials()
+            poles = [root for root, _ in problem.poles(_BITS)]
             start = to_acb(a)
             end = to_acb(b)
             length = abs(end - start)
@@ -185,7 +186,8 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
                 x = start + direction * gone
                 radii = [abs(x - pole).mid() * _SHARE for pole in poles]
                 rate = _rate(num, den, x)
-                radii += [growth / rate] if rate > 0 else []
+                if rate > 0:
+                    radii.append(growth / rate)
                 step = min([*radii, (length - gone).mid()])
                 while step > 0 and _rate(num, den, x + direction * 2 * step) * step > growth:
                     step /= 2

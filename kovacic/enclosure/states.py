@@ -50,8 +50,10 @@ class AskedSolution:
             if found is not None:
                 return found
             choice = route_of(self.journey, targets, self.method, self.digits)
-            _LOG.info("route: %s", "Taylor's method" if choice is None else choice.closed)
-            if choice is not None:
+            if choice is None:
+                _LOG.info("route: Taylor's method")
+            else:
+                _LOG.info("route: %s", choice.closed)
                 try:
                     return self._by_closed_form(choice, targets)
                 except NotServed:
@@ -132,7 +134,8 @@ def journey_of(
     vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
     start = read_start(problem, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
-    return Journey(problem, start, vertices, path == "chain", path if path in ("above", "below") else None)
+    side = path if path in ("above", "below") else None
+    return Journey(problem, start, vertices, chain=path == "chain", side=side)
 
 
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:

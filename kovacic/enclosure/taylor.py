@@ -101,52 +101,90 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     return [fmpz(v) for v in values]
 
 
-def _recurrence(
-    p: GaussianParts, q: GaussianParts, w: int, start: int, small: int
-) -> tuple[list[Any], list[Any] | None]:
-    """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`."""
-    real = p[1] is None and q[1] is None
-    dp = len(p[0])
-    dq = len(q[0]) - 1
-    pr, pi = (_numbers((part or [0] * dp)[::-1], w) for part in p)
-    qr, qi = (_numbers((part or [0] * (dq + 1))[:0:-1], w) for part in q)
-    one, zero, q0 = _numbers([1 << w, 0, q[0][0]], w)
+def _recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
+    """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`.
+
+    With b_n = n (n - 1) a_n,
+
+        q_0 b_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j);
+
+    the lists of a and b begin with as many zeros, `pad`, as the sums reach back.
+    """
+    if p[1] is None and q[1] is None:
+        return _real_recurrence(p[0], q[0], w, start, small), None
+    return _complex_recurrence(p, q, w, start, small)
+
+
+def _real_recurrence(p: list[int], q: list[int], w: int, start: int, small: int) -> list[Any]:
+    dp = len(p)
+    dq = len(q) - 1
+    p_back = _numbers(p[::-1], w)
+    q_back = _numbers(q[:0:-1], w)
+    one, zero, q_0 = _numbers([1 << w, 0, q[0]], w)
     pad = max(dp, dq) + 2
-    ar = [zero] * pad + ([one, zero] if start == 0 else [zero, one])  # ar[pad + n] is Re a_n
-    br = [zero] * (pad + 2)  # br[pad + n] = n (n - 1) Re a_n
-    ai = [zero] * (pad + 2)
-    bi = [zero] * (pad + 2)
+    a = [zero] * (pad + 2)
+    b = [zero] * (pad + 2)
+    a[pad + start] = one
     n = 0
     quiet = 0
-    cap = 40 * w + 4000
     while quiet <= pad:
         if n % _CHECKED == 0:
-            check_time()
+            _check_terms(n, w)
         i = pad + n
-        x = ar[i - dp + 1 : i + 1]
-        y = br[i + 2 - dq : i + 2]
         k = (n + 1) * (n + 2)
-        total = sum(map(mul, pr, x))
-        divisor = q0 * k
+        total = sum(map(mul, p_back, a[i - dp + 1 : i + 1]))
         if dq:
-            total -= sum(map(mul, qr, y))
-        if not real:
-            s = ai[i - dp + 1 : i + 1]
-            t = bi[i + 2 - dq : i + 2]
-            total += sum(map(mul, qi, t)) - sum(map(mul, pi, s))
-            term = (
-                sum(map(mul, pr, s)) + sum(map(mul, pi, x)) - sum(map(mul, qr, t)) - sum(map(mul, qi, y))
-            ) // divisor
-            ai.append(term)
-            bi.append(term * k)
-        term = total // divisor
-        ar.append(term)
-        br.append(term * k)
-        quiet = quiet + 1 if -small < term < small and (real or -small < ai[-1] < small) else 0
+            total -= sum(map(mul, q_back, b[i + 2 - dq : i + 2]))
+        term = total // (q_0 * k)
+        a.append(term)
+        b.append(term * k)
+        quiet = quiet + 1 if -small < term < small else 0
         n += 1
-        if n > cap:
-            raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
-    return ar[pad:], None if real else ai[pad:]
+    return a[pad:]
+
+
+def _complex_recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
+    dp = len(p[0])
+    dq = len(q[0]) - 1
+    p_re, p_im = (_numbers((part or [0] * dp)[::-1], w) for part in p)
+    q_re, q_im = (_numbers((part or [0] * (dq + 1))[:0:-1], w) for part in q)
+    one, zero, q_0 = _numbers([1 << w, 0, q[0][0]], w)
+    pad = max(dp, dq) + 2
+    a_re = [zero] * (pad + 2)
+    a_im = [zero] * (pad + 2)
+    b_re = [zero] * (pad + 2)
+    b_im = [zero] * (pad + 2)
+    a_re[pad + start] = one
+    n = 0
+    quiet = 0
+    while quiet <= pad:
+        if n % _CHECKED == 0:
+            _check_terms(n, w)
+        i = pad + n
+        k = (n + 1) * (n + 2)
+        x = a_re[i - dp + 1 : i + 1]
+        y = a_im[i - dp + 1 : i + 1]
+        s = b_re[i + 2 - dq : i + 2]
+        t = b_im[i + 2 - dq : i + 2]
+        re = sum(map(mul, p_re, x)) - sum(map(mul, p_im, y)) - sum(map(mul, q_re, s)) + sum(map(mul, q_im, t))
+        im = sum(map(mul, p_re, y)) + sum(map(mul, p_im, x)) - sum(map(mul, q_re, t)) - sum(map(mul, q_im, s))
+        re = re // (q_0 * k)
+        im = im // (q_0 * k)
+        a_re.append(re)
+        a_im.append(im)
+        b_re.append(re * k)
+        b_im.append(im * k)
+        quiet = quiet + 1 if -small < re < small and -small < im < small else 0
+        n += 1
+    return a_re[pad:], a_im[pad:]
+
+
+def _check_terms(n: int, w: int) -> None:
+    """Raise LimitExceeded where there are too many terms, or no time is left."""
+    check_time()
+    cap = 40 * w + 4000
+    if n > cap:
+        raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
 
 
 def _proven_defect(p: GaussianParts, q: GaussianParts, column: GaussianParts, excess: int, small: int) -> int:

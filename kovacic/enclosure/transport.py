@@ -82,8 +82,13 @@ class Disc:
         free = self.begin == a or is_apart(system, a, *corners)
         near = to_double(centre)
         for number, place, x in targets:
-            inside = abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit  # `Frame.seen` checks it exactly
-            if (self.stop == 1 and x == self.leave) or (inside and (free or is_apart(system, a, self.begin, x))):
+            if self.stop == 1 and x == self.leave:
+                yield number
+                continue
+            is_inside = (
+                abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit
+            )  # `Frame.seen` checks it exactly
+            if is_inside and (free or is_apart(system, a, self.begin, x)):
                 yield number
 
 
@@ -129,7 +134,9 @@ class Leg:
     def local(self, state: State) -> Local:
         """The solution in the disc, from its state where the disc is entered."""
         assert self.expansion is not None
-        return local_solution(self.expansion, state if self.to_centre is None else apply(self.to_centre, state))
+        if self.to_centre is not None:
+            state = apply(self.to_centre, state)
+        return local_solution(self.expansion, state)
 
 
 def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:
@@ -140,7 +147,8 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
     foreseen = _is_steep(system, a, b)
     if foreseen:
         _refuse(system, a, b, prec, 0.0)
-    _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
+    how = ", by binary splitting" if split else ""
+    _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
         _LOG.debug("disc %d: centre %s, radius 2^%d", number, disc.frame.centre, disc.frame.e)
         count_work(prec)
@@ -149,9 +157,11 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
             yield Leg(disc, None, multiply(stop, adjugate(start)))
         else:
             yield Leg(disc, expand(disc.frame, prec))
-        if not foreseen and number >= _TRIED and not (used := begun - watched_seconds(math.inf)) < _WORTH:
-            _refuse(system, a, b, prec, used / number)
-            foreseen = True
+        if not foreseen and number >= _TRIED:
+            used = begun - watched_seconds(math.inf)
+            if not used < _WORTH:
+                _refuse(system, a, b, prec, used / number)
+                foreseen = True
         if number > _MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
 
@@ -194,7 +204,9 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
     if a == b:
         return
     check_segment(system, a, b)
-    piece = StraightPiece(system, a, b, _allowed_growth(prec) if growth is None else growth)
+    if growth is None:
+        growth = _allowed_growth(prec)
+    piece = StraightPiece(system, a, b, growth)
     t = fmpq(0)
     enter = a
     guess = None
