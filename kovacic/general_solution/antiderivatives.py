@@ -22,7 +22,7 @@ import sympy
 from sympy import atan, cos, exp, log, sin, tan
 from sympy.simplify.fu import TR8, TR2i
 
-from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared
+from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
 from kovacic.general_solution.special_integrals import dilogarithm, fresnel, in_complex_exponentials, incomplete_gamma
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.undetermined import undetermined
@@ -48,7 +48,9 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     x*log(x) - 2*x + tan(x)
     """
     found = _by_rules(integrand, x)
-    if found is None or (_has_a_root_of_a_sum(integrand, x) and not _holds_on_every_side(found, integrand, x)):
+    if found is None:
+        return None
+    if _has_a_root_of_a_sum(integrand, x) and not _holds_on_every_side(found, integrand, x):
         return None
     return found
 
@@ -63,20 +65,13 @@ def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
         whole = integral_of_product(integrand, x)
         if whole is not None:
             return whole
-    parts = []
-    for inverse, terms in _by_inverse_functions(integrand, x).items():
-        check_time()
-        found = _of_terms(inverse, terms, x)
-        if found is None:
-            return None
-        parts.append(found)
-    return sympy.Add(*parts)
+    groups = _by_inverse_functions(integrand, x)
+    return sum_of(_of_terms(inverse, terms, x) for inverse, terms in groups.items())
 
 
 def _has_a_root_of_a_sum(integrand: Expr, x: Expr) -> bool:
     """As in sqrt(1 + tan(x)^2), which is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one."""
-    roots = [p.base for p in integrand.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
-    return any(base.has(x) and not base.is_Symbol for base in roots)
+    return any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
 
 
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
@@ -86,19 +81,29 @@ def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
     for point in _POINTS:
         here = {**others, x: point}
         value = ball(integrand, here)
-        if value is None or not value.is_finite() or not value.imag.contains(0):
+        if not _is_real(value):
             continue
-        derivative = ball(slope, here)
-        if derivative is not None and derivative.is_finite() and not derivative.overlaps(value):
+        if _is_another(ball(slope, here), value):
             return False
     return True
 
 
+def _is_real(value: Any) -> bool:
+    """Is a value known, finite, and a real number as far as its ball says?"""
+    return value is not None and value.is_finite() and value.imag.contains(0)
+
+
+def _is_another(value: Any, wanted: Any) -> bool:
+    """Is a value known, finite, and seen not to be the one that is wanted?"""
+    return value is not None and value.is_finite() and not value.overlaps(wanted)
+
+
 def _of_terms(inverse: Expr, terms: list[Expr], x: Expr) -> Expr | None:
     """One after the other; or, where one isn't known, their sum by parts."""
-    found = [_of_term(term, x) for term in terms]
-    if None not in found:
-        return sympy.Add(*found)
+    check_time()
+    found = sum_of(_of_term(term, x) for term in terms)
+    if found is not None:
+        return found
     beside = sympy.Add(*(term / inverse for term in terms))
     return _by_parts(inverse, beside, x)
 
@@ -111,9 +116,14 @@ def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
     """The terms, those with the same powers of functions that are to be differentiated together."""
     groups: dict[Expr, list[Expr]] = {}
     for term in sympy.Add.make_args(integrand):
-        powers = [p for p in sympy.Mul.make_args(term) if p.as_base_exp()[0].func in _BY_PARTS and p.has(x)]
+        powers = [factor for factor in sympy.Mul.make_args(term) if _goes_by_parts(factor, x)]
         groups.setdefault(sympy.Mul(*powers), []).append(term)
     return groups
+
+
+def _goes_by_parts(factor: Expr, x: Expr) -> bool:
+    """Is it a power of a function of x that is to be differentiated?"""
+    return factor.as_base_exp()[0].func in _BY_PARTS and factor.has(x)
 
 
 def _of_term(term: Expr, x: Expr) -> Expr | None:
@@ -150,8 +160,11 @@ def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
 
 
 def _by_coefficients(term: Expr, x: Expr) -> Expr | None:
+    """Y' for Y'' = g."""
     found = undetermined(sympy.Integer(0), sympy.Integer(0), term, x)
-    return None if found is None else sympy.expand(found.diff(x))
+    if found is None:
+        return None
+    return sympy.expand(found.diff(x))
 
 
 def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
@@ -163,65 +176,85 @@ def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
     if inner.has(log) or inner.has(x):
         return None
     found = _known(inner, t)
-    return None if found is None else in_powers(found, t, x)
+    if found is None:
+        return None
+    return in_powers(found, t, x)
 
 
 def _in_roots(term: Expr, x: Expr) -> Expr | None:
-    """In t with x = t^q, for the root of x that stands within functions."""
-    q = _index_of_root(term, x)
-    if q == 1:
-        return None
-    t = sympy.Dummy(positive=True)
-    found = _known(term.subs(x, t**q) * q * t ** (q - 1), t)
-    return None if found is None else found.subs(t, sympy.root(x, q))
-
-
-def _index_of_root(term: Expr, x: Expr) -> int:
-    """q, where x^(1/q) is the root of which all powers of x in arguments, or beside waves, are powers."""
+    """In t with x = t^q, for the root of x that stands within functions, or beside waves."""
     arguments = [f.args[0] for f in term.atoms(sympy.Function)]
     if term.has(sin, cos):
         arguments = [term]
-    q = 1
-    for argument in arguments:
-        powers = [power for power in argument.atoms(sympy.Pow) if power.base == x and power.exp.is_Rational]
-        q = lcm(q, *(int(power.exp.q) for power in powers))
-    return q
+    q = lcm(*(_index_of_root(argument, x) for argument in arguments))
+    if q == 1:
+        return None
+    t = sympy.Dummy(positive=True)
+    found = _known(_in_root(term, x, t, q), t)
+    return _at(sympy.root(x, q), t, found)
+
+
+def _index_of_root(e: Expr, x: Expr) -> int:
+    """q, where x^(1/q) is the root of which all powers of x with rational exponents are powers."""
+    powers = [power for power in e.atoms(sympy.Pow) if power.base == x and power.exp.is_Rational]
+    return lcm(*(int(power.exp.q) for power in powers))
+
+
+def _in_root(integrand: Expr, x: Expr, t: Expr, q: int) -> Expr:
+    """The integrand for x = t^q, times dx/dt."""
+    return integrand.subs(x, t**q) * q * t ** (q - 1)
 
 
 def _in_roots_of_x(term: Expr, x: Expr) -> Expr | None:
     """A rational function of a root of x."""
-    powers = [p for p in term.atoms(sympy.Pow) if p.base == x and p.exp.is_Rational]
-    q = lcm(*(int(p.exp.q) for p in powers))
+    q = _index_of_root(term, x)
+    if q == 1:
+        return None
     t = sympy.Dummy(positive=True)
-    inner = term.subs(x, t**q) * q * t ** (q - 1)
-    found = None if q == 1 else integral_of_fraction(sympy.cancel(inner), t)
-    return None if found is None else found.subs(t, sympy.root(x, q))
+    found = integral_of_fraction(sympy.cancel(_in_root(term, x, t, q)), t)
+    return _at(sympy.root(x, q), t, found)
+
+
+def _at(u: Expr, t: Expr, found: Expr | None) -> Expr | None:
+    """An integral that was found in t, for t = u."""
+    if found is None:
+        return None
+    return found.subs(t, u)
 
 
 def _in_a_linear_argument(term: Expr, x: Expr) -> Expr | None:
     """In u = a x + b, where a root of that alone stands beside functions."""
-    roots = {p.base for p in term.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.base.has(x)}
-    if len(roots) != 1 or not _functions(term):
+    bases = {base for base in radicands(term) if base.has(x)}
+    if len(bases) != 1 or not _functions(term):
         return None
-    (base,) = roots
+    (base,) = bases
     if not base.is_Add or not base.is_polynomial(x) or sympy.degree(base, x) != 1:
         return None
     u = sympy.Dummy()
-    inner = term.subs(x, sympy.expand(x - (base - u) / base.diff(x))) / base.diff(x)
-    found = None if inner.has(x) else _known(inner, u)
-    return None if found is None else found.subs(u, base)
+    slope = base.diff(x)
+    inner = term.subs(x, sympy.expand(x - (base - u) / slope)) / slope
+    if inner.has(x):
+        return None
+    return _at(base, u, _known(inner, u))
 
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
     """In an argument u of a function, beside whose slope the term is one of u."""
     u = sympy.Dummy()
-    arguments = {f.args[0] for f in term.atoms(sympy.Function)}
-    for argument in sorted((a for a in arguments if a.has(x) and a.has(exp, sin, cos, log)), key=str):
+    for argument in sorted(_arguments_with_functions(term, x), key=str):
         inner = (term / argument.diff(x)).subs(argument, u)
-        found = None if inner.has(x) else _known(inner, u)
+        if inner.has(x):
+            continue
+        found = _known(inner, u)
         if found is not None:
             return found.subs(u, argument)
     return None
+
+
+def _arguments_with_functions(term: Expr, x: Expr) -> set[Expr]:
+    """The arguments of functions of which x isn't the only part."""
+    arguments = {f.args[0] for f in term.atoms(sympy.Function)}
+    return {argument for argument in arguments if argument.has(x) and argument.has(exp, sin, cos, log)}
 
 
 def _known(integrand: Expr, t: Expr) -> Expr | None:
@@ -234,29 +267,43 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     """In u = exp(k x), for which x is written."""
     term = sympy.expand(term)
     rates = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
+    k = _rate_of_variable(term, rates)
+    if k is None:
+        return None
+    u = sympy.Dummy()
+    in_u = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
+    if in_u.has(x):
+        return None
+    found = _in_one_exponential(prepared(in_u.xreplace({u: x})), x)
+    return _at(exp(k * x), x, found)
+
+
+def _rate_of_variable(term: Expr, rates: dict[Expr, Expr]) -> Expr | None:
+    """k, with polynomials in exp(k x) under roots and in logarithms if that can be; None where there is no common rate."""
     k = _common_rate(list(rates.values()))
     if k is None:
         return None
-    inner = [e for argument in _arguments_of_roots_and_logarithms(term) for e in argument.atoms(exp)]
-    inner_rates = [rates[e] for e in inner if e in rates]
-    if inner_rates and all((rate / k).is_negative for rate in inner_rates):  # with polynomials there
-        k = -k
-    u = sympy.Dummy()
-    inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
-    if inner.has(x):
-        return None
-    inner = prepared(inner.xreplace({u: x}))
-    found = integral_of_fraction(inner, x)
+    inner: set[Expr] = set()
+    for argument in _arguments_of_roots_and_logarithms(term):
+        inner |= argument.atoms(exp)
+    powers = [rates[e] / k for e in inner if e in rates]
+    if powers and all(power.is_negative for power in powers):
+        return -k
+    return k
+
+
+def _in_one_exponential(integrand: Expr, u: Expr) -> Expr | None:
+    """The integral of what is written in u = exp(k x)."""
+    found = integral_of_fraction(integrand, u)
     if found is None:
-        found = _by_coefficients(inner, x)
-    if found is None and not inner.has(log(x)):
-        found = _known(inner, x)
-    return None if found is None else found.subs(x, exp(k * x))
+        found = _by_coefficients(integrand, u)
+    if found is None and not integrand.has(log(u)):  # in t = log(u) exponentials would come back
+        found = _known(integrand, u)
+    return found
 
 
 def _arguments_of_roots_and_logarithms(term: Expr) -> list[Expr]:
-    roots = [p.base for p in term.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
-    return [*roots, *(f.args[0] for f in term.atoms(log))]
+    return [*radicands(term), *(f.args[0] for f in term.atoms(log))]
 
 
 def _common_rate(rates: list[Expr]) -> Expr | None:
@@ -268,7 +315,9 @@ def _common_rate(rates: list[Expr]) -> Expr | None:
         return None
     k = rates[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
     # One u for all terms, or logarithms that cancel would stay.
-    return -k if k.could_extract_minus_sign() else k
+    if k.could_extract_minus_sign():
+        return -k
+    return k
 
 
 @dataclass(frozen=True)
@@ -353,55 +402,91 @@ def _with_real_arguments(term: Expr, x: Expr) -> Expr | None:
         angle = sympy.expand(e.args[0] / sympy.I)
         if e.args[0].has(sympy.I) and not angle.has(sympy.I):
             waves[e] = cos(angle) + sympy.I * sin(angle)
-    return _in_waves(term.xreplace(waves), x) if waves else None
+    if not waves:
+        return None
+    return _in_waves(term.xreplace(waves), x)
+
+
+@dataclass(frozen=True)
+class _Power:
+    """function^m with a natural number m."""
+
+    function: Expr
+    m: Expr
 
 
 def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these."""
-    powers = [power.as_base_exp() for power in sympy.Mul.make_args(inverse)]
-    if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
+    powers = _natural_powers(inverse)
+    if not powers:
         return None
     if len(powers) == 1:
-        function, m = powers[0]
-        found = _of_one_function(function, m, g, x)
+        found = _of_one_function(powers[0], g, x)
         if found is not None:
             return found
     G = _by_rules(g, x)
     if G is None:
         return None
-    (function, m), *others = powers
-    share = sympy.expand(G).coeff(function)
-    if not others and share != 0 and not share.has(x):  # int (k l' + H') l^m dx
-        whole = share * function ** (m + 1) / (m + 1)
-        rest = _by_parts(inverse, sympy.expand(g - share * function.diff(x)), x)
-        return None if rest is None else whole + rest
+    if len(powers) == 1:
+        share = sympy.expand(G).coeff(powers[0].function)
+        if share != 0 and not share.has(x):
+            return _with_share(powers[0], share, g, x)
     if not _functions(G) <= _SIMPLE:
         return None
-    slopes = [m * _slope(function, x) * inverse / function for function, m in powers]
-    rest = _by_rules(sympy.Add(*(slope * G for slope in slopes)), x)
-    return None if rest is None else sympy.expand(G * inverse) - rest
+    rates = [power.m * _slope(power.function, x) / power.function for power in powers]  # l'/l, by factors
+    rest = _by_rules(sympy.Add(*(rate * inverse * G for rate in rates)), x)
+    if rest is None:
+        return None
+    return sympy.expand(G * inverse) - rest
+
+
+def _natural_powers(inverse: Expr) -> list[_Power]:
+    """The factors of a product; none where an exponent isn't a natural number, and of 1."""
+    powers = [_Power(*factor.as_base_exp()) for factor in sympy.Mul.make_args(inverse)]
+    if inverse == 1 or not all(power.m.is_Integer and power.m > 0 for power in powers):
+        return []
+    return powers
+
+
+def _with_share(power: _Power, share: Expr, g: Expr, x: Expr) -> Expr | None:
+    """int g l^m dx for g = k l' + H' with a constant share k: k l^(m + 1)/(m + 1) + int H' l^m dx."""
+    function = power.function
+    m = power.m
+    rest = _by_parts(function**m, sympy.expand(g - share * function.diff(x)), x)
+    if rest is None:
+        return None
+    return share * function ** (m + 1) / (m + 1) + rest
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
     """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
     slope = sympy.cancel(function.diff(x))
-    return slope if slope.is_rational_function(x) else sympy.powsimp(sympy.radsimp(slope))
+    if slope.is_rational_function(x):
+        return slope
+    return sympy.powsimp(sympy.radsimp(slope))
 
 
-def _of_one_function(function: Expr, m: Expr, g: Expr, x: Expr) -> Expr | None:
+def _of_one_function(power: _Power, g: Expr, x: Expr) -> Expr | None:
     """int l^m l' dx, and dilogarithms."""
+    function = power.function
+    m = power.m
     ratio = sympy.cancel(g / function.diff(x))
     if not ratio.has(x):
         return ratio * function ** (m + 1) / (m + 1)
     if function.func is not log or m != 1 or not g.is_rational_function(x):
         return None
-    u = function.args[0]
-    parts = sympy.Add.make_args(sympy.apart(g, x))
-    found = [dilogarithm(u, part, x) for part in parts]
-    if all(part is None for part in found):
+    return _beside_logarithm(function, g, x)
+
+
+def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
+    """int R log(u) dx, where a partial fraction of R has a dilogarithm; None where none has."""
+    fractions = sympy.Add.make_args(sympy.apart(g, x))
+    known = {fraction: dilogarithm(logarithm.args[0], fraction, x) for fraction in fractions}
+    if all(found is None for found in known.values()):
         return None
-    rest = [_by_parts(function, part, x) if done is None else done for part, done in zip(parts, found, strict=True)]
-    return None if None in rest else sympy.Add(*rest)
+    unknown = [fraction for fraction, found in known.items() if found is None]
+    known |= {fraction: _by_parts(logarithm, fraction, x) for fraction in unknown}
+    return sum_of(known.values())
 
 
 def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
@@ -414,33 +499,41 @@ def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
     G = _known(g, x)
     if G is None:
         return None
+    rest = _beside_slope(P.diff(x), G, x)
+    if rest is None or rest.has(sympy.Integral):
+        return None
+    return P * G - rest
+
+
+def _beside_slope(slope: Expr, G: Expr, x: Expr) -> Expr | None:
+    """int P' G dx; term by term where G has functions that go by parts, which would come back to P."""
     if _functions(G) <= {exp, sin, cos, tan}:
-        rest = _known(P.diff(x) * G, x)
-    else:  # what goes by parts would come back
-        found = [_of_term(part, x) for part in sympy.Add.make_args(prepared(P.diff(x) * G))]
-        rest = None if None in found else sympy.Add(*found)
-    return None if rest is None or rest.has(sympy.Integral) else P * G - rest
+        return _known(slope * G, x)
+    terms = sympy.Add.make_args(prepared(slope * G))
+    return sum_of(_of_term(term, x) for term in terms)
 
 
 def _beside_waves(term: Expr, x: Expr) -> Expr | None:
     """int R cos(w x + b) dx for rational R, after partial fractions, by sine and cosine integrals."""
     if not term.has(sin, cos) or term.has(exp, log, atan):
         return None
-    parts = []
-    for single in sympy.Add.make_args(sympy.expand(TR8(term))):
-        waves = single.atoms(sin, cos)
-        if len(waves) > 1:
-            return None
-        wave = next(iter(waves), sympy.Integer(1))
-        R = single / wave
-        if not R.is_rational_function(x) or R.has(sin, cos):
-            return None
-        for fraction in sympy.Add.make_args(sympy.apart(R, x)):
-            found = _beside_one_wave(fraction, wave, x) if waves else integral_of_product(fraction, x)
-            if found is None:
-                return None
-            parts.append(found)
-    return sympy.Add(*parts)
+    singles = sympy.Add.make_args(sympy.expand(TR8(term)))
+    return sum_of(_beside_at_most_one_wave(single, x) for single in singles)
+
+
+def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
+    """The integral of R, or of R times a wave, by partial fractions."""
+    waves = term.atoms(sin, cos)
+    if len(waves) > 1:
+        return None
+    wave = next(iter(waves), sympy.Integer(1))
+    R = term / wave
+    if not R.is_rational_function(x) or R.has(sin, cos):
+        return None
+    fractions = sympy.Add.make_args(sympy.apart(R, x))
+    if not waves:
+        return sum_of(integral_of_product(fraction, x) for fraction in fractions)
+    return sum_of(_beside_one_wave(fraction, wave, x) for fraction in fractions)
 
 
 def _beside_one_wave(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
@@ -449,7 +542,9 @@ def _beside_one_wave(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
     if slope.has(x):
         return None
     found = _by_coefficients(fraction * wave, x)
-    return _at_a_pole(fraction, wave, slope, x) if found is None else found
+    if found is not None:
+        return found
+    return _at_a_pole(fraction, wave, slope, x)
 
 
 def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
@@ -481,19 +576,29 @@ def _over_a_line(wave: Expr, c: Expr, slope: Expr, x: Expr) -> Expr:
 
 def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
-    reciprocals = [f for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
-    if len(reciprocals) != 1:
+    c = _only_wave_below(term)
+    if c is None:
         return None
-    c = reciprocals[0].base
     s = cos(c.args[0]) if c.func is sin else sin(c.args[0])
-    if not (term * c).is_polynomial(s, c):
+    above = term * c
+    if not above.is_polynomial(s, c):
         return None
-    (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
+    (_, q), rest = sympy.reduced(above, [s**2 + c**2 - 1, c], s, c)
     if rest.has(log, atan):
         return None
-    for sign in (1, -1):
-        residue = rest.xreplace({s: sympy.Integer(sign)})
-        if residue.has(sin, cos) or not residue.has(x):
-            return None
+    residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
+    if any(residue.has(sin, cos) or not residue.has(x) for residue in residues):
+        return None
     found = _by_rules(q, x)
-    return None if found is None else found + sympy.Integral(rest / c, x)
+    if found is None:
+        return None
+    return found + sympy.Integral(rest / c, x)
+
+
+def _only_wave_below(term: Expr) -> Expr | None:
+    """The wave c of the only factor 1/c; None where there are others or none."""
+    below = [factor.base for factor in sympy.Mul.make_args(term) if factor.is_Pow and factor.exp == -1]
+    waves = [base for base in below if base.func in (sin, cos)]
+    if len(waves) != 1:
+        return None
+    return waves[0]

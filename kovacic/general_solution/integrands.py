@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,7 +46,9 @@ def prepared(integrand: Expr) -> Expr:
 
 def _is_inverse_root(power: Expr) -> bool:
     """Is it a sum to a power below -1 that isn't an integer?"""
-    return bool(power.base.is_Add and power.exp.is_Rational and power.exp < -1 and not power.exp.is_Integer)
+    e = power.exp
+    is_fraction = e.is_Rational and not e.is_Integer
+    return bool(power.base.is_Add and is_fraction and e < -1)
 
 
 def _terms(expression: Expr) -> float:
@@ -55,17 +58,37 @@ def _terms(expression: Expr) -> float:
     if expression.is_Mul:
         return math.prod(map(_terms, expression.args))
     if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
-        n = _terms(expression.base)
-        k = int(expression.exp)
-        if n == 1:
-            return 1.0
-        return float(math.comb(int(n) + k - 1, k)) if n * k < _MANY else math.inf
+        return _terms_of_power(_terms(expression.base), int(expression.exp))
     return 1.0
+
+
+def _terms_of_power(n: float, k: int) -> float:
+    """That many monomials of degree k in n terms: binomial(n + k - 1, k)."""
+    if n == 1:
+        return 1.0
+    if n * k >= _MANY:
+        return math.inf
+    return float(math.comb(int(n) + k - 1, k))
+
+
+def sum_of(integrals: Iterable[Expr | None]) -> Expr | None:
+    """The sum; None where one isn't known, and then the next ones aren't asked for."""
+    known = []
+    for found in integrals:
+        if found is None:
+            return None
+        known.append(found)
+    return sympy.Add(*known)
+
+
+def radicands(expression: Expr) -> list[Expr]:
+    """What stands under roots: the bases of its powers with exponents that are fractions."""
+    return [p.base for p in expression.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
 
 
 def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     """int g dx for a product g of powers and exponentials of rational functions; None for anything else, or unknown."""
-    if any(f.func is not exp for f in term.atoms(sympy.Function) if f.has(x)):
+    if _has_other_functions(term, x):
         return None
     if _turns_at_zero(term, x):
         turned = integral_of_product(term.subs(x, -x), x)
@@ -78,11 +101,28 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     scale, shown = factors(h, atoms)
     if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes
         return None
-    ratio = term / (scale * sympy.Mul(*shown))
     found = integral(h, atoms)
-    values = (_in_one_form(sympy.powsimp(ratio.subs(x, k))) for k in (2, 3, 5))
-    constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
-    return None if found is None or constant is None else sympy.expand(constant * found)
+    if found is None:
+        return None
+    constant = _constant_value(term / (scale * sympy.Mul(*shown)), x)
+    if constant is None:
+        return None
+    return sympy.expand(constant * found)
+
+
+def _has_other_functions(term: Expr, x: Expr) -> bool:
+    """Are there functions of x that aren't exponentials?"""
+    functions = [f for f in term.atoms(sympy.Function) if f.has(x)]
+    return any(f.func is not exp for f in functions)
+
+
+def _constant_value(ratio: Expr, x: Expr) -> Expr | None:
+    """The value of a ratio that doesn't depend on x, at the first point where it has one; None without such a point."""
+    for point in (2, 3, 5):
+        value = _in_one_form(sympy.powsimp(ratio.subs(x, point)))
+        if value != 0 and not value.has(sympy.nan, sympy.zoo):
+            return value
+    return None
 
 
 def _in_one_form(constant: Expr) -> Expr:
@@ -94,38 +134,42 @@ def _in_one_form(constant: Expr) -> Expr:
 
 def _is_real_far_away(term: Expr, x: Expr) -> bool:
     """Are its roots those of polynomials that are positive for large x, as in sqrt(x^2 - 1)?"""
-    polynomials = _radicands(term, x)
+    polynomials = _polynomial_radicands(term, x)
     return bool(polynomials) and all(polynomial.LC().is_positive for polynomial in polynomials)
 
 
 def _turns_at_zero(term: Expr, x: Expr) -> bool:
     """Are its roots those of a - x and the like, which are real for x -> -oo?"""
-    polynomials = [polynomial for polynomial in _radicands(term, x) if polynomial.degree() % 2]
+    polynomials = [polynomial for polynomial in _polynomial_radicands(term, x) if polynomial.degree() % 2]
     return bool(polynomials) and all(polynomial.LC().is_negative for polynomial in polynomials)
 
 
-def _radicands(term: Expr, x: Expr) -> list[Expr]:
-    """Polynomials whose roots are factors."""
-    roots = [p.base for p in term.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.base.has(x)]
-    return [sympy.Poly(base, x) for base in roots if base.is_polynomial(x)]
+def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
+    """Polynomials in x whose roots are factors."""
+    bases = [base for base in radicands(term) if base.has(x)]
+    return [sympy.Poly(base, x) for base in bases if base.is_polynomial(x)]
 
 
 def _rate(g: Expr, x: Expr) -> Expr:
     """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
     first, *rest = (_PowerProduct.of(term) for term in sympy.Add.make_args(g))
-    found = first.exponent.diff(x)
-    for base, e in first.powers:
-        if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
-            found += e * _rate(base, x)
-        elif base.has(x):
-            found += e * base.diff(x) / base
-        else:
-            found += e.diff(x) * log(base)
     others = sympy.Integer(1)
     for term in rest:
         quotient = sympy.Mul(*(base**e for base, e in term.powers), *(base**-e for base, e in first.powers))
         others += quotient * exp(sympy.cancel(term.exponent - first.exponent))
-    return found + others.diff(x) / others
+    own = first.exponent.diff(x)
+    for base, e in first.powers:
+        own += _rate_of_power(base, e, x)
+    return own + others.diff(x) / others
+
+
+def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
+    """That of base^e, where not both depend on x."""
+    if not base.has(x):
+        return e.diff(x) * log(base)
+    if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
+        return e * _rate(base, x)
+    return e * base.diff(x) / base
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import sympy
 from sympy import cos, exp, log, sin
 from sympy.simplify.fu import TR8
 
-from kovacic.general_solution.integrands import integral_of_product
+from kovacic.general_solution.integrands import integral_of_product, sum_of
 
 Expr = Any  # SymPy publishes no types
 _Pair = tuple[Expr, Expr]
@@ -29,8 +29,22 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     -uppergamma(s + 1, x)
     """
     K, rest = term.as_independent(x, as_Add=False)
-    s = exponent = sympy.Integer(0)
-    for factor in sympy.Mul.make_args(rest):
+    found = _power_and_exponent(rest, x)
+    if found is None:
+        return None
+    s, exponent = found
+    if exponent != 0:
+        return _of_power_and_exponential(K, s, exponent, x)
+    if s == -1:
+        return None
+    return K * x ** (s + 1) / (s + 1)
+
+
+def _power_and_exponent(product: Expr, x: Expr) -> tuple[Expr, Expr] | None:
+    """s and E of a product x^s exp(E); None for another."""
+    s = sympy.Integer(0)
+    exponent = sympy.Integer(0)
+    for factor in sympy.Mul.make_args(product):
         base, power = factor.as_base_exp()
         if base is sympy.E:
             exponent += power
@@ -38,16 +52,19 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
             s += power
         else:
             return None
-    if exponent == 0:
-        return None if s == -1 else K * x ** (s + 1) / (s + 1)
-    constant, single = sympy.expand(exponent).as_independent(x, as_Add=True)
+    return s, exponent
+
+
+def _of_power_and_exponential(K: Expr, s: Expr, exponent: Expr, x: Expr) -> Expr | None:
+    """The same for an exponent c x^m + d, d beside K; None for another exponent."""
+    d, single = sympy.expand(exponent).as_independent(x, as_Add=True)
     c, power = single.as_independent(x, as_Add=False)
     base, m = power.as_base_exp()
     if base != x or m.has(x) or m == 0:
         return None
     z = -c * x**m
     e = (s + 1) / m
-    return -K / m * exp(constant) * sympy.powsimp(x ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
+    return -K / m * exp(d) * sympy.powsimp(x ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
 
 
 def fresnel(term: Expr, x: Expr) -> Expr | None:
@@ -60,20 +77,27 @@ def fresnel(term: Expr, x: Expr) -> Expr | None:
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
     waves = term.atoms(sin, cos)
-    if len(waves) > 1 and any(wave.args[0].is_polynomial(x) and sympy.degree(wave.args[0], x) == 2 for wave in waves):
-        found = [_fresnel(part, x) for part in sympy.Add.make_args(sympy.expand(TR8(term)))]
-        return None if None in found else sympy.Add(*found)
-    return _fresnel(term, x) if len(waves) == 1 else None
+    if len(waves) < 2:
+        return _fresnel(term, x)
+    if not any(_is_quadratic(wave.args[0], x) for wave in waves):
+        return None
+    singles = sympy.Add.make_args(sympy.expand(TR8(term)))
+    return sum_of([_fresnel(single, x) for single in singles])
+
+
+def _is_quadratic(q: Expr, x: Expr) -> bool:
+    return bool(q.is_polynomial(x) and sympy.degree(q, x) == 2)
 
 
 def _fresnel(term: Expr, x: Expr) -> Expr | None:
+    """The same for one wave; None for none, or more."""
     waves = term.atoms(sin, cos)
     if len(waves) != 1:
         return None
     (wave,) = waves
     P = term / wave
     (q,) = wave.args
-    if P.has(wave) or not P.is_polynomial(x) or not q.is_polynomial(x) or sympy.degree(q, x) != 2:
+    if P.has(wave) or not P.is_polynomial(x) or not _is_quadratic(q, x):
         return None
     a, b, c = sympy.Poly(q, x).all_coeffs()
     t = sympy.Dummy()
@@ -134,10 +158,11 @@ def in_complex_exponentials(term: Expr, x: Expr) -> Expr | None:
     parts = sympy.Add.make_args(sympy.expand(term.rewrite((sin, cos), exp), power_exp=False))
     if len(parts) > _MOST_EXPONENTIALS:
         return None
-    found = [_of_exponential(part, x) for part in parts]
-    return None if None in found else sympy.Add(*found)
+    return sum_of([_of_exponential(part, x) for part in parts])
 
 
 def _of_exponential(part: Expr, x: Expr) -> Expr | None:
     known = integral_of_product(part, x)
-    return incomplete_gamma(part, x) if known is None else known
+    if known is not None:
+        return known
+    return incomplete_gamma(part, x)
