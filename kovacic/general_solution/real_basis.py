@@ -33,16 +33,16 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
     """Two solutions that are real at the point, if such are found; else the given ones."""
     if not point.is_real or not any(negative_arguments(y, x, point) for y in (y1, y2)):
         return y1, y2
-    found: list[Expr] = []
+    candidates: list[Expr] = []
     for y in (y1, y2):
         turned = _all_turned(y, x, point)
         if is_numerical_solution(turned, x, solution.S, solution.gauge):
-            found.append(turned)
+            candidates.append(turned)
         else:
-            found += _parts(y, point, x)
-    for second in found[1:]:
-        if are_independent(found[0], second, x):
-            return found[0], second
+            candidates += _parts(y, point, x)
+    for second in candidates[1:]:
+        if are_independent(candidates[0], second, x):
+            return candidates[0], second
     return y1, y2
 
 
@@ -56,20 +56,26 @@ def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
 
 def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
     """A solution of the inhomogeneous equation that is real at the point, if one is found; else the given one."""
-    if not point.is_real or y.has(sympy.Integral, sympy.Heaviside) or not negative_arguments(y, x, point):
+    if not point.is_real or y.has(sympy.Integral, sympy.Heaviside):
+        return y
+    if not negative_arguments(y, x, point):
         return y
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
     coefficients = rates(equation, x)
-    for found in [_all_turned(y, x, point), *_parts(y, point, x)[:1]]:
-        if is_solution(found, coefficients, right, x):
-            return found
+    real_part = _parts(y, point, x)[:1]
+    for candidate in [_all_turned(y, x, point), *real_part]:
+        if is_solution(candidate, coefficients, right, x):
+            return candidate
     return y
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
     """The logarithms, roots and Bessel's functions in an expression, and their arguments."""
-    candidates = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase)}
-    return candidates | {e: e.base for e in y.atoms(sympy.Pow) if not e.exp.is_Integer and e.base.has(x)}
+    found = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase)}
+    for power in y.atoms(sympy.Pow):
+        if power.base.has(x) and not power.exp.is_Integer:
+            found[power] = power.base
+    return found
 
 
 def _all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
@@ -96,18 +102,20 @@ def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
     if y.has(sympy.RootSum, BesselBase) or size(y) > _LONGEST:
         return [y]
     back: dict[Expr, Expr] = {}
-    exact = y.xreplace(_with_positive_arguments(y, point, x, back))
-    real = {symbol: sympy.Dummy(real=True) for symbol in exact.free_symbols - back.keys()}
-    back |= {dummy: symbol for symbol, dummy in real.items()}
-    exact = exact.subs(real)
-    for power in exact.atoms(sympy.Pow):
-        polar = _polar(power, x, back)
-        if polar is not None:
-            exact = exact.xreplace({power: polar})
-    whole = sympy.expand(exact, complex=True).as_real_imag()
-    parts = [part.xreplace(back).as_independent(x, as_Add=False)[1] for part in whole if part != 0]
-    short = all(size(part) <= _LARGEST * (size(y) + 5) and not part.has(*_COMPLEX) for part in parts)
-    return parts if short else [y]
+    whole = y.xreplace(_with_positive_arguments(y, point, x, back))
+    real = {symbol: sympy.Dummy(real=True) for symbol in whole.free_symbols - back.keys()}
+    back |= {letter: symbol for symbol, letter in real.items()}
+    whole = _with_polar_powers(whole.subs(real), x, back)
+    both = sympy.expand(whole, complex=True).as_real_imag()
+    parts = [part.xreplace(back).as_independent(x, as_Add=False)[1] for part in both if part != 0]
+    if all(_is_readable(part, y) for part in parts):
+        return parts
+    return [y]
+
+
+def _is_readable(part: Expr, y: Expr) -> bool:
+    """Is a part of y not much longer than y, without the real parts and moduli of anything?"""
+    return size(part) <= _LARGEST * (size(y) + 5) and not part.has(*_COMPLEX)
 
 
 def _with_positive_arguments(y: Expr, point: Expr, x: Expr, back: dict[Expr, Expr]) -> dict[Expr, Expr]:
@@ -115,14 +123,35 @@ def _with_positive_arguments(y: Expr, point: Expr, x: Expr, back: dict[Expr, Exp
     real: dict[Expr, Expr] = {}
     for e, u in _arguments(y, x).items():
         value = u.subs(x, point)
-        is_new = value.is_positive and not u.has(*real)
-        if not value.is_negative and not is_new:
-            continue
-        p = next((p for p, known in back.items() if known in (u, -u)), sympy.Dummy(positive=True))
-        back[p] = -u if value.is_negative else u
-        phase = sympy.I * sympy.pi if value.is_negative else sympy.Integer(0)
-        real[e] = sympy.log(p) + phase if e.func is sympy.log else p**e.exp * sympy.exp(phase * e.exp)
+        if value.is_negative:
+            real[e] = _of_positive(e, _letter_for(-u, back), sympy.I * sympy.pi)
+        elif value.is_positive and not u.has(*real):
+            real[e] = _of_positive(e, _letter_for(u, back), sympy.Integer(0))
     return real
+
+
+def _letter_for(p: Expr, back: dict[Expr, Expr]) -> Expr:
+    """A positive symbol for p, the one that stands for p or -p already if there is one."""
+    known = [letter for letter, meaning in back.items() if meaning in (p, -p)]
+    letter = next(iter(known), sympy.Dummy(positive=True))
+    back[letter] = p
+    return letter
+
+
+def _of_positive(e: Expr, p: Expr, phase: Expr) -> Expr:
+    """The logarithm, or the power with the exponent of e, of p exp(phase)."""
+    if e.func is sympy.log:
+        return sympy.log(p) + phase
+    return p**e.exp * sympy.exp(phase * e.exp)
+
+
+def _with_polar_powers(whole: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr:
+    """With powers of complex numbers of a constant modulus as exponential functions."""
+    for power in whole.atoms(sympy.Pow):
+        polar = _polar(power, x, back)
+        if polar is not None:
+            whole = whole.xreplace({power: polar})
+    return whole
 
 
 def _polar(power: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr | None:
@@ -133,6 +162,8 @@ def _polar(power: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr | None:
         return None
     m = sympy.sqrt(square)
     angle = sympy.acos(a.xreplace(back) / m)
+    if b.could_extract_minus_sign():
+        angle = -angle
     phi = sympy.Dummy(real=True)
-    back[phi] = -angle if b.could_extract_minus_sign() else angle
+    back[phi] = angle
     return m**power.exp * sympy.exp(sympy.I * power.exp * phi)

@@ -58,18 +58,29 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     2*x*Heaviside(x - 1) - x - 2*Heaviside(x - 1) + 1
     """
     found = right
-    for _ in range(sum(1 for _ in sympy.preorder_traversal(right))):
-        changed = {}
-        for e in _innermost_jumps(found, x):
-            other = _rewritten(e, x)
-            if other is not None and other != e:
-                changed[e] = other
+    for _ in sympy.preorder_traversal(right):  # from the innermost ones outwards: not more often than there are parts
+        changed = _innermost_rewritten(found, x)
         if not changed:
             break
         found = found.xreplace(changed)
     if not found.has(*JUMPING):
         return found
-    return sympy.expand(found).replace(_is_power_of_step, lambda power: power.base)
+    return _with_single_steps(sympy.expand(found))
+
+
+def _innermost_rewritten(e: Expr, x: Expr) -> dict[Expr, Expr]:
+    """The innermost functions that jump, with what they are in terms of steps, where that is another expression."""
+    changed = {}
+    for jump in _innermost_jumps(e, x):
+        other = _rewritten(jump, x)
+        if other is not None and other != jump:
+            changed[jump] = other
+    return changed
+
+
+def _with_single_steps(e: Expr) -> Expr:
+    """H(u)^n = H(u)."""
+    return e.replace(_is_power_of_step, lambda power: power.base)
 
 
 def _innermost_jumps(e: Expr, x: Expr) -> list[Expr]:
@@ -78,7 +89,7 @@ def _innermost_jumps(e: Expr, x: Expr) -> list[Expr]:
     inner = []
     for part in jumping:
         others = [other for other in jumping if other != part]
-        if not any(part.has(other) for other in others):
+        if not part.has(*others):
             inner.append(part)
     return inner
 
@@ -105,49 +116,67 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
     terms = sympy.Add.make_args(sympy.expand(right))
     if len(terms) > _MOST_TERMS:
         return None
-    plain: list[Expr] = []
-    steps: dict[Expr, Expr] = {}
-    impulses: list[Impulse] = []
+    parts: list[Apart] = []
     for term in terms:
         found = _term_apart(term, x)
         if found is None:
             return None
-        plain.append(found.plain)
-        impulses += found.impulses
-        for step in found.steps:
+        parts.append(found)
+    return _together(parts)
+
+
+def _together(parts: Sequence[Apart]) -> Apart:
+    """Their sum, with one step for each place."""
+    plain = sympy.Add(*(part.plain for part in parts))
+    steps: dict[Expr, Expr] = {}
+    impulses: list[Impulse] = []
+    for part in parts:
+        impulses += part.impulses
+        for step in part.steps:
             steps[step.a] = steps.get(step.a, sympy.Integer(0)) + step.g
     nonzero = tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0)
-    return Apart(sympy.Add(*plain), nonzero, tuple(impulses))
+    return Apart(plain, nonzero, tuple(impulses))
 
 
 def _term_apart(term: Expr, x: Expr) -> Apart | None:
     """The same for a product: without jumps; g H H ... H, which begins with the last step; or g delta^(n) H ... H."""
-    nothing = sympy.Integer(0)
-    term = term.replace(_is_power_of_step, lambda power: power.base)
-    jumps = [f for f in sympy.Mul.make_args(term) if f.has(*JUMPING) and f.has(x)]
+    term = _with_single_steps(term)
+    jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
     if not jumps:
         return Apart(term, (), ())
-    deltas = [f for f in jumps if isinstance(f, DiracDelta)]
     last = _last_place(jumps, x)
-    if last is None or len(deltas) > 1:
+    if last is None:
         return None
     g = term / sympy.Mul(*jumps)
+    deltas = [jump for jump in jumps if isinstance(jump, DiracDelta)]
     if not deltas:
-        return Apart(nothing, (HeavisideTerm(last, g),), ())
-    (delta,) = deltas
+        return Apart(sympy.Integer(0), (HeavisideTerm(last, g),), ())
+    if len(deltas) > 1:
+        return None
+    steps = [jump for jump in jumps if jump not in deltas]
+    return _impulses_beside_steps(g, deltas[0], steps, x)
+
+
+def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> Apart | None:
+    """g delta^(n) where all steps are 1, 0 where one is 0; None where that isn't known."""
+    nothing = sympy.Integer(0)
     place = place_of(delta, x)
     assert place is not None
-    is_on = _are_on([f for f in jumps if f is not delta], x, place.a)
+    is_on = _are_on(steps, x, place.a)
     if is_on is None:
         return None
-    return Apart(nothing, (), tuple(_impulses(g, delta, place, x)) if is_on else ())
+    if not is_on:
+        return Apart(nothing, (), ())
+    return Apart(nothing, (), tuple(_impulses(g, delta, place, x)))
 
 
 def _last_place(jumps: Sequence[Expr], x: Expr) -> Expr | None:
     """The last of the places of steps and impulses; None where it isn't known, or there are other jumps."""
     points = []
     for jump in jumps:
-        place = place_of(jump, x) if isinstance(jump, Heaviside | DiracDelta) else None
+        if not isinstance(jump, Heaviside | DiracDelta):
+            return None
+        place = place_of(jump, x)
         if place is None:
             return None
         points.append(place.a)
@@ -157,7 +186,7 @@ def _last_place(jumps: Sequence[Expr], x: Expr) -> Expr | None:
 def _impulses(g: Expr, delta: Expr, place: HeavisidePlace, x: Expr) -> list[Impulse]:
     """g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n)."""
     a = place.a
-    n = int(delta.args[1]) if len(delta.args) > 1 else 0
+    n = _order(delta)
     scale = abs(place.slope) * place.slope**n
     found = []
     for k in range(n + 1):
@@ -165,6 +194,13 @@ def _impulses(g: Expr, delta: Expr, place: HeavisidePlace, x: Expr) -> list[Impu
         if strength != 0:
             found.append(Impulse(a, n - k, strength))
     return found
+
+
+def _order(delta: Expr) -> int:
+    """n of DiracDelta(u, n), which is DiracDelta(u) for 0."""
+    if len(delta.args) == 1:
+        return 0
+    return int(delta.args[1])
 
 
 def _last(places: Sequence[Expr]) -> Expr | None:
@@ -206,12 +242,12 @@ def _rewritten(e: Expr, x: Expr) -> Expr | None:
     if isinstance(e, sympy.Max | sympy.Min):
         return _extremum(e, x)
     on = above(e.args[0], x)
-    if on is None:
-        return None
-    if isinstance(e, Heaviside):
+    if on is None or isinstance(e, Heaviside):
         return on
     sign = 2 * on - 1
-    return sign if isinstance(e, sympy.sign) else e.args[0] * sign
+    if isinstance(e, sympy.sign):
+        return sign
+    return e.args[0] * sign
 
 
 def _extremum(e: Expr, x: Expr) -> Expr | None:
@@ -242,11 +278,11 @@ def _cases(e: Expr, x: Expr) -> Expr | None:
 def _indicator(condition: Expr, x: Expr) -> Expr | None:
     """1 where a condition holds, and 0 where it doesn't, but for single points."""
     if condition in (True, False):
-        return sympy.Integer(1 if condition else 0)
+        return sympy.Integer(bool(condition))
     if isinstance(condition, And | Or):
         return _joint_indicator(condition, x)
     if isinstance(condition, sympy.Eq | sympy.Ne) and condition.has(x):
-        return sympy.Integer(1 if isinstance(condition, sympy.Ne) else 0)
+        return sympy.Integer(isinstance(condition, sympy.Ne))
     if isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
         return above(condition.lhs - condition.rhs, x)
     if isinstance(condition, sympy.StrictLessThan | sympy.LessThan):
@@ -272,9 +308,9 @@ def above(u: Expr, x: Expr) -> Expr | None:
     -Heaviside(x - 2) + Heaviside(x + 2)
     """
     u = sympy.expand(u)
-    steps = sorted((f for f in u.atoms(Heaviside) if f.has(x)), key=str)
+    steps = [step for step in u.atoms(Heaviside) if step.has(x)]
     if steps:
-        return _above_in_pieces(u, steps, x)
+        return _above_in_pieces(u, sorted(steps, key=str), x)
     slope = u.diff(x)
     is_line = not slope.has(x)
     if is_line and slope.is_positive:
@@ -293,12 +329,14 @@ def _above_polynomial(u: Any, x: Expr) -> Expr | None:
         return None
     roots = sympy.real_roots(u, multiple=True)
     is_positive = u.LC() * (-1) ** u.degree() > 0  # far to the left
-    total = sympy.Integer(1 if is_positive else 0)
-    for root in dict.fromkeys(roots):
-        if roots.count(root) % 2:
-            step = Heaviside(x - root)
-            total += -step if is_positive else step
-            is_positive = not is_positive
+    total = sympy.Integer(bool(is_positive))
+    crossings = [root for root in dict.fromkeys(roots) if roots.count(root) % 2]
+    for root in crossings:
+        if is_positive:
+            total -= Heaviside(x - root)
+        else:
+            total += Heaviside(x - root)
+        is_positive = not is_positive
     return total
 
 
@@ -316,7 +354,7 @@ def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
     total = sympy.Integer(0)
     for k in range(len(breaks) + 1):
         passed = breaks[:k]
-        values = {step: sympy.Integer(1 if a in passed else 0) for step, a in places.items()}
+        values = {step: sympy.Integer(a in passed) for step, a in places.items()}
         on = above(u.xreplace(values), x)
         if on is None:
             return None
@@ -336,13 +374,21 @@ def _reduced(total: Expr, x: Expr) -> Expr:
 
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The points where functions of an expression jump, as far as they are known."""
-    found = []
+    found: dict[Expr, None] = {}
     for e in expression.atoms(*JUMPING):
         for u in _borders(e):
-            on = above(u, x) if u.has(x) else None
-            if on is not None:
-                found += [x - step.args[0] for step in on.atoms(Heaviside)]
-    return [*dict.fromkeys(map(sympy.expand, found))]
+            found |= dict.fromkeys(_zeros(u, x))
+    return [*found]
+
+
+def _zeros(u: Expr, x: Expr) -> list[Expr]:
+    """Where u changes its sign, as far as that is known."""
+    if not u.has(x):
+        return []
+    on = above(u, x)
+    if on is None:
+        return []
+    return [sympy.expand(x - step.args[0]) for step in on.atoms(Heaviside)]
 
 
 def _borders(e: Expr) -> list[Expr]:
@@ -360,17 +406,21 @@ def _borders(e: Expr) -> list[Expr]:
 
 def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
     """What an expression is near a rational point that is no break: without functions that jump there."""
+    return expression.replace(
+        lambda e: isinstance(e, JUMPING) and e.has(x),
+        lambda e: _branch(e, x, point),
+    )
 
-    def branch(e: Expr) -> Expr:
-        if isinstance(e, sympy.Piecewise):
-            return next(value for value, condition in e.args if condition.subs(x, point) == True)  # noqa: E712
-        if isinstance(e, sympy.Max | sympy.Min):
-            best = e.subs(x, point)
-            return next(argument for argument in e.args if argument.subs(x, point) == best)
-        if isinstance(e, DiracDelta):
-            return sympy.Integer(0)
-        sign = sympy.sign(e.args[0].subs(x, point))
-        values = {Heaviside: (1 + sign) / 2, sympy.sign: sign, sympy.Abs: sign * e.args[0]}
-        return values[e.func]
 
-    return expression.replace(lambda e: isinstance(e, JUMPING) and e.has(x), branch)
+def _branch(e: Expr, x: Expr, point: Expr) -> Expr:
+    """What one function that jumps is near the point."""
+    if isinstance(e, sympy.Piecewise):
+        return next(value for value, condition in e.args if condition.subs(x, point) == True)  # noqa: E712
+    if isinstance(e, sympy.Max | sympy.Min):
+        best = e.subs(x, point)
+        return next(argument for argument in e.args if argument.subs(x, point) == best)
+    if isinstance(e, DiracDelta):
+        return sympy.Integer(0)
+    sign = sympy.sign(e.args[0].subs(x, point))
+    values = {Heaviside: (1 + sign) / 2, sympy.sign: sign, sympy.Abs: sign * e.args[0]}
+    return values[e.func]

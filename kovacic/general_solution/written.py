@@ -22,31 +22,35 @@ def free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[
     for condition in question.conditions:
         used += [condition.value, *condition.points]
         used += [term.coefficient for term in condition.terms]
-    taken = set(question.symbols)
-    for e in used:
-        taken |= _names_in(e)
-    c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(name) for name in taken]), 2)
+    taken = set(question.symbols).union(*map(_names_in, used))
+    excluded = [sympy.Symbol(name) for name in taken]
+    c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=excluded), 2)
     return c1, c2
 
 
 def _names_in(e: Any) -> set[str]:
+    """The names of its symbols; none for None, as for a value that is only bounded."""
     return {symbol.name for symbol in getattr(e, "free_symbols", ())}
 
 
 def combination(question: Question, basis: Basis, particular: Expr, constants: tuple[Expr, Expr]) -> Expr:
     """c1 y1 + c2 y2 + y0 in the user's symbols, factors that y1 and y2 share before the sum; in the variable of `basis`."""
-    factors = [sympy.Mul.make_args(y) for y in (basis.y1, basis.y2)]
-    common = []
+    common: list[Expr] = []
     if 0 not in constants:
-        common = [factor for factor in factors[0] if factor in factors[1]]
+        common = _common_factors(basis.y1, basis.y2)
     summands = []
-    for constant, own in zip(constants, factors, strict=True):
-        if constant != 0:
-            summands.append(sympy.Mul(constant, *(factor for factor in own if factor not in common)))
+    for constant, y in zip(constants, (basis.y1, basis.y2), strict=True):
+        own = [factor for factor in sympy.Mul.make_args(y) if factor not in common]
+        summands.append(sympy.Mul(constant, *own))
     general = sympy.Mul(*common, sympy.Add(*summands)) + particular
     if question.conditions:
         general = min(general, sympy.expand_mul(general, deep=False), key=size)
     return question.own(general)
+
+
+def _common_factors(y1: Expr, y2: Expr) -> list[Expr]:
+    others = sympy.Mul.make_args(y2)
+    return [factor for factor in sympy.Mul.make_args(y1) if factor in others]
 
 
 def written(question: Question, value: Expr) -> Expr:
@@ -55,7 +59,8 @@ def written(question: Question, value: Expr) -> Expr:
     if x != question.x:
         value = value.xreplace({question.x: x})
     found = sympy.Eq(question.function, value, evaluate=False)
-    found = found.xreplace({new: symbol for symbol, new in question.renamed.items()})
+    back = {new: symbol for symbol, new in question.renamed.items()}
+    found = found.xreplace(back)
     if question.has_floats:
         return sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
     return found
@@ -71,13 +76,21 @@ def with_floats(e: Expr) -> Expr:
     if e.is_Integer or e.is_Symbol or isinstance(e, sympy.Integral):
         return e
     if e.is_number and not e.has(sympy.Integral):
-        value = e.evalf(_DIGITS)
-        return sympy.Float(str(value), _DIGITS) if e.is_real else value
+        return _as_float(e)
     if _is_root_or_power(e):
         return with_floats(e.base) ** e.exp
-    if e.is_Function and len(e.args) > 1:  # the argument is the last one
-        return e.func(*e.args[:-1], with_floats(e.args[-1]), evaluate=False)
+    if e.is_Function and len(e.args) > 1:
+        *parameters, argument = e.args
+        return e.func(*parameters, with_floats(argument), evaluate=False)
     return e.func(*map(with_floats, e.args))
+
+
+def _as_float(number: Expr) -> Expr:
+    """To as many digits as are given back; complex numbers as SymPy writes them."""
+    value = number.evalf(_DIGITS)
+    if not number.is_real:
+        return value
+    return sympy.Float(str(value), _DIGITS)
 
 
 def _is_root_or_power(e: Expr) -> bool:

@@ -10,7 +10,8 @@ Reference: C. Burnikel, R. Fleischer, K. Mehlhorn & S. Schirra, Algorithmica 27 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from itertools import islice
@@ -37,6 +38,8 @@ _MOST_BITS = 100_000
 _PRECISE = 400
 #: How many values of the parameters are tried.
 _SAMPLES = 6
+#: The largest numerator of an exponent of a number made of roots.
+_LARGEST_POWER = 64
 #: By how many steps of its recurrence a gamma function is rewritten.
 _FAR = 100
 
@@ -57,15 +60,28 @@ def when_zero(value: Expr) -> Zero:
     (<Zero.ALWAYS: 'always'>, <Zero.NEVER: 'never'>, <Zero.SOMETIMES: 'sometimes'>)
     """
     value = sympy.sympify(value, strict=True)
-    if value.is_Rational:
-        return Zero.ALWAYS if value == 0 else Zero.NEVER
-    if is_nowhere_zero(value):
+    if value == 0:
+        return Zero.ALWAYS
+    if value.is_Rational or is_nowhere_zero(value):
         return Zero.NEVER
-    if any(differs_from_zero(value, sample) for sample in islice(samples(value.free_symbols), _SAMPLES)):
-        return Zero.SOMETIMES if value.free_symbols and not _is_nowhere_zero_by_parity(value) else Zero.NEVER
+    if _differs_somewhere(value):
+        return _where_not_always(value)
     if is_identically_zero(value):
         return Zero.ALWAYS
     raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
+
+
+def _differs_somewhere(value: Expr) -> bool:
+    """Is it seen not to be zero at one of some values of its parameters?"""
+    tried = islice(samples(value.free_symbols), _SAMPLES)
+    return any(differs_from_zero(value, sample) for sample in tried)
+
+
+def _where_not_always(value: Expr) -> Zero:
+    """A number that isn't zero never is; what has parameters may be for other values of these."""
+    if value.free_symbols and not _is_nowhere_zero_by_parity(value):
+        return Zero.SOMETIMES
+    return Zero.NEVER
 
 
 def is_zero(value: Expr) -> bool:
@@ -79,23 +95,39 @@ def is_nowhere_zero(value: Expr) -> bool:
 
 
 def _is_nonzero(factor: Expr) -> bool:
+    """Is a power known not to be zero?"""
     base, exponent = factor.as_base_exp()
     if isinstance(factor, sympy.exp) or base == sympy.E:
         return True
-    if isinstance(base, sympy.besselk | sympy.besseli):
-        order, z = base.args
-        has_zeros = isinstance(base, sympy.besseli) and not order.is_nonnegative
-        return bool(order.is_real and z.is_positive and not has_zeros)
-    if isinstance(base, sympy.gamma):
-        argument = sympy.expand(base.args[0])
-        return bool(argument.is_positive or argument.is_integer is False)
-    if isinstance(base, sympy.cosh):
-        return bool(base.args[0].is_real)
-    if isinstance(base, sympy.mathieuc | sympy.mathieusprime):  # an even solution, the slope of an odd one
-        return bool(base.args[-1] == 0)
+    for functions, has_no_zero in _WITHOUT_ZEROS:
+        if isinstance(base, functions):
+            return bool(has_no_zero(base))
     if base.is_Add and size(base) > _LARGEST_ASKED:  # SymPy would compute parts of it, to ever more digits
         return False
     return base.is_zero is False and exponent.is_finite is not False
+
+
+def _bessel_is_nonzero(f: Expr) -> bool:
+    """K of a real order has no positive zero; I hasn't if the order isn't negative."""
+    order, z = f.args
+    has_zeros = isinstance(f, sympy.besseli) and not order.is_nonnegative
+    return bool(order.is_real and z.is_positive and not has_zeros)
+
+
+def _gamma_is_nonzero(f: Expr) -> bool:
+    """It has no zeros; poles are excluded, too."""
+    argument = sympy.expand(f.args[0])
+    return bool(argument.is_positive or argument.is_integer is False)
+
+
+#: Functions, and whether one of them is known to be finite and not zero.
+_WITHOUT_ZEROS: tuple[tuple[tuple[Any, ...], Callable[[Expr], Any]], ...] = (
+    ((sympy.besselk, sympy.besseli), _bessel_is_nonzero),
+    ((sympy.gamma,), _gamma_is_nonzero),
+    ((sympy.cosh,), lambda f: f.args[0].is_real),
+    # Mathieu's even solution, and the slope of his odd one, at 0: where one vanished, the solution would be 0.
+    ((sympy.mathieuc, sympy.mathieusprime), lambda f: f.args[-1] == 0),
+)
 
 
 def _is_nowhere_zero_by_parity(value: Expr) -> bool:
@@ -105,9 +137,7 @@ def _is_nowhere_zero_by_parity(value: Expr) -> bool:
 
 def _by_parity(value: Expr) -> list[Expr]:
     """The value for even and for odd n, where n/2 for an integer n occurs in a wave or a gamma function; else nothing."""
-    functions = value.atoms(sympy.sin, sympy.cos, sympy.gamma)
-    alone = [next(iter(f.free_symbols)) for f in functions if len(f.free_symbols) == 1]
-    halved = {n for n in alone if n.is_integer and n.is_odd is None}
+    halved = _integers_of_unknown_parity(value)
     if len(halved) != 1:
         return []
     (n,) = halved
@@ -115,6 +145,16 @@ def _by_parity(value: Expr) -> list[Expr]:
     odd = sympy.Dummy(integer=True, nonnegative=n.is_nonnegative)
     parts = [sympy.expand(value.subs(n, other)) for other in (2 * even, 2 * odd + 1)]
     return [sympy.factor_terms(sympy.powsimp(part)) for part in parts]
+
+
+def _integers_of_unknown_parity(value: Expr) -> set[Expr]:
+    """The integers that are the only symbol in a wave or a gamma function, and may be even and odd."""
+    found = set()
+    for f in value.atoms(sympy.sin, sympy.cos, sympy.gamma):
+        symbols = f.free_symbols
+        if len(symbols) == 1:
+            found |= {n for n in symbols if n.is_integer and n.is_odd is None}
+    return found
 
 
 def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
@@ -126,12 +166,25 @@ def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
 
 def sample_value(symbol: Expr, k: int) -> Expr:
     """The k-th value of a symbol."""
-    if symbol.is_integer:
-        step = 2 if symbol.is_even or symbol.is_odd else 1
-        value = sympy.Integer(step * (k + 1) - (1 if symbol.is_odd else 0))
-    else:
-        value = sympy.Rational(9973 + 2 * sum(ord(c) * 31**i for i, c in enumerate(symbol.name)) % 9973, 9967) + k
-    return -value if symbol.is_negative or symbol.is_nonpositive else value
+    value = _integer_sample(symbol, k) if symbol.is_integer else _sample_by_name(symbol.name) + k
+    if symbol.is_negative or symbol.is_nonpositive:
+        return -value
+    return value
+
+
+def _integer_sample(symbol: Expr, k: int) -> Expr:
+    """The k-th natural number, or the k-th of those that are even or odd."""
+    if symbol.is_odd:
+        return sympy.Integer(2 * k + 1)
+    if symbol.is_even:
+        return sympy.Integer(2 * k + 2)
+    return sympy.Integer(k + 1)
+
+
+def _sample_by_name(name: str) -> Expr:
+    """A number between 1 and 2.01 with a large numerator and denominator, another one for most other names."""
+    code = sum(ord(character) * 31**place for place, character in enumerate(name))
+    return sympy.Rational(9973 + 2 * code % 9973, 9967)
 
 
 def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
@@ -168,7 +221,7 @@ def agree(value: Expr, other: Expr) -> bool:
 
 def is_identically_zero(value: Expr) -> bool:
     """Is it seen to be zero: as a sum of monomials in exponentials, waves and logarithms, or as a number made of roots?"""
-    if sum(1 for _ in sympy.preorder_traversal(value)) > _LARGEST:
+    if size(value) > _LARGEST:
         return False
     value = _with_gammas_in_a_strip(value)
     numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
@@ -201,8 +254,10 @@ def _in_a_strip(q: Expr) -> Expr | None:
     if q.is_integer or abs(steps) > _FAR:
         return None
     inner = q - steps
-    half = sympy.Rational(1, 2)
-    strip = sympy.gamma(inner) if inner <= half else sympy.pi / (sympy.sin(sympy.pi * inner) * sympy.gamma(1 - inner))
+    if inner <= sympy.Rational(1, 2):
+        strip = sympy.gamma(inner)
+    else:
+        strip = sympy.pi / (sympy.sin(sympy.pi * inner) * sympy.gamma(1 - inner))
     return strip * sympy.rf(inner, steps)
 
 
@@ -212,6 +267,27 @@ class _Bounds:
 
     u: int
     l: int  # noqa: E741
+
+    def of_sum(self, other: _Bounds) -> _Bounds:
+        """u1 l2 + u2 l1, at most twice the larger one, over l1 l2."""
+        return _Bounds(max(self.u + other.l, self.l + other.u) + 1, self.l + other.l)
+
+    def of_product(self, other: _Bounds) -> _Bounds:
+        return _Bounds(self.u + other.u, self.l + other.l)
+
+    def of_inverse(self) -> _Bounds:
+        return _Bounds(self.l, self.u)
+
+    def of_root(self, index: int) -> _Bounds:
+        """(u l^(k-1))^(1/k) over l for the k-th root, or u over (u^(k-1) l)^(1/k) if u < l."""
+        if self.u < self.l:
+            return _Bounds(self.u, _divided_up(self.l + (index - 1) * self.u, index))
+        return _Bounds(_divided_up(self.u + (index - 1) * self.l, index), self.l)
+
+
+def _divided_up(bits: int, index: int) -> int:
+    """The quotient, the next larger integer where it isn't one."""
+    return -(-bits // index)
 
 
 def is_zero_by_size(value: Expr) -> bool:
@@ -224,9 +300,7 @@ def is_zero_by_size(value: Expr) -> bool:
     bounds = _bounds(value, degrees)
     if bounds is None:
         return False
-    D = 1
-    for degree in degrees.values():
-        D *= degree
+    D = math.prod(degrees.values())
     bits = (D - 1) * bounds.u + bounds.l + 2
     if bits > _MOST_BITS:
         return False
@@ -243,21 +317,26 @@ def _bounds(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
         degrees[e] = 2
         return _Bounds(1, 1)
     if e.is_Add or e.is_Mul:
-        parts = [_bounds(part, degrees) for part in e.args]
-        total = parts[0]
-        for part in parts[1:]:
-            if total is None or part is None:
-                return None
-            below = total.l + part.l
-            above = total.u + part.u if e.is_Mul else max(total.u + part.l, total.l + part.u) + 1
-            total = _Bounds(above, below)
-        return total
-    if e.is_Pow and e.exp.is_Rational and abs(int(e.exp.p)) <= 64:
+        return _bounds_of_many(e, degrees)
+    if e.is_Pow and e.exp.is_Rational and abs(int(e.exp.p)) <= _LARGEST_POWER:
         return _bounds_of_power(e, degrees)
     return None
 
 
+def _bounds_of_many(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
+    """For a sum or a product, from those of its parts."""
+    join = _Bounds.of_product if e.is_Mul else _Bounds.of_sum
+    total: _Bounds | None = None
+    for part in e.args:
+        bounds = _bounds(part, degrees)
+        if bounds is None:
+            return None
+        total = bounds if total is None else join(total, bounds)
+    return total
+
+
 def _bounds_of_power(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
+    """For base^(times/index)."""
     inner = _bounds(e.base, degrees)
     if inner is None:
         return None
@@ -266,8 +345,8 @@ def _bounds_of_power(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
     root = inner
     if index > 1:
         degrees[sympy.Pow(e.base, sympy.Rational(1, index), evaluate=False)] = index
-        root = _Bounds(-(-(inner.u + (index - 1) * inner.l) // index), inner.l)
-        if inner.u < inner.l:
-            root = _Bounds(inner.u, -(-(inner.l + (index - 1) * inner.u) // index))
+        root = inner.of_root(index)
     found = _Bounds(times * root.u, times * root.l)
-    return _Bounds(found.l, found.u) if e.exp < 0 else found
+    if e.exp < 0:
+        return found.of_inverse()
+    return found
