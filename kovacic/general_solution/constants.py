@@ -79,117 +79,162 @@ def determine(
     >>> generic.values, others[0].zeros, others[0].values
     ((0, 0), (sin(k),), (0, C2))
     """
-    minor, pair, when = _best_minor(rows, wronskian)
-    if when is Zero.ALWAYS:
-        return _split(*_of_rank_one(rows, names))
-    generic, others = _split(*_of_rank_two(rows, pair, minor))
-    if when is Zero.SOMETIMES:
-        others.append(_where_minor_vanishes(rows, names, minor))
+    minor = _best_minor(rows, wronskian)
+    if minor is None:
+        return _split(_of_rank_one(rows, names))
+    generic, others = _split(_of_rank_two(rows, minor))
+    if minor.when is Zero.SOMETIMES:
+        others.append(_where_minor_vanishes(rows, names, minor.value))
     return generic, others
 
 
 Values = tuple[Expr, Expr]
-#: Values of the constants, what must be zero for them to be a solution, and what must not be.
-DeterminedConstants = tuple[Values, list[Expr], Expr]
 
 
-def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> tuple[Expr, tuple[Row, Row], Zero]:
-    """A minor and its rows: one that is never zero if there is one, else one that isn't always zero."""
-    nothing = Row(_ZERO, _ZERO, _ZERO)
-    best = _ZERO, (nothing, nothing), Zero.ALWAYS
+@dataclass(frozen=True)
+class DeterminedConstants:
+    """Values of the constants, what must be zero for them to be a solution, and what must not be."""
+
+    values: Values
+    needed: Sequence[Expr]
+    pivot: Expr = _ONE
+
+
+@dataclass(frozen=True)
+class _Minor:
+    """The determinant of u and v in two rows, and when it is zero."""
+
+    value: Expr
+    rows: tuple[Row, Row]
+    when: Zero
+
+
+def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> _Minor | None:
+    """One that is never zero if there is one, else one that isn't always zero; None where all are."""
     if wronskian is not None:
-        return wronskian, (rows[0], rows[1]), Zero.NEVER
+        return _Minor(wronskian, (rows[0], rows[1]), Zero.NEVER)
+    sometimes: list[_Minor] = []
     undecided: NotImplementedError | None = None
     for first, second in combinations(rows, 2):
-        minor = first.u * second.v - first.v * second.u
+        determinant = first.u * second.v - first.v * second.u
         try:
-            when = when_zero(minor)
+            minor = _Minor(determinant, (first, second), when_zero(determinant))
         except NotImplementedError as reason:
             undecided = reason
             continue
-        if when is Zero.NEVER:
-            return minor, (first, second), when
-        if when is Zero.SOMETIMES and best[2] is Zero.ALWAYS:
-            best = minor, (first, second), when
+        if minor.when is Zero.NEVER:
+            return minor
+        if minor.when is Zero.SOMETIMES:
+            sometimes.append(minor)
     if undecided is not None:
         raise undecided
-    return best
+    return next(iter(sometimes), None)
 
 
-def _of_rank_two(rows: Sequence[Row], pair: tuple[Row, Row], minor: Expr) -> DeterminedConstants:
+def _of_rank_two(rows: Sequence[Row], minor: _Minor) -> DeterminedConstants:
     """Cramer's rule for two of the rows; the others must be satisfied."""
-    first, second = pair
-    c1 = tidy((first.r * second.v - first.v * second.r) / minor)
-    c2 = tidy((first.u * second.r - first.r * second.u) / minor)
+    first, second = minor.rows
+    c1 = tidy((first.r * second.v - first.v * second.r) / minor.value)
+    c2 = tidy((first.u * second.r - first.r * second.u) / minor.value)
     others = [row for row in rows if row is not first and row is not second]
-    return (c1, c2), [row.rest(c1, c2) for row in others], _ONE
+    return DeterminedConstants((c1, c2), [row.rest(c1, c2) for row in others])
 
 
 def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
     """One equation for both constants; all rows must be multiples of it."""
     pivot = _pivot(rows)
     if pivot is None:
-        return names, [row.r for row in rows], _ONE
-    row, is_first = pivot
+        return DeterminedConstants(names, [row.r for row in rows])
+    row = pivot.row
     others = [other for other in rows if other is not row]
     norm = _norm(row)
     if norm is not None:
-        values = tidy(row.r * row.u / norm) + row.v * names[0], tidy(row.r * row.v / norm) - row.u * names[0]
-        return values, [other.rest(*values).subs(names[0], 0) for other in others], _ONE
-    if is_first:
-        values = tidy(row.r / row.u) - tidy(row.v / row.u) * names[1], names[1]
-        return values, [other.u * row.r - other.r * row.u for other in others], row.u
-    values = names[0], tidy(row.r / row.v) - tidy(row.u / row.v) * names[0]
-    return values, [other.v * row.r - other.r * row.v for other in others], row.v
+        return _along(row, norm, others, names[0])
+    if pivot.is_first:
+        c2 = names[1]
+        c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
+        return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
+    c1 = names[0]
+    c2 = tidy(row.r / row.v) - tidy(row.u / row.v) * c1
+    return DeterminedConstants((c1, c2), [other.v * row.r - other.r * row.v for other in others], row.v)
+
+
+def _along(row: Row, norm: Expr, others: Sequence[Row], name: Expr) -> DeterminedConstants:
+    """(C1, C2) = r (u, v)/(u^2 + v^2) + C (v, -u): the multiple of the row, and all that is orthogonal to it."""
+    c1 = tidy(row.r * row.u / norm) + row.v * name
+    c2 = tidy(row.r * row.v / norm) - row.u * name
+    return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(name, 0) for other in others])
+
+
+@dataclass(frozen=True)
+class _Pivot:
+    """A row, and whether it is its u (or else its v) that isn't zero."""
+
+    row: Row
+    is_first: bool
+    when: Zero
+
+    @property
+    def rank(self) -> tuple[bool, bool]:
+        """Better ones are smaller: never zero, and alone in the row."""
+        other = self.row.v if self.is_first else self.row.u
+        return self.when is not Zero.NEVER, other != 0
 
 
 def _norm(row: Row) -> Expr | None:
     """u^2 + v^2, where that is known not to be zero while u and v may be, each alone; else None."""
-    if Zero.NEVER in (when_zero(row.u), when_zero(row.v)) or 0 in (row.u, row.v):
+    if 0 in (row.u, row.v):
+        return None
+    if Zero.NEVER in (when_zero(row.u), when_zero(row.v)):
         return None
     norm = sympy.factor_terms(sympy.expand(TR8(sympy.expand(row.u**2 + row.v**2))))
-    return norm if is_nowhere_zero(norm) else None
+    if not is_nowhere_zero(norm):
+        return None
+    return norm
 
 
-def _pivot(rows: Sequence[Row]) -> tuple[Row, bool] | None:
-    """A row whose u (True) or v isn't zero, preferably never and without the other; None where all are zero."""
-    found: list[tuple[bool, bool, int, Row, bool]] = []
+def _pivot(rows: Sequence[Row]) -> _Pivot | None:
+    """A row whose u or v isn't zero, preferably never and without the other; None where all are zero."""
+    found = []
     for row in rows:
-        for entry, other, is_first in ((row.v, row.u, False), (row.u, row.v, True)):
-            when = when_zero(entry)
-            if when is not Zero.ALWAYS:
-                found.append((when is not Zero.NEVER, other != 0, len(found), row, is_first))
-    best = min(found, key=lambda item: item[:3], default=None)
-    return None if best is None else (best[3], best[4])
+        found.append(_Pivot(row, is_first=False, when=when_zero(row.v)))
+        found.append(_Pivot(row, is_first=True, when=when_zero(row.u)))
+    nonzero = [pivot for pivot in found if pivot.when is not Zero.ALWAYS]
+    return min(nonzero, key=lambda pivot: pivot.rank, default=None)
 
 
-def _split(values: Values, needed: list[Expr], pivot: Expr) -> tuple[ParameterCase, list[ParameterCase]]:
+def _split(found: DeterminedConstants) -> tuple[ParameterCase, list[ParameterCase]]:
     """The generic case, and those of the parameters for which more is possible or less."""
-    open_cases = [ParameterCase((pivot,), Outcome.OPEN)] if when_zero(pivot) is Zero.SOMETIMES else []
-    whens = [(value, when_zero(value)) for value in needed]
-    if any(when is Zero.NEVER for _, when in whens):
+    open_cases = []
+    if when_zero(found.pivot) is Zero.SOMETIMES:
+        open_cases.append(ParameterCase((found.pivot,), Outcome.OPEN))
+    whens = {value: when_zero(value) for value in found.needed}
+    if Zero.NEVER in whens.values():
         return ParameterCase((), Outcome.NONE), open_cases
-    sometimes = tuple(value for value, when in whens if when is Zero.SOMETIMES)
+    sometimes = tuple(value for value in found.needed if whens[value] is Zero.SOMETIMES)
     if sometimes:  # generic parameters don't meet what only particular ones do
-        return ParameterCase((), Outcome.NONE), [ParameterCase(sometimes, Outcome.SOLUTIONS, values), *open_cases]
-    return ParameterCase((), Outcome.SOLUTIONS, values), open_cases
+        particular = ParameterCase(sometimes, Outcome.SOLUTIONS, found.values)
+        return ParameterCase((), Outcome.NONE), [particular, *open_cases]
+    return ParameterCase((), Outcome.SOLUTIONS, found.values), open_cases
 
 
 def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> ParameterCase:
     """The case of rank one, as far as it follows from the minor's being zero."""
-    values, needed, pivot = _of_rank_one(rows, names)
-    if len(rows) > 2 or when_zero(pivot) is Zero.SOMETIMES:
+    found = _of_rank_one(rows, names)
+    if len(rows) > 2 or when_zero(found.pivot) is Zero.SOMETIMES:
         return ParameterCase((minor,), Outcome.OPEN)
-    generic, particular = _split(values, needed, pivot)
+    generic, particular = _split(found)
     if particular:
-        return ParameterCase((minor,), Outcome.SOLUTIONS, values, particular[0].zeros)
-    return ParameterCase((minor,), generic.outcome, values)
+        return ParameterCase((minor,), Outcome.SOLUTIONS, found.values, particular[0].zeros)
+    return ParameterCase((minor,), generic.outcome, found.values)
 
 
 def condition_of(zero: Expr) -> str:
     """`zero = 0` in a short form: without factors that aren't zero."""
     left = vanishing_factors(zero)
-    return f"{-left if left.could_extract_minus_sign() else left} = 0"
+    if left.could_extract_minus_sign():
+        left = -left
+    return f"{left} = 0"
 
 
 def can_be(case: ParameterCase) -> bool:
@@ -204,12 +249,15 @@ def vanishing_factors(zero: Expr) -> Expr:
         whole = sympy.numer(sympy.together(zero))
         waves = sympy.expand(TR8(sympy.expand(whole)))
         factored = min(map(sympy.factor, (whole, waves)), key=size)
-    found = []
-    for factor in sympy.Mul.make_args(factored):
-        if not is_nowhere_zero(factor):
-            is_power = factor.is_Pow and factor.exp.is_positive
-            found.append(factor.base if is_power else factor)
-    return sympy.Mul(*found)
+    factors = [factor for factor in sympy.Mul.make_args(factored) if not is_nowhere_zero(factor)]
+    return sympy.Mul(*map(_once, factors))
+
+
+def _once(factor: Expr) -> Expr:
+    """Without a positive exponent."""
+    if factor.is_Pow and factor.exp.is_positive:
+        return factor.base
+    return factor
 
 
 def _atoms_of(e: Expr) -> set[Expr]:
@@ -222,22 +270,31 @@ def tidy(value: Any) -> Any:
     """A shorter form of a constant, where that is known at once."""
     check_time()
     value = sympy.sympify(value, strict=True)
-    if value.is_Rational or size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral):
-        return value
-    if any(_is_irrational_power(p) for p in value.atoms(sympy.Pow)):
+    if _is_left_alone(value):
         return value
     functions = {f.func for f in value.atoms(sympy.Function)}
     is_number = not value.free_symbols
-    if is_number and functions <= {exp, log} and not value.has(sympy.Add):  # a product of powers
-        return value
     if not functions:
-        has_terms = not is_number or value.has(sympy.E)
-        return sympy.radsimp(sympy.cancel(value) if has_terms else sympy.expand(value))
+        if is_number and not value.has(sympy.E):
+            return sympy.radsimp(sympy.expand(value))
+        return sympy.radsimp(sympy.cancel(value))
     if not functions <= _ELEMENTARY:
         expanded = sympy.expand(value)
         return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
     shorter = sympy.cancel(value)
-    return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=size)
+    if functions == {exp}:
+        return shorter
+    return min(map(TR2i, (value, shorter)), key=size)
+
+
+def _is_left_alone(value: Expr) -> bool:
+    """Is it a rational number, long, with parts that aren't simplified, or a product of powers?"""
+    if value.is_Rational or size(value) > _LONGEST:
+        return True
+    if value.has(sympy.RootSum, sympy.Integral) or any(map(_is_irrational_power, value.atoms(sympy.Pow))):
+        return True
+    functions = {f.func for f in value.atoms(sympy.Function)}
+    return not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add)
 
 
 def _is_irrational_power(power: Expr) -> bool:

@@ -58,10 +58,16 @@ def constants_of(
             rows += found.rows
             uncertain |= found.uncertain
     generic, others = determine(rows, names, _wronskian(question, basis, rows, limits))
-    for k, reason in uncertain.items():
-        if generic.outcome is Outcome.SOLUTIONS and generic.values[k] != 0:
-            raise NotImplementedError(f"undecided: {reason}")
+    if generic.outcome is Outcome.SOLUTIONS:
+        _check_certainty(generic, uncertain)
     return generic, others
+
+
+def _check_certainty(case: ParameterCase, uncertain: Mapping[int, str]) -> None:
+    """Raises `NotImplementedError` where a solution is a part of y whose behaviour isn't known well enough."""
+    for k, reason in uncertain.items():
+        if case.values[k] != 0:
+            raise NotImplementedError(f"undecided: {reason}")
 
 
 def _row(condition: Condition, functions: Sequence[Expr], x: Expr) -> Row:
@@ -77,20 +83,30 @@ def _applied(condition: Condition, function: Expr, x: Expr) -> Expr:
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
-    first_two = question.conditions[:2]
-    if len(first_two) < 2 or not all(condition.is_value for condition in first_two):
-        return None
-    (first,), (second,) = (condition.terms for condition in first_two)
-    is_one_point = first.point == second.point and first.point not in limits
-    if not is_one_point or first.order == second.order:
+    orders = _orders_at_one_point(question.conditions[:2], limits)
+    if orders not in ((0, 1), (1, 0)):
         return None
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
     if determinant.is_Rational:
         return determinant
-    sign = 1 if first.order == 0 else -1
-    W = sign * question.own(value_at(basis.wronskian, basis.x, first.point))
+    sign = 1 if orders == (0, 1) else -1
+    point = question.conditions[0].points[0]
+    W = sign * question.own(value_at(basis.wronskian, basis.x, point))
     is_known = W.has(sympy.mathieuc)  # by theory, for functions that can't be evaluated
-    return W if is_known or agree(W, determinant) else determinant
+    if is_known or agree(W, determinant):
+        return W
+    return determinant
+
+
+def _orders_at_one_point(conditions: Sequence[Condition], limits: dict[Expr, Approach]) -> tuple[int, ...]:
+    """The orders of values y(a), y'(a) at one ordinary point; none for other conditions."""
+    if not all(condition.is_value for condition in conditions):
+        return ()
+    terms = [condition.terms[0] for condition in conditions]
+    points = {term.point for term in terms}
+    if len(points) != 1 or not points.isdisjoint(limits):
+        return ()
+    return tuple(term.order for term in terms)
 
 
 # ------------------------------------------------------------------------------------------------------------- limits
@@ -99,15 +115,16 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
     """Where the condition is one on a limit; None for values at ordinary points.  Raises `InputError` for what is both."""
     at_limits = [term for term in condition.terms if term.point in limits]
-    if not at_limits:
-        if condition.value is None:
-            point = condition.terms[0].point
-            raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
-        return None
-    if len(condition.terms) > 1 or at_limits[0].coefficient != 1:
-        said = f"{at_limits[0].point} is a singular point, or infinite"
-        raise InputError(f"{condition.text}: {said}; there, y and y' are given apart", hint="write y(0) = bounded")
-    return limits[at_limits[0].point]
+    if at_limits:
+        place = at_limits[0].point
+        if len(condition.terms) > 1 or at_limits[0].coefficient != 1:
+            said = f"{place} is a singular point, or infinite"
+            raise InputError(f"{condition.text}: {said}; there, y and y' are given apart", hint="write y(0) = bounded")
+        return limits[place]
+    if condition.value is None:
+        point = condition.terms[0].point
+        raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
+    return None
 
 
 def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, question: Question, place: Approach) -> Limit:
@@ -115,26 +132,24 @@ def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, questi
     (term,) = condition.terms
     x = question.x
     is_bound = condition.value is None
+    meant = [e.diff(x, term.order) for e in functions]
     try:
-        found = [behaviour(e.diff(x) if term.order else e, x, place) for e in functions]
+        found = [behaviour(e, x, place) for e in meant]
         rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=not is_bound)]
     except UnknownBehaviour as unknown:
         raise NotImplementedError(f"undecided: the solutions' behaviour at {place.point}: {unknown}") from None
+    if not is_bound:
+        rows.append(_coefficients(CONSTANT, found, condition.value))
     whole = None
     if any(_is_irregular(expansion) for expansion in found):
         whole = _growth(question.own(basis.wronskian), x, place)
-    of_y1, of_y2, of_particular = (_uncertainty(expansion, whole, condition) for expansion in found)
+    *of_basis, of_particular = (_uncertainty(expansion, whole, condition) for expansion in found)
     if of_particular:
         raise NotImplementedError(
             f"undecided: the behaviour of a particular solution at {place.point}: {of_particular}"
         )
-    if not is_bound:
-        rows.append(_coefficients(CONSTANT, found, condition.value))
     t = "1/|x|" if place.is_infinite else f"|x - {place.point}|"
-    said = {}
-    for k, reason in enumerate((of_y1, of_y2)):
-        if reason:
-            said[k] = f"the solutions' behaviour, t = {t}: {reason}"
+    said = {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(of_basis) if reason}
     return Limit(tuple(rows), said)
 
 
@@ -164,12 +179,16 @@ def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Exp
     least = 0 if oscillating else 1
     seen: set[ExpansionTerm] = set()
     for expansion in found:
-        large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least) is True]
+        large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least)]
         for m in large:
-            follows = m.growth_sign > 0 and any(_is_before(other, m) for other in large)
-            if not follows and m not in seen:
+            if m not in seen and not _follows(m, large):
                 seen.add(m)
                 yield m
+
+
+def _follows(m: ExpansionTerm, large: Sequence[ExpansionTerm]) -> bool:
+    """Has it a growing exponential, and isn't the largest one with that?"""
+    return m.growth_sign > 0 and any(_is_before(other, m) for other in large)
 
 
 def _is_large(m: ExpansionTerm, least: int) -> bool | None:
@@ -185,20 +204,27 @@ def _is_before(first: ExpansionTerm, second: ExpansionTerm) -> bool:
 
 
 def _uncertainty(expansion: Expansion, whole: Growth | None, condition: Condition) -> str | None:
-    """Why the expansion may have other terms that don't tend to 0; None if it hasn't.
-
-    A solution is the sum of two series, each after an exponential, whose product is that of the Wronskian (`whole`).  If
-    these differ, a series is 0 where its first term is.
-    """
-    known = {m.growth for m in expansion.terms}
+    """Why the expansion may have other terms that don't tend to 0; None if it hasn't."""
     least = 1 if condition.value is None else 0
     for error in expansion.errors:
-        series = ExpansionTerm(error.growth)
-        are_two = whole is not None and series.power(sympy.Integer(2)).growth != whole
-        is_known = are_two and error.growth in known and _is_large(series, 1)
-        if not is_known and _is_large(error, least) is not False:
+        if not _is_known(error, expansion, whole) and _is_large(error, least) is not False:
             return f"terms beyond {error} aren't known"
     for m in expansion.terms:
         if _is_large(m, least) is None:
             return f"whether {m} is bounded isn't known"
     return None
+
+
+def _is_known(error: ExpansionTerm, expansion: Expansion, whole: Growth | None) -> bool:
+    """Is what the error stands for 0 where the first term of its series is?
+
+    A solution is the sum of two series, each after an exponential, whose product is that of the Wronskian (`whole`).  If
+    these differ, a series is 0 where its first term is.
+    """
+    if whole is None:
+        return False
+    series = ExpansionTerm(error.growth)
+    if series.power(sympy.Integer(2)).growth == whole:
+        return False
+    is_among_terms = any(m.growth == error.growth for m in expansion.terms)
+    return is_among_terms and bool(_is_large(series, 1))
