@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
@@ -42,9 +43,17 @@ _ENTIRE = (
     sympy.airyai,
     sympy.airybi,
 )
+
+
+def _logarithms(value: Expr) -> list[Expr]:
+    if value == 0:
+        return []
+    return [sympy.log(value)]
+
+
 #: x with f(x) = value in a period, for the functions f that are variables of equations; and the period.
 _INVERSES: dict[Any, tuple[Any, Any]] = {
-    sympy.exp: (lambda value: [sympy.log(value)] if value != 0 else [], 2 * sympy.pi * sympy.I),
+    sympy.exp: (_logarithms, 2 * sympy.pi * sympy.I),
     sympy.cosh: (lambda value: [sympy.acosh(value), -sympy.acosh(value)], None),
     sympy.sinh: (lambda value: [sympy.asinh(value)], None),
     sympy.cos: (lambda value: [sympy.acos(value), -sympy.acos(value)], 2 * sympy.pi),
@@ -71,20 +80,28 @@ def jump_points(question: Question) -> list[Expr]:
 
 def is_singular(question: Question, point: Expr) -> bool:
     """Is a finite point a pole of b/a, c/a or f/a, or one where the rest of the right-hand side has no value?"""
-    equation = question.equation
-    atoms = Atoms(sympy.Symbol(equation.variable))
-    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
-    for part in (equation.b, equation.c, equation.f):
-        den = (part / equation.a).den
-        if den.degree > 0:
-            value = question.own(atoms.poly(den)).subs(atoms.x, at)
-            if value.is_finite is False or is_zero(value):
-                return True
-    h = equation.h
+    if any(_is_root(question, den, point) for den in _denominators(question.equation)):
+        return True
+    h = question.equation.h
     if h is None:
         return False
     smooth = h.xreplace(dict.fromkeys(h.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
     return finite_value(smooth, question.x, point) is None
+
+
+def _denominators(equation: Equation) -> list[Poly]:
+    """Those of b/a, c/a and f/a that aren't constant."""
+    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
+    return [quotient.den for quotient in quotients if quotient.den.degree > 0]
+
+
+def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
+    """Is a polynomial in the variable of the equation zero, or without a value, at a point in the user's variable?"""
+    equation = question.equation
+    atoms = Atoms(sympy.Symbol(equation.variable))
+    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
+    value = question.own(atoms.poly(polynomial)).subs(atoms.x, at)
+    return value.is_finite is False or is_zero(value)
 
 
 def limit_points(question: Question) -> dict[Expr, Approach]:
@@ -113,7 +130,9 @@ def _side(point: Expr, points: Sequence[Expr]) -> int:
             sides.add(-1)
     if len(sides) > 1:
         raise _apart(point, [other for other in points if other != point])
-    return sides.pop() if sides else 1
+    if not sides:
+        return 1
+    return sides.pop()
 
 
 def _apart(point: Expr, points: Sequence[Expr]) -> InputError:
@@ -131,8 +150,13 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     if not finite:
         return _beyond(next(iter(limits.values())), poles)
     place = finite[-1]
-    ends = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
-    ends += [other.point for other in finite if other.point != place.point]
+    others = [approach.point for approach in finite if approach.point != place.point]
+    ahead = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
+    return _beside(place, [*ahead, *others])
+
+
+def _beside(place: Approach, ends: Sequence[Expr]) -> Expr:
+    """Half way from a finite place to the nearest of the ends; one step away from it without any."""
     if not ends:
         return place.point + place.direction
     nearest = min(ends, key=lambda end: abs(end - place.point).evalf())
@@ -152,7 +176,7 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     Solutions that are written with functions that are analytic everywhere may be continued.
     """
     points = [point for point in _points(question) if point not in _INFINITIES]
-    if len(points) < 2 or not all(point.is_real and point.is_number for point in points):
+    if len(points) < 2 or not all(_is_real_number(point) for point in points):
         return
     if all(_is_entire(question.own(y), question.x) for y in solutions):
         return
@@ -163,6 +187,10 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
             raise _apart(pole, points)
 
 
+def _is_real_number(point: Expr) -> bool:
+    return bool(point.is_real and point.is_number)
+
+
 def _points(question: Question) -> list[Expr]:
     """Those of conditions, and those of jumps."""
     return [*given_points(question), *jump_points(question)]
@@ -170,12 +198,15 @@ def _points(question: Question) -> list[Expr]:
 
 def _is_entire(y: Expr, x: Expr) -> bool:
     """Is it made of functions that are analytic everywhere, by sums, products and natural powers?"""
-    for e in sympy.preorder_traversal(y):
-        is_simple = e == x or e.is_Add or e.is_Mul or isinstance(e, _ENTIRE)
-        is_power = e.is_Pow and e.exp.is_Integer and e.exp > 0
-        if e.has(x) and not is_simple and not is_power:
-            return False
-    return True
+    parts = [e for e in sympy.preorder_traversal(y) if e.has(x)]
+    return all(_keeps_entire(e, x) for e in parts)
+
+
+def _keeps_entire(e: Expr, x: Expr) -> bool:
+    """Is it x, a sum, a product, a natural power or such a function: analytic everywhere if its arguments are?"""
+    if e.is_Pow and not isinstance(e, sympy.exp):
+        return bool(e.exp.is_Integer and e.exp > 0)
+    return e == x or e.is_Add or e.is_Mul or isinstance(e, _ENTIRE)
 
 
 def _rational_poles(question: Question) -> Iterator[Expr]:
@@ -183,9 +214,9 @@ def _rational_poles(question: Question) -> Iterator[Expr]:
     equation = question.equation
     if equation.change is not None:
         return
-    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
-    for den in (q.den for q in quotients if q.den.degree > 0 and q.field == QQ):
-        yield from sympy.real_roots(Atoms(question.x).poly(den), multiple=True)
+    for den in _denominators(equation):
+        if den.field == QQ:
+            yield from sympy.real_roots(Atoms(question.x).poly(den), multiple=True)
 
 
 def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
@@ -201,17 +232,16 @@ def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr
     value = function_of_x(equation)
     rates = _rates_in_x(question, value)
     for root in _poles_in_t(equation):
-        for x0 in _preimages(value, root, question.x, first, last):
-            if not _is_analytic(rates, question.x, x0):
-                yield x0
+        candidates = _preimages(value, root, question.x, first, last)
+        yield from (x0 for x0 in candidates if not _is_analytic(rates, question.x, x0))
 
 
 def _poles_in_t(equation: Equation) -> list[Expr]:
     """Those without parameters of b/a, c/a and f/a in the variable of the equation."""
     t = sympy.Symbol(equation.variable)
     found: set[Expr] = set()
-    for part in (equation.b, equation.c, equation.f):
-        den = Atoms(t).poly((part / equation.a).den)
+    for polynomial in _denominators(equation):
+        den = Atoms(t).poly(polynomial)
         if den.free_symbols == {t}:
             found.update(sympy.roots(den, t))
     return sorted(found, key=str)
@@ -224,8 +254,9 @@ def _poles_of_a_power(question: Question) -> Iterator[Expr]:
     yield sympy.Integer(0)
     for part in (equation.b, equation.c):
         den = question.own(Atoms(t).poly((part / equation.a).den))
-        for root in sympy.roots(den, t):
-            if root != 0 and root.is_positive is not False:
+        others = [root for root in sympy.roots(den, t) if root != 0]
+        for root in others:
+            if root.is_positive is not False:
                 yield root ** (1 / function_of_x(equation).exp)
 
 
@@ -235,17 +266,22 @@ def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Ite
     inner = value.args[0]
     slope = inner.diff(x)
     step = None if period is None else period / slope
-    for base in inverse(root):
-        x0 = sympy.expand((base - inner.subs(x, 0)) / slope)
+    candidates = [sympy.expand((base - inner.subs(x, 0)) / slope) for base in inverse(root)]
+    for x0 in candidates:
         if not x0.is_number or abs(sympy.im(x0).evalf(30)) > 1e-20:
             continue
         if step is None or not step.is_real:
             yield x0
-            continue
-        low = int(sympy.ceiling((first - x0) / abs(step)))
-        high = int(sympy.floor((last - x0) / abs(step)))
-        for m in range(low, min(high, low + _MOST_POINTS) + 1):
-            yield x0 + m * abs(step)
+        else:
+            yield from _repeated(x0, abs(step), first, last)
+
+
+def _repeated(x0: Expr, step: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
+    """The x0 + m step between two points, the first ones of them where there are many."""
+    low = int(sympy.ceiling((first - x0) / step))
+    high = int(sympy.floor((last - x0) / step))
+    for m in range(low, min(high, low + _MOST_POINTS) + 1):
+        yield x0 + m * step
 
 
 def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
@@ -291,11 +327,13 @@ def real_particular_at(question: Question, basis: Basis, particular: Expr, start
 def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
     """Raises `InputError` where roots or logarithms have arguments of both signs at the points."""
     points = [point for point in _points(question) if point.is_real]
-    sides = set()
-    for point in points:
-        if not is_singular(question, point):
-            negative = [negative_arguments(y, question.x, point) for y in solutions]
-            sides.add(frozenset().union(*negative))
+    ordinary = [point for point in points if not is_singular(question, point)]
+    sides = {_negative(solutions, question, point) for point in ordinary}
     if len(sides) > 1:
         said = ", ".join(map(str, points))
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
+
+
+def _negative(solutions: Sequence[Expr], question: Question, point: Expr) -> frozenset[Expr]:
+    """The roots and logarithms in solutions whose arguments are negative at a point."""
+    return frozenset().union(*(negative_arguments(y, question.x, point) for y in solutions))

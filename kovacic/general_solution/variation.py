@@ -25,7 +25,7 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.integrands import NUMBERS, prepared
+from kovacic.general_solution.integrands import NUMBERS, prepared, radicands
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import finite_value, size
 from kovacic.reading.change_of_variable import function_of_x, in_x
@@ -90,16 +90,11 @@ class Basis:
     def _by_abel(self) -> Expr | None:
         """c exp(-int b/a dx), with the first c that is a number or made of gamma functions; None where it isn't found."""
         kernel = display(product(self.equation.gauge * 2), Atoms(self.x), around_zero=True).xreplace(NUMBERS)
-        for c in self._quotients(kernel):
-            functions = {f.func for f in c.atoms(sympy.Function)}
-            if c == 0 or _is_infinite(c) or not functions <= {sympy.gamma}:
-                continue
-            if functions:
-                c = sympy.gammasimp(c)
-            c = sympy.cancel(c) if c.free_symbols and c.is_rational_function() else sympy.radsimp(c)
-            W = c * kernel
-            return W if self._is_wronskian(W) else None
-        return None
+        c = next(filter(_is_usable, self._quotients(kernel)), None)
+        if c is None:
+            return None
+        W = _simplified(c) * kernel
+        return W if self._is_wronskian(W) else None
 
     @cached_property
     def rates(self) -> tuple[Expr, Expr]:
@@ -138,29 +133,31 @@ class Basis:
             linear = W.xreplace({integral: letter})
             if expand(linear.diff(letter)) == 0:
                 W = linear.xreplace({letter: sympy.Integer(0)})
-        roots = any(p.exp.is_Rational and not p.exp.is_Integer for p in W.atoms(sympy.Pow))
-        return sympy.cancel(sympy.together(W)) if roots and not W.has(*_UNKNOWN, sympy.Function) else W
+        if radicands(W) and not W.has(*_UNKNOWN, sympy.Function):
+            return sympy.cancel(sympy.together(W))
+        return W
 
     def _is_wronskian(self, W: Expr) -> bool:
         """Is the constant the same wherever roots have other branches?"""
-        powers = (p for e in (self.y1, self.y2) for p in e.atoms(sympy.Pow))
-        if not any(p.base.has(self.x) and not p.exp.is_Integer for p in powers):
+        if not any(_has_branches(y, self.x) for y in (self.y1, self.y2)):
             return True
         with ctx.workdps(2 * DIGITS), suppress(NotImplementedError):
-            for point in _points():
-                (u, du, _), (v, dv, _), (w, _, _) = (jet(e, self.x, point) for e in (self.y1, self.y2, W))
-                if not abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)):
-                    return False
-            return True
+            return all(self._is_wronskian_at(W, point) for point in _points())
         return False
 
+    def _is_wronskian_at(self, W: Expr, point: Any) -> bool:
+        (u, du, _), (v, dv, _), (w, _, _) = (jet(e, self.x, point) for e in (self.y1, self.y2, W))
+        return bool(abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)))
+
     def _quotients(self, kernel: Expr) -> Iterator[Expr]:
-        """W/kernel at points, and at 0 from y ~ x^e for series in x."""
+        """W/kernel at points, and at 0 from y ~ x^e for series in x; nan where it has no value."""
         by_definition = self._by_definition
         for point in map(sympy.Integer, (0, 1, -1, 2)):
             W = finite_value(by_definition, self.x, point)
-            c = sympy.nan if W is None else expand(W / kernel.subs(self.x, point))
-            yield expand(TR8(c)) if c.has(sin, cos) else c
+            if W is None:
+                yield sympy.nan
+            else:
+                yield _with_single_waves(expand(W / kernel.subs(self.x, point)))
         functions = self.y1.atoms(sympy.hyper) | self.y2.atoms(sympy.hyper)
         series = {f: sympy.Integer(1) for f in functions if f.argument.subs(self.x, 0) == 0}
         u, v = (y.xreplace(series) for y in (self.y1, self.y2))
@@ -172,7 +169,9 @@ class Basis:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
         right = prepared(right)
         parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
-        if any(part is None or part.has(sympy.Integral) for part in parts) or not _are_readable(parts):
+        if any(part is None or part.has(sympy.Integral) for part in parts):
+            return None
+        if not _are_readable(parts):
             return None
         return self._checked(parts, right, rates(self.equation, self.x))
 
@@ -183,14 +182,17 @@ class Basis:
             whole = powsimp(whole)
         forms = [whole]
         if whole.has(sin, cos):
-            forms.append(expand(TR8(whole)))  # products of waves as waves
+            forms.append(_with_single_waves(whole))
         candidates = []
         for form in forms:
-            for total in (form, _gathered(form, self.x)):
-                terms = [term for term in sympy.Add.make_args(total) if not self._is_homogeneous(term)]
-                candidates.append(sympy.factor_terms(sympy.Add(*terms)))
+            candidates += [self._without_homogeneous(form), self._without_homogeneous(_gathered(form, self.x))]
         found = one_exponential(min(candidates, key=size))
         return found if is_solution(found, coefficients, right, self.x) else None
+
+    def _without_homogeneous(self, total: Expr) -> Expr:
+        """A sum without the terms that are multiples of y1 or y2."""
+        terms = [term for term in sympy.Add.make_args(total) if not self._is_homogeneous(term)]
+        return sympy.factor_terms(sympy.Add(*terms))
 
     def _is_homogeneous(self, term: Expr) -> bool:
         """Is it a multiple of y1 or y2?"""
@@ -198,25 +200,65 @@ class Basis:
 
     def with_integrals(self, right: Expr, start: Expr | None) -> Expr:
         """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
-        coefficients = rates(self.equation, self.x)  # while there is time
+        x = self.x
+        coefficients = rates(self.equation, x)  # while there is time
         is_changed = self.equation.change is not None
         integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
-        known: list[Any] = [None, None]
-        with suppress(LimitExceeded):
-            known = [antiderivative(integrand, self.x) for integrand in integrands]
-        if not _are_readable(known):
-            known = [None, None]
+        known = self._readable_integrals(integrands)
         if None not in known and not is_changed:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
-                return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, self.x, start))
-        first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(integrands, known, strict=True))
-        found = self.y2 * second - self.y1 * first
-        if is_changed or is_solution(found, coefficients, right, self.x):
-            return found
+                return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, x, start))
+        integrals = []
+        for integrand, found in zip(integrands, known, strict=True):
+            integrals.append(_open(integrand, x, start) if found is None else found)
+        solution = self._from_integrals(integrals)
+        if is_changed or is_solution(solution, coefficients, right, x):
+            return solution
         # Integrals that are known may have other branches.
-        first, second = (_open(y * right / self._by_definition, self.x, start) for y in (self.y2, self.y1))
-        return self.y2 * second - self.y1 * first
+        W = self._by_definition
+        return self._from_integrals([_open(y * right / W, x, start) for y in (self.y2, self.y1)])
+
+    def _readable_integrals(self, integrands: Sequence[Expr]) -> list[Any]:
+        """The integrals that are known within the limits; none of them where they are harder to read than unknown ones."""
+        known: list[Any] = [None for _ in integrands]
+        with suppress(LimitExceeded):
+            known = [antiderivative(integrand, self.x) for integrand in integrands]
+        if _are_readable(known):
+            return known
+        return [None for _ in integrands]
+
+    def _from_integrals(self, integrals: Sequence[Expr]) -> Expr:
+        """y2 int y1 f/(a W) dx - y1 int y2 f/(a W) dx, from the second and the first."""
+        return self.y2 * integrals[1] - self.y1 * integrals[0]
+
+
+def _is_usable(c: Expr) -> bool:
+    """Is it finite, not zero, and without functions but gamma functions?"""
+    if c == 0 or c.is_finite is False or c.has(sympy.nan, sympy.zoo):
+        return False
+    return {f.func for f in c.atoms(sympy.Function)} <= {sympy.gamma}
+
+
+def _simplified(c: Expr) -> Expr:
+    """A constant of gamma functions and roots in a short form."""
+    if c.has(sympy.gamma):
+        c = sympy.gammasimp(c)
+    if c.free_symbols and c.is_rational_function():
+        return sympy.cancel(c)
+    return sympy.radsimp(c)
+
+
+def _with_single_waves(e: Expr) -> Expr:
+    """Products of waves as sums of waves."""
+    if not e.has(sin, cos):
+        return e
+    return expand(TR8(e))
+
+
+def _has_branches(y: Expr, x: Expr) -> bool:
+    """Are there powers of functions of x whose exponents aren't integers?"""
+    return any(p.base.has(x) and not p.exp.is_Integer for p in y.atoms(sympy.Pow))
 
 
 def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
@@ -241,7 +283,9 @@ def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     W = P**2 * z.diff(x) * value(*function.args)
     if W == 0:
         return None
-    return sympy.cancel(W) if W.is_rational_function(x) else W
+    if W.is_rational_function(x):
+        return sympy.cancel(W)
+    return W
 
 
 def _is_constant(quotient: Expr, x: Expr) -> bool:
@@ -267,15 +311,11 @@ def _gathered(form: Expr, x: Expr) -> Expr:
     return sympy.Add(*found)
 
 
-def _is_infinite(c: Expr) -> bool:
-    return c.is_finite is False or c.has(sympy.nan, sympy.zoo)
-
-
 def _are_readable(integrals: Sequence[Expr | None]) -> bool:
     """Are there few special functions of complex arguments?  Else the integrals are easier to read."""
-    found = set().union(*(e.atoms(*_COMPLEX) for e in integrals if e is not None))
-    count = sum(1 for f in found if f.has(sympy.I))
-    return count <= _MOST_COMPLEX
+    known = [integral for integral in integrals if integral is not None]
+    functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known))
+    return sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX
 
 
 def _is_polynomial_in(f: Expr, x: Expr) -> bool:
@@ -294,8 +334,9 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     """The unevaluated integral, from `start` on with a variable that doesn't occur."""
     if start is None:
         return sympy.Integral(integrand, x)
-    names = {symbol.name for symbol in integrand.atoms(sympy.Symbol) | start.free_symbols}
-    s = next(sympy.Symbol(name) for name in ("s", "t", "u", *(f"s{k}" for k in range(99))) if name not in names)
+    taken = {symbol.name for symbol in integrand.atoms(sympy.Symbol) | start.free_symbols}
+    names = ("s", "t", "u", *(f"s{k}" for k in range(99)))
+    s = next(sympy.Symbol(name) for name in names if name not in taken)
     return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
 
 
@@ -311,20 +352,25 @@ def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
 
 def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
     """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
-    b, c = coefficients
-    given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
-    if given:  # the formula holds for any function: it is tried with one
-        sample = {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in enumerate(sorted(given, key=str)) if f.has(x)}
+    sample = _sample_functions(y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING), x)
+    if sample:
         y = y.xreplace(sample)
         right = right.xreplace(sample)
-    with ctx.workdps(DIGITS + 15):
-        for point in _points():
-            try:
-                value, first, second = jet(y, x, point)
-                force, p, q = (jet(e, x, point)[0] for e in (right, b, c))
-            except NotImplementedError:
-                return False
-            terms = [second, p * first, q * value, -force]
-            if not abs(sum(terms)) < arb(10) ** -DIGITS * sum(map(abs, terms), arb(1)):
-                return False
-    return True
+    with ctx.workdps(DIGITS + 15), suppress(NotImplementedError):
+        return all(_is_solution_at(point, y, coefficients, right, x) for point in _points())
+    return False
+
+
+def _sample_functions(given: set[Expr], x: Expr) -> dict[Expr, Expr]:
+    """An exponential function for each that is given by its name, or jumps: the formula holds for any function."""
+    functions = enumerate(sorted(given, key=str))
+    return {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in functions if f.has(x)}
+
+
+def _is_solution_at(point: Any, y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
+    """Is the residual small, by the size of its terms?  Raises `NotImplementedError` where it can't be computed."""
+    b, c = coefficients
+    value, first, second = jet(y, x, point)
+    force, p, q = (jet(e, x, point)[0] for e in (right, b, c))
+    terms = [second, p * first, q * value, -force]
+    return bool(abs(sum(terms)) < arb(10) ** -DIGITS * sum(map(abs, terms), arb(1)))
