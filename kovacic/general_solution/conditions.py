@@ -59,14 +59,26 @@ def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
     """Conditions that are given as a mapping, or as one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
     if not isinstance(ics, str):
         return dict(ics or {})
+    if not ics.strip():
+        return {}
     found: dict[Any, Any] = {}
-    given = [value for part in listed(ics) for value in plain_values(part)] if ics.strip() else []
-    for part in given:
-        place, separator, value = (piece.strip() for piece in part.partition("="))
-        if not (separator and place and value) or place in found:
-            raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
-        found[place] = value
+    for given in listed(ics):
+        for text in plain_values(given):
+            place, _, value = (piece.strip() for piece in text.partition("="))
+            if not place or not value or place in found:
+                raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
+            found[place] = value
     return found
+
+
+@dataclass(frozen=True)
+class _Call:
+    """y(argument), or y'(argument) for order 1, in a text from `start` to `end`."""
+
+    start: int
+    end: int
+    order: int
+    argument: str
 
 
 class ConditionReader:
@@ -118,37 +130,46 @@ class ConditionReader:
         """`y(0)`, `y'(0) - h*y(0)`, or a constant."""
         pieces = []
         rest = text
-        while (found := self._first_call(rest)) is not None:
-            start, order, inner, end = found
-            pieces += [rest[:start], f"({self._symbol(self._point(inner), order).name})"]
-            rest = rest[end:]
+        while (call := self._first_call(rest)) is not None:
+            symbol = self._symbol(self._point(call.argument), call.order)
+            pieces += [rest[: call.start], f"({symbol.name})"]
+            rest = rest[call.end :]
         pieces.append(rest)
         if is_key and len(pieces) == 1:
             raise self._no_condition(text)
         return self._checked(_read("".join(pieces), self._terms), text)
 
-    def _first_call(self, text: str) -> tuple[int, int, str, int] | None:
-        """(start, order, argument, end) of the first y(...) or y'(...) in a text."""
-        start = 0
-        while (start := text.find(self.unknown, start)) >= 0:
-            before = text[start - 1] if start else " "
-            after = text[start + len(self.unknown) :]
-            primes = len(after) - len(after.lstrip("'"))
-            call = after[primes:].lstrip()
-            if not (before.isalnum() or before == "_") and call.startswith("("):
-                inner = _within(call)
-                if primes > 1 or inner is None:
-                    raise self._no_condition(text)
-                end = len(text) - len(call) + len(inner) + 2
-                return start, primes, inner, end
-            start += len(self.unknown)
+    def _first_call(self, text: str) -> _Call | None:
+        """The first y(...) or y'(...) in a text."""
+        start = text.find(self.unknown)
+        while start >= 0:
+            found = self._call_at(text, start)
+            if found is not None:
+                return found
+            start = text.find(self.unknown, start + len(self.unknown))
         return None
+
+    def _call_at(self, text: str, start: int) -> _Call | None:
+        """The call of the unknown function, whose name is at `start`; None where that is a part of another name, or none."""
+        before = text[:start][-1:]
+        after = text[start + len(self.unknown) :]
+        primes = len(after) - len(after.lstrip("'"))
+        call = after[primes:].lstrip()
+        is_part_of_a_name = before.isalnum() or before == "_"
+        if is_part_of_a_name or not call.startswith("("):
+            return None
+        inner = _within(call)
+        if primes > 1 or inner is None:
+            raise self._no_condition(text)
+        return _Call(start=start, end=len(text) - len(call) + len(inner) + 2, order=primes, argument=inner)
 
     def _point(self, text: str) -> Expr:
         plain = text.replace(" ", "")
-        if plain.lstrip("+-") in _INFINITY:
-            return -sympy.oo if plain.startswith("-") else sympy.oo
-        return self._checked(_read(text, {}), text)
+        if plain.lstrip("+-") not in _INFINITY:
+            return self._checked(_read(text, {}), text)
+        if plain.startswith("-"):
+            return -sympy.oo
+        return sympy.oo
 
     # -------------------------------------------------------------------------------------- SymPy's expressions
 
@@ -171,7 +192,9 @@ class ConditionReader:
         return self._symbol(self._place(point), 1)
 
     def _place(self, point: Expr) -> Expr:
-        return point if point in (sympy.oo, -sympy.oo) else self._checked(point, point)
+        if point in (sympy.oo, -sympy.oo):
+            return point
+        return self._checked(point, point)
 
     # ------------------------------------------------------------------------------------------------ both
 
@@ -195,11 +218,9 @@ class ConditionReader:
 
     def _no_condition(self, key: Any) -> InputError:
         y = self.unknown
-        hint = f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}" if isinstance(key, str) else None
-        return InputError(
-            f"{key!r} isn't an initial value" if isinstance(key, str) else f"{key} isn't an initial value",
-            hint=hint or "write {y(0): 1, y(x).diff(x).subs(x, 0): 2}",
-        )
+        if isinstance(key, str):
+            return InputError(f"{key!r} isn't an initial value", hint=f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}")
+        return InputError(f"{key} isn't an initial value", hint="write {y(0): 1, y(x).diff(x).subs(x, 0): 2}")
 
 
 def _within(call: str) -> str | None:

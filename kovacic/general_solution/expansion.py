@@ -38,9 +38,12 @@ def sign_of(value: Expr) -> int:
     value = sympy.expand(_one_form(value))
     if value.is_real is False or value.has(sympy.I):
         value = sympy.re(value)
-    for is_so, sign in ((value.is_zero, 0), (value.is_positive, 1), (value.is_negative, -1)):
-        if is_so:
-            return sign
+    if value.is_zero:
+        return 0
+    if value.is_positive:
+        return 1
+    if value.is_negative:
+        return -1
     raise UnknownBehaviour(f"the sign of {value} isn't known")
 
 
@@ -68,23 +71,29 @@ class ExpansionTerm:
     def power(self, r: Expr) -> ExpansionTerm:
         """For a real exponent r."""
         k = sympy.expand(self.k * r)
-        real = all(a.is_real for _, a in self.growth)
-        if not k.is_Integer or not (r.is_Integer or real):
+        is_positive = all(a.is_real for _, a in self.growth)
+        if not k.is_Integer or not (r.is_Integer or is_positive):
             raise UnknownBehaviour("a root of a logarithm or of a wave")
         growth = tuple((p, sympy.expand(a * r)) for p, a in self.growth)
         return ExpansionTerm(growth, sympy.expand(self.e * r), int(k))
 
     @property
+    def inverse(self) -> ExpansionTerm:
+        return ExpansionTerm(tuple((p, -a) for p, a in self.growth), -self.e, -self.k)
+
+    @property
     def growth_sign(self) -> int:
-        """1 if the exponential grows, -1 if it decays, 0 if its modulus is 1."""
-        return next((sign for _, a in self.growth if (sign := sign_of(a)) != 0), 0)
+        """1 if the exponential grows, -1 if it decays, 0 if its modulus is 1: the sign of the largest power that has one."""
+        for _, a in self.growth:
+            sign = sign_of(a)
+            if sign:
+                return sign
+        return 0
 
     @property
     def size(self) -> int:
         """1 if it is unbounded, -1 if it tends to 0; 0 for constants and for oscillations with a constant amplitude."""
-        if self.growth_sign:
-            return self.growth_sign
-        sign = -sign_of(self.e)
+        sign = self.growth_sign or -sign_of(self.e)
         if sign:
             return sign
         return (self.k > 0) - (self.k < 0)
@@ -95,21 +104,25 @@ class ExpansionTerm:
 
     def is_below(self, other: ExpansionTerm) -> bool:
         """Is it O(other), as far as that is known?"""
-        quotient = ExpansionTerm(
-            _added(self.growth, tuple((p, -a) for p, a in other.growth)),
-            sympy.expand(self.e - other.e),
-            self.k - other.k,
-        )
         try:
-            return quotient.size <= 0
+            return (self * other.inverse).size <= 0
+        except UnknownBehaviour:
+            return False
+
+    def is_smaller(self, other: ExpansionTerm) -> bool:
+        """Is it o(other), as far as that is known?"""
+        try:
+            return (self * other.inverse).size < 0
         except UnknownBehaviour:
             return False
 
 
 def _one_form(exponent: Expr) -> Expr:
     """With one denominator, where symbols are in denominators."""
-    powers = exponent.atoms(sympy.Pow)
-    return sympy.cancel(exponent) if any(p.exp.is_negative and p.base.free_symbols for p in powers) else exponent
+    denominators = [power.base for power in exponent.atoms(sympy.Pow) if power.exp.is_negative]
+    if any(base.free_symbols for base in denominators):
+        return sympy.cancel(exponent)
+    return exponent
 
 
 def _added(first: Iterable[tuple[Expr, Expr]], second: Iterable[tuple[Expr, Expr]]) -> tuple[tuple[Expr, Expr], ...]:
@@ -180,10 +193,9 @@ class Expansion:
         terms = {m: c for m, c in self.terms.items() if when_zero(c) is not Zero.ALWAYS}
         everything = [*terms, *self.errors]
         for m, c in terms.items():
-            if all(other is m or _is_smaller(other, m) for other in everything):
-                others = dict(terms)
-                del others[m]
-                return m, c, Expansion(others, self.errors).times(1 / c, _inverse(m))
+            if all(other is m or other.is_smaller(m) for other in everything):
+                others = {n: d for n, d in terms.items() if n is not m}
+                return m, c, Expansion(others, self.errors).times(1 / c, m.inverse)
         raise UnknownBehaviour("no term is larger than all others", deeper=bool(self.errors))
 
     def power(self, r: Expr, depth: int) -> Expansion:
@@ -209,12 +221,7 @@ class Expansion:
         large, constant, small = self.parts
         factor = CONSTANT
         for m, c in large.items():
-            if m == LOG:
-                factor = factor * ExpansionTerm(e=c)
-            elif m.growth or m.k or not m.e.is_Rational:
-                raise UnknownBehaviour("an exponential that isn't that of a sum of powers")
-            else:
-                factor = factor * ExpansionTerm(growth=((-m.e, c),))
+            factor = factor * _exponential(m, c)
         coefficients = [1 / sympy.factorial(k) for k in range(depth)]
         return _series(small, coefficients).times(sympy.exp(constant), factor)
 
@@ -223,18 +230,36 @@ class Expansion:
         large, constant, small = self.parts
         if large:
             return None
-        z = sympy.Dummy()
-        derivative = function(z)
-        coefficients = []
-        for k in range(depth):
-            value = derivative.subs(z, constant)
-            if value.has(sympy.nan, sympy.zoo, sympy.oo) or value.has(z):
-                return None
-            coefficients.append(value / sympy.factorial(k))
-            derivative = derivative.diff(z)
-            if not small.terms and not small.errors:
-                break
+        if not small.terms and not small.errors:
+            depth = 1
+        coefficients = _taylor_coefficients(function, constant, depth)
+        if coefficients is None:
+            return None
         return _series(small, coefficients)
+
+
+def _exponential(m: ExpansionTerm, c: Expr) -> ExpansionTerm:
+    """exp(c m) for a logarithm or a power m that isn't bounded."""
+    if m == LOG:
+        return ExpansionTerm(e=c)
+    if m.growth or m.k or not m.e.is_Rational:
+        raise UnknownBehaviour("an exponential that isn't that of a sum of powers")
+    return ExpansionTerm(growth=((-m.e, c),))
+
+
+def _taylor_coefficients(function: Callable[[Expr], Expr], point: Expr, count: int) -> list[Expr] | None:
+    """f^(k)(a)/k!; None where one isn't finite."""
+    z = sympy.Dummy()
+    derivative = function(z)
+    coefficients = []
+    for k in range(count):
+        if k:
+            derivative = derivative.diff(z)
+        value = derivative.subs(z, point)
+        if value.has(sympy.nan, sympy.zoo, sympy.oo, z):
+            return None
+        coefficients.append(value / sympy.factorial(k))
+    return coefficients
 
 
 def _largest(errors: Iterable[ExpansionTerm]) -> tuple[ExpansionTerm, ...]:
@@ -245,18 +270,6 @@ def _largest(errors: Iterable[ExpansionTerm]) -> tuple[ExpansionTerm, ...]:
             kept = [other for other in kept if not other.is_below(error)]
             kept.append(error)
     return tuple(kept)
-
-
-def _is_smaller(first: ExpansionTerm, second: ExpansionTerm) -> bool:
-    """Does the quotient tend to 0, as far as that is known?"""
-    try:
-        return (first * _inverse(second)).size < 0
-    except UnknownBehaviour:
-        return False
-
-
-def _inverse(m: ExpansionTerm) -> ExpansionTerm:
-    return ExpansionTerm(tuple((p, -a) for p, a in m.growth), -m.e, -m.k)
 
 
 def _series(small: Expansion, coefficients: list[Expr]) -> Expansion:

@@ -16,6 +16,7 @@ where b delta^(n) is the sum of (-1)^k C(n, k) b^(k)(a) delta^(n-k).
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -35,7 +36,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import in_powers
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, prepared, ratfunc
-from kovacic.general_solution.steps import Apart, taken_apart
+from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
 from kovacic.general_solution.variation import Basis
@@ -53,14 +54,13 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
     if right == 0:
         return sympy.Integer(0)
     solved = basis.with_integrals if basis.equation.change is not None else partial(_solved, basis)
-    if right.has(DiracDelta, Heaviside):
-        apart = taken_apart(right, basis.x)
-        if apart is not None:
-            return _response(apart, basis, start, solved)
-        if right.has(DiracDelta):
-            raise NotImplementedError(
-                "undecided: an impulse times a jump at the same point, or at one that isn't known"
-            )
+    if not right.has(DiracDelta, Heaviside):
+        return solved(right, start)
+    apart = taken_apart(right, basis.x)
+    if apart is not None:
+        return _response(apart, basis, start, solved)
+    if right.has(DiracDelta):
+        raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
     return solved(right, start)
 
 
@@ -72,8 +72,9 @@ def _right_hand_side(equation: Equation) -> Expr:
     h = sympy.sympify(equation.h or 0).xreplace(NUMBERS)
     if equation.change is None:
         return (f + h) / a
-    rational = sympy.factor(f / a * slope_squared(equation)) if f != 0 else sympy.Integer(0)
-    return in_x(equation, rational) + h
+    if f == 0:
+        return h
+    return in_x(equation, sympy.factor(f / a * slope_squared(equation))) + h
 
 
 def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
@@ -87,9 +88,11 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     known = _known_terms(basis, terms)
     if not known:
         return basis.with_integrals(right, start)
+    total = sympy.Add(*known.values())
     rest = sympy.Add(*(term for term in terms if term not in known))
-    integrals = sympy.Integer(0) if rest == 0 else basis.with_integrals(rest, start)
-    return sympy.Add(integrals, *known.values())
+    if rest != 0:
+        total += basis.with_integrals(rest, start)
+    return total
 
 
 def _known_terms(basis: Basis, terms: Sequence[Expr]) -> dict[Expr, Expr]:
@@ -108,7 +111,9 @@ def _at_once(basis: Basis, right: Expr) -> Expr | None:
     if polynomial is not None:
         return Atoms(x).poly(polynomial).xreplace(NUMBERS)
     found = _by_coefficients(equation, right, x)
-    return basis.at_once(right) if found is None else found
+    if found is not None:
+        return found
+    return basis.at_once(right)
 
 
 def _polynomial_for(equation: Equation, right: RatFunc | None) -> Poly | None:
@@ -116,45 +121,66 @@ def _polynomial_for(equation: Equation, right: RatFunc | None) -> Poly | None:
     field = equation.a.field
     if right is None:
         return None
-    if right.field != field:
-        if not field.extends(right.field):
-            return None
-        right = RatFunc(right.num.over(field), right.den.over(field), reduced=True)
-    return _polynomial_solution(equation, right * equation.a)
+    if right.field == field:
+        return _polynomial_solution(equation, right * equation.a)
+    if not field.extends(right.field):
+        return None
+    over_field = RatFunc(right.num.over(field), right.den.over(field), reduced=True)
+    return _polynomial_solution(equation, over_field * equation.a)
 
 
 def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
     """A solution of y'' + ... = right by undetermined coefficients; None where the equation or the right-hand side differ.
 
     Either the coefficients are constants; or y = G u, G the gauge factor, has u'' = S u + right/G with a constant S, or with
-    S = s/(x - c)^2, which x = c + e^t turns into u_tt - u_t - s u = e^(2t) right/G.
+    S = s/(x - c)^2.
     """
     atoms = Atoms(x)
     S = equation.S
     b = equation.b / equation.a
     c = equation.c / equation.a
-    if all(rate.is_polynomial and rate.num.degree <= 0 for rate in (b, c)):
+    if _is_constant(b) and _is_constant(c):
         return undetermined(atoms.ratio(b).xreplace(NUMBERS), atoms.ratio(c).xreplace(NUMBERS), right, x)
     gauge = display(product(equation.gauge), atoms).xreplace(NUMBERS)
-    if S.is_polynomial and S.num.degree <= 0:
+    if _is_constant(S):
         found = undetermined(0, -atoms.ratio(S).xreplace(NUMBERS), right / gauge, x)
-        if found is not None or S:
-            return None if found is None else sympy.Add(*(gauge * term for term in sympy.Add.make_args(found)))
-    den = S.den if S else equation.gauge.den
+        if found is not None:
+            return _times(gauge, found)
+    den = S.den if S else equation.gauge.den  # any c does for s = 0: that of the gauge factor
+    return _with_a_double_pole(equation, den, gauge, right, x)
+
+
+def _is_constant(r: RatFunc) -> bool:
+    return r.is_polynomial and r.num.degree <= 0
+
+
+def _times(gauge: Expr, u: Expr) -> Expr:
+    """G u, term by term."""
+    return sympy.Add(*(gauge * term for term in sympy.Add.make_args(u)))
+
+
+def _with_a_double_pole(equation: Equation, den: Poly, gauge: Expr, right: Expr, x: Expr) -> Expr | None:
+    """G u with u'' = s/(x - c)^2 u + right/G, which x = c + e^t turns into u_tt - u_t - s u = e^(2t) right/G.
+
+    None where S isn't of this kind: c is the only zero of `den` if it has one.
+    """
     if den.degree == 0:
         return None
+    atoms = Atoms(x)
+    S = equation.S
     root = den[den.degree - 1] / (den.degree * den.lc)  # -c
-    s = S * S.field.poly([root, 1]) ** 2
-    if not s.is_polynomial or s.num.degree > 0:
+    line = S.field.poly([root, 1])
+    s = S * line**2
+    if not _is_constant(s):
         return None
     t = sympy.Dummy(real=True)
     u = x + atoms.constant(root).xreplace(NUMBERS)
-    gauge = gauge.xreplace({atoms.primitive(s.field.poly([root, 1]))[1]: u})
+    gauge = gauge.xreplace({atoms.primitive(line)[1]: u})
     inner = (right / gauge).subs(x, sympy.exp(t) - u + x)
     found = undetermined(-1, -atoms.ratio(s).xreplace(NUMBERS), sympy.exp(2 * t) * inner, t)
     if found is None:
         return None
-    return sympy.Add(*(gauge * term for term in sympy.Add.make_args(in_powers(found, t, u))))
+    return _times(gauge, in_powers(found, t, u))
 
 
 def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
@@ -162,39 +188,47 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
     denominators = equation.a.den * equation.b.den * equation.c.den * right.den
     a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, right))
     x = f.field.poly([0, 1])
-    height = max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
+    lowest = min(p.degree for p in (a, b, c) if p)
+    height = max(f.degree - lowest, 0) + 2
     powers: list[Any] = [x**k for k in range(height + 1)]
     slopes = [p.derivative() for p in powers]
     images = [a * q.derivative() + b * q + c * p for p, q in zip(powers, slopes, strict=True)]
     found = combination(f, images)
-    return None if found is None else sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
+    if found is None:
+        return None
+    return sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
 
 
 def _response(right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
     """A solution for a right-hand side with jumps and impulses.
 
-    `solved` gives one without them, with integrals from a point on.  Where the equation is singular at a step it begins
-    with any solution p: H(x - a) p is one on each side.
-    Raises `NotImplementedError` for an impulse there.
+    `solved` gives one without them, with integrals from a point on.
+    Raises `NotImplementedError` for an impulse at a singular point.
     """
+    total = [_step_response(step, basis, solved) for step in right.steps]
+    total += [_impulse_response(_strengths(right, a), basis, a) for a in dict.fromkeys(i.a for i in right.impulses)]
+    if right.plain != 0:
+        total.append(solved(right.plain, start))
+    return sympy.Add(*total)
+
+
+def _step_response(step: HeavisideTerm, basis: Basis, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
+    """By (2); where the equation is singular at the step with any solution p: H(x - a) p is one on each side."""
     x = basis.x
-    total = []
-    for step in right.steps:
-        is_singular = not have_values(basis.rates, x, step.a)
-        p = solved(step.g, None if is_singular else step.a)
-        response = p if is_singular else _from_rest(p, basis, values_at(p, x, step.a), step.a)
-        total.append(Heaviside(x - step.a) * response)
-    for a in dict.fromkeys(impulse.a for impulse in right.impulses):
-        strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
-        for impulse in right.impulses:
-            if impulse.a == a:
-                strengths[impulse.order] += impulse.strength
-        if not (have_values(basis.rates, x, a) and all(map(_has_value, strengths.values()))):
-            said = f"undecided: an impulse at {x} = {a}, a singular point of the equation"
-            raise NotImplementedError(f"{said}: there, solutions and their slopes have no values that could jump")
-        total.append(_impulse_response(strengths, basis, a))
-    rest = solved(right.plain, start) if right.plain != 0 else sympy.Integer(0)
-    return sympy.Add(rest, *total)
+    a = step.a
+    if not have_values(basis.rates, x, a):
+        return Heaviside(x - a) * solved(step.g, None)
+    p = solved(step.g, a)
+    return Heaviside(x - a) * _from_rest(p, basis, values_at(p, x, a), a)
+
+
+def _strengths(right: Apart, a: Expr) -> dict[int, Expr]:
+    """Those of the impulses at a point, by their orders."""
+    strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
+    for impulse in right.impulses:
+        if impulse.a == a:
+            strengths[impulse.order] += impulse.strength
+    return strengths
 
 
 def _has_value(e: Expr) -> bool:
@@ -215,19 +249,32 @@ def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Exp
 
 
 def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> Expr:
-    """A solution for sum of r_n delta^(n)(x - a): H(x - a) u + sum of d_j delta^(j)(x - a), by (3) from the highest n down."""
+    """A solution for sum of r_n delta^(n)(x - a): H(x - a) u + sum of d_j delta^(j)(x - a), by (3) from the highest n down.
+
+    Raises `NotImplementedError` where the equation, or the right-hand side, is singular.
+    """
     x = basis.x
-    rest = dict(strengths)
+    if not have_values(basis.rates, x, a) or not all(map(_has_value, strengths.values())):
+        said = f"undecided: an impulse at {x} = {a}, a singular point of the equation"
+        raise NotImplementedError(f"{said}: there, solutions and their slopes have no values that could jump")
     B, C = basis.rates
+    rest = defaultdict(lambda: sympy.Integer(0), strengths)
     singular = sympy.Integer(0)
     for order in range(max(rest), 1, -1):
         d = rest.pop(order, sympy.Integer(0))
         j = order - 2
         singular += d * DiracDelta(x - a, j)
-        for rate, n in ((B, j + 1), (C, j)):
-            for k in range(n + 1):
-                share = d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
-                rest[n - k] = rest.get(n - k, sympy.Integer(0)) - share
-    value = rest.get(1, sympy.Integer(0))
-    slope = rest.get(0, sympy.Integer(0)) - value_at(B, x, a) * value
+        for shares in (_at_impulse(B, d, j + 1, x, a), _at_impulse(C, d, j, x, a)):
+            for n, strength in shares.items():
+                rest[n] -= strength
+    value = rest[1]
+    slope = rest[0] - value_at(B, x, a) * value
     return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, (-tidy(value), -tidy(slope)), a) + singular
+
+
+def _at_impulse(rate: Expr, d: Expr, n: int, x: Expr, a: Expr) -> dict[int, Expr]:
+    """b d delta^(n), as at the head of this module: the strengths of delta^(n-k) by their orders."""
+    shares = {}
+    for k in range(n + 1):
+        shares[n - k] = d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
+    return shares

@@ -7,7 +7,7 @@ the user's symbols into an expression, and everything that is compared or evalua
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -90,12 +90,8 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
     reader = ConditionReader(read.function, read.equation.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    plain = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
-    meanings: dict[Expr, Expr] = {}
-    for name, meaning in read.letters:
-        whole = meaning.xreplace(plain)
-        symbols[name] = _letter(name, whole)
-        meanings[symbols[name]] = whole
+    meanings = _meanings(read.letters, symbols)
+    symbols |= {letter.name: letter for letter in meanings}
     return Question(
         equation=_with_steps(read.equation, sympy.Symbol(read.function.args[0].name)),
         given=read.equation,
@@ -109,6 +105,13 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
     )
 
 
+def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:
+    """What letters stand for, in the user's symbols."""
+    plain = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
+    wholes = {name: meaning.xreplace(plain) for name, meaning in letters}
+    return {_letter(name, whole): whole for name, whole in wholes.items()}
+
+
 #: y(0) = 1, y'(pi) = 0: what stands behind an equation in one text with it.
 _VALUE = re.compile(r"\w+['’′″]*\s*\([^=]*\)\s*=")
 #: The words that stand between an equation and its values.
@@ -120,33 +123,57 @@ _WORDS = re.compile(
 
 def _comma(found: re.Match[str]) -> str:
     """A comma for a word, or the end of a line, between an equation and its values."""
-    return ", " if found[0].strip(" ,") or "," in found[0] else found[0]
+    is_space = not found[0].strip(" ,")
+    if is_space and "," not in found[0]:
+        return found[0]
+    return ", "
 
 
 def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
     if not isinstance(eq, str):
         return eq, ics
-    whole = _WORDS.sub(_comma, without_spacing(unwrapped(eq).text))
-    equation, *parts = listed(whole.replace("$", " ") if whole.lstrip().startswith("$") else whole.replace(";", ","))
-    values = [value for part in parts if part.strip() for value in plain_values(part)]
-    are_values = [_VALUE.match(value) is not None for value in values]
-    if not any(are_values):
+    equation, values = _pieces(eq)
+    others = [value for value in values if _VALUE.match(value) is None]
+    if len(others) == len(values):
         return eq, ics
-    if not all(are_values):
-        wrong = values[are_values.index(False)]
+    if others:
         raise InputError(
-            f"{wrong} behind the equation isn't a value", hint="write y(0) = 1, y'(0) = 1/2 or 0.5, with commas between"
+            f"{others[0]} behind the equation isn't a value",
+            hint="write y(0) = 1, y'(0) = 1/2 or 0.5, with commas between",
         )
     if ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
     return equation, ", ".join(values)
 
 
+def _pieces(text: str) -> tuple[str, list[str]]:
+    """What stands before the first comma that separates, and behind each."""
+    whole = _WORDS.sub(_comma, without_spacing(unwrapped(text).text))
+    equation, *parts = listed(_with_commas(whole))
+    values: list[str] = []
+    for part in parts:
+        if part.strip():
+            values += plain_values(part)
+    return equation, values
+
+
+def _with_commas(text: str) -> str:
+    """Without the signs around a formula in LaTeX; elsewhere with commas for semicolons."""
+    if text.lstrip().startswith("$"):
+        return text.replace("$", " ")
+    return text.replace(";", ",")
+
+
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
     """Are floats in an equation, or among given values?"""
-    given = [eq, *values, *values.values()]
-    return any(isinstance(e, float) or (isinstance(e, sympy.Basic) and bool(e.atoms(sympy.Float))) for e in given)
+    return any(_has_float(given) for given in (eq, *values, *values.values()))
+
+
+def _has_float(given: Any) -> bool:
+    if isinstance(given, sympy.Basic):
+        return bool(given.atoms(sympy.Float))
+    return isinstance(given, float)
 
 
 @dataclass(frozen=True)
@@ -165,18 +192,27 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
     if isinstance(eq, Equation):
         return _Read(eq, applied or _function(name, eq.unknown, eq.variable))
-    unknown: Any = None if func is None else str(name)
     if isinstance(eq, str):
-        var = var if applied is None else str(applied.args[0])
-    elif not hasattr(eq, "free_symbols"):
+        return _read_text(eq, applied, name, var, limits)
+    if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
-    else:
-        applied = applied or _unknown_in(eq, name)
-        unknown = applied
-    parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True)
+    function = applied or _unknown_in(eq, name)
+    parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=function, equation=True)
+    assert parsed.equation is not None
+    return _Read(parsed.equation, function, parsed.letters)
+
+
+def _read_text(text: str, applied: Any, name: Any, var: str | None, limits: Limits) -> _Read:
+    """An equation as text; the unknown function may be given as y(x), or as y."""
+    if applied is not None:
+        var = str(applied.args[0])
+    unknown = None if name is None else str(name)
+    parsed = read_input(text, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True)
     equation = parsed.equation
     assert equation is not None
-    variable = equation.variable if equation.change is None else equation.change.variable
+    variable = equation.variable
+    if equation.change is not None:
+        variable = equation.change.variable
     return _Read(equation, applied or _function(name, equation.unknown, variable), parsed.letters)
 
 
@@ -211,11 +247,10 @@ def _only_function(eq: Expr) -> Expr:
 
 def _applied_in(eq: Any, func: Any) -> Expr:
     """y(x) in the equation, for the function y."""
-    found = sorted((f for f in eq.atoms(AppliedUndef) if f.func == func), key=str)
-    applied = next((f for f in found if f.args[0].is_Symbol), None)
-    if applied is None:
+    found = [f for f in eq.atoms(AppliedUndef) if f.func == func and f.args[0].is_Symbol]
+    if not found:
         raise InputError(f"{func} isn't a function in the equation")
-    return applied
+    return min(found, key=str)
 
 
 def _renamed(eq: Expr) -> dict[Expr, Expr]:
@@ -229,9 +264,17 @@ def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
 
 def _letter(name: str, meaning: Expr) -> Expr:
     """The symbol for a constant, with what is known of its sign; powers are principal ones, and taken for positive."""
-    is_power = (meaning.is_Pow or isinstance(meaning, sympy.exp)) and not meaning.as_base_exp()[0].is_negative
-    if meaning.is_positive or is_power:
+    if meaning.is_positive or _is_principal_power(meaning):
         return sympy.Symbol(name, positive=True)
     if meaning.is_negative:
         return sympy.Symbol(name, negative=True)
-    return sympy.Symbol(name, real=True if meaning.is_real else None)
+    if meaning.is_real:
+        return sympy.Symbol(name, real=True)
+    return sympy.Symbol(name)
+
+
+def _is_principal_power(meaning: Expr) -> bool:
+    """Is it a power, or an exponential, whose base isn't known to be negative?"""
+    if not meaning.is_Pow and not isinstance(meaning, sympy.exp):
+        return False
+    return not meaning.as_base_exp()[0].is_negative

@@ -33,18 +33,28 @@ def size(expression: Expr) -> int:
 
 def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     """The value of a function, of a series at 0, or of an integral from the point on."""
-    special = e.atoms(sympy.RootSum, sympy.hyper, sympy.Integral, *_ODD)
-    sums = {  # SymPy's substitution would compute rational ones exactly, without end
-        r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
-        for r in special
-        if isinstance(r, sympy.RootSum)
-    }
-    value = (e.xreplace(sums) if sums else e).subs(x, point)
-    if special:
-        value = value.xreplace({f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0})
-        value = value.xreplace({f: _ZERO for f in value.atoms(*_ODD) if f.args[-1] == 0})
-        empty = (i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:])
-        value = value.xreplace(dict.fromkeys(empty, _ZERO))
+    sums = e.atoms(sympy.RootSum)
+    if sums:
+        e = e.xreplace({r: _substituted_in_sum(r, x, point) for r in sums})
+    value = e.subs(x, point)
+    if value.has(sympy.hyper, sympy.Integral, *_ODD):
+        value = _at_zero(value)
     if not _OPEN.isdisjoint(value.atoms()):
         raise _SingularError
     return value
+
+
+def _substituted_in_sum(r: Expr, x: Expr, point: Expr) -> Expr:
+    """Beside the root alone: SymPy's substitution would compute rational sums exactly, without end."""
+    term = sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point))
+    return sympy.RootSum(r.poly, term, auto=False)
+
+
+def _at_zero(value: Expr) -> Expr:
+    """With the values of series and odd functions of 0, and of integrals over nothing, which SymPy leaves as they are."""
+    known = {f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0}
+    value = value.xreplace(known)
+    known = {f: _ZERO for f in value.atoms(*_ODD) if f.args[-1] == 0}
+    value = value.xreplace(known)
+    empty = [i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]]
+    return value.xreplace(dict.fromkeys(empty, _ZERO))

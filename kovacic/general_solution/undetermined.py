@@ -42,7 +42,8 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         Q = _solved(b, c, rate, frequency, P)
         if Q is None:
             return None
-        A, B = (sympy.Add(*(pair[part] * x**k for k, pair in Q.items())) for part in (0, 1))
+        A = sympy.Add(*(u * x**k for k, (u, _) in Q.items()))
+        B = sympy.Add(*(v * x**k for k, (_, v) in Q.items()))
         total.append(sympy.exp(rate * x) * _wave(A, B, frequency * x))
     return sympy.Add(*total)
 
@@ -81,7 +82,7 @@ class _ForcingTerm:
 
 def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
     """{(rho, omega): {k: the coefficient of x^k exp((rho + i omega) x)}}; a real part is meant."""
-    if any(p.base.has(x) and not (p.exp.is_Integer and p.exp > 0) for p in right.atoms(sympy.Pow)):
+    if not all(map(_is_natural, _exponents(right, x))):
         return None  # before it is expanded
     right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
     if right.has(sin, cos):
@@ -102,44 +103,65 @@ def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
     return result
 
 
+def _exponents(e: Expr, x: Expr) -> list[Expr]:
+    """Those of the powers of functions of x."""
+    return [power.exp for power in e.atoms(sympy.Pow) if power.base.has(x)]
+
+
+def _is_natural(exponent: Expr) -> bool:
+    return bool(exponent.is_Integer and exponent > 0)
+
+
 def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
     """A product of a constant, powers of x, exponentials and one wave."""
     constant, rest = summand.as_independent(x, as_Add=False)
+    factors = sympy.Mul.make_args(rest)
+    waves = [factor for factor in factors if factor.func in (sin, cos)]
+    if len(waves) > 1:
+        return None
     degree = 0
     rate = sympy.Integer(0)
-    wave = None
-    for factor in sympy.Mul.make_args(rest):
+    for factor in factors:
         base, exponent = factor.as_base_exp()
+        if factor in waves:
+            continue
         if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
             degree += int(exponent)
-        elif factor.func in (sin, cos) and wave is None:
-            wave = factor
-        else:
-            line = None if base.has(x) else _line(exponent, x)
-            if line is None:
-                return None
-            constant *= base ** line[0]
-            rate += line[1] * sympy.log(base)
-    if wave is None:
-        return _ForcingTerm(degree, rate, sympy.Integer(0), constant, sympy.Integer(0))
+            continue
+        line = _line(exponent, x)
+        if base.has(x) or line is None:
+            return None
+        constant *= base ** line[0]
+        rate += line[1] * sympy.log(base)
+    plain = _ForcingTerm(degree, rate, sympy.Integer(0), constant, sympy.Integer(0))
+    if not waves:
+        return plain
+    return _times_wave(plain, waves[0], x)
+
+
+def _times_wave(term: _ForcingTerm, wave: Expr, x: Expr) -> _ForcingTerm | None:
+    """A term without a frequency times cos(phase + frequency x), or sin, as the real part of one with a frequency."""
     line = _line(wave.args[0], x)
     if line is None:
         return None
     phase, frequency = line
-    u = constant * cos(phase)
-    v = constant * sin(phase)
-    if wave.func is sin:
-        u, v = v, -u
+    real = term.u * cos(phase)
+    imaginary = term.u * sin(phase)
+    if wave.func is sin:  # the same, an angle of pi/2 before
+        real = term.u * sin(phase)
+        imaginary = -term.u * cos(phase)
     if frequency.could_extract_minus_sign():
-        return _ForcingTerm(degree, rate, -frequency, u, -v)
-    return _ForcingTerm(degree, rate, frequency, u, v)
+        return _ForcingTerm(term.degree, term.rate, -frequency, real, -imaginary)
+    return _ForcingTerm(term.degree, term.rate, frequency, real, imaginary)
 
 
 def _line(expression: Expr, x: Expr) -> Pair | None:
     """(d, e) for d + e x, None for another expression."""
     rest, linear = sympy.expand(expression).as_independent(x, as_Add=True)
     slope = sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
-    return None if slope.has(x) else (rest, slope)
+    if slope.has(x):
+        return None
+    return rest, slope
 
 
 def _solved(b: Expr, c: Expr, rate: Expr, frequency: Expr, P: dict[int, Pair]) -> dict[int, Pair] | None:
@@ -180,4 +202,6 @@ def _constant(value: Expr) -> Expr:
     if value.is_Rational:
         return value
     value = sympy.radsimp(sympy.cancel(sympy.expand(value)))
-    return sympy.Integer(0) if value.is_number and value.equals(0) else value
+    if value.is_number and value.equals(0):
+        return sympy.Integer(0)
+    return value

@@ -36,8 +36,7 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     e = sympy.sympify(expression, strict=True)
     if not e.has_free(x):
         return _ZERO if order else e
-    if jumps := e.atoms(sympy.Heaviside, sympy.DiracDelta):
-        e = e.xreplace({jump: _ZERO for jump in jumps if jump.args[0].subs(x, point) == 0})
+    e = _before_jumps(e, x, point)
     if order:
         e = e.diff(x)
     value = finite_value(e, x, point)
@@ -47,6 +46,14 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
         said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
         raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
     return value
+
+
+def _before_jumps(e: Expr, x: Expr, point: Expr) -> Expr:
+    """With 0 for steps and impulses at the point."""
+    jumps = e.atoms(sympy.Heaviside, sympy.DiracDelta)
+    if not jumps:
+        return e
+    return e.xreplace({jump: _ZERO for jump in jumps if jump.args[0].subs(x, point) == 0})
 
 
 def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
@@ -71,11 +78,20 @@ def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     """
     limits = []
     for direction in (1, -1):
-        try:
-            large, constant, _ = behaviour(expression, x, Approach(point, direction)).parts
-        except (UnknownBehaviour, NotImplementedError):
+        limit = _limit_from(expression, x, Approach(point, direction))
+        if limit is None:
             return None
-        if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in large.values()):
-            return None
-        limits.append(constant)
-    return limits[0] if agree(*limits) else None
+        limits.append(limit)
+    right, left = limits
+    return right if agree(right, left) else None
+
+
+def _limit_from(expression: Expr, x: Expr, place: Approach) -> Expr | None:
+    """The limit from one side; None without, or where it isn't known."""
+    try:
+        large, constant, _ = behaviour(expression, x, place).parts
+    except (UnknownBehaviour, NotImplementedError):
+        return None
+    if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in large.values()):
+        return None
+    return constant
