@@ -40,8 +40,10 @@ class Approach:
         return self.point in (sympy.oo, -sympy.oo)
 
     def in_terms_of(self, t: Expr) -> Expr:
-        if self.is_infinite:
-            return (1 if self.point == sympy.oo else -1) / t
+        if self.point == sympy.oo:
+            return 1 / t
+        if self.point == -sympy.oo:
+            return -1 / t
         return self.point + self.direction * t
 
 
@@ -127,10 +129,11 @@ class _Expander:
         if plain is not None:
             return self(plain)
         inner = self._argument(e)
+        found = None
         if not self._is_singular(e, inner):
             found = inner.taylor(lambda z: _with_argument(e, z), self.depth)
-            if found is not None:
-                return found
+        if found is not None:
+            return found
         if isinstance(e, sympy.sin | sympy.cos):
             return self(e.rewrite(exp))
         return self._by_rule(e, inner)
@@ -138,13 +141,17 @@ class _Expander:
     def _is_singular(self, e: Expr, inner: Expansion) -> bool:
         """Is the argument at a singular point of the function, where SymPy has a name for the value?"""
         constant = inner.terms.get(CONSTANT, _ZERO)
-        return (constant == 0 and e.func in _AT_ZERO) or (constant == 1 and e.func in _AT_ONE)
+        if constant == 0:
+            return e.func in _AT_ZERO
+        return constant == 1 and e.func in _AT_ONE
 
     def _argument(self, e: Expr) -> Expansion:
         """That of the last argument, the only one in which t occurs."""
         *parameters, last = e.args
-        if any(p.free_symbols & self.variables for p in parameters) or isinstance(e, sympy.Integral | sympy.RootSum):
-            raise UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
+        if isinstance(e, sympy.Integral | sympy.RootSum):
+            raise _unknown(e)
+        if any(p.free_symbols & self.variables for p in parameters):
+            raise _unknown(e)
         return self(last)
 
     def _by_rule(self, e: Expr, inner: Expansion) -> Expansion:
@@ -230,15 +237,16 @@ def _second_kind(sign: int) -> Rule:
     def rule(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
         nu = parameters[0]
         if not nu.is_integer:
-            plus, minus = (_bessel_series(e, z, n, sign) for e in (nu, -nu))
+            plus = _bessel_series(nu, z, n, sign)
+            minus = _bessel_series(-nu, z, n, sign)
             wave = sympy.sin(sympy.expand(nu * pi))
             errors = [z ** (2 * n + nu), z ** (2 * n - nu)]
             if sign < 0:
                 return (sympy.cos(sympy.expand(nu * pi)) * plus - minus) / wave, errors
             return pi / 2 * (minus - plus) / wave, errors
         if not nu.is_Integer or nu < 0:
-            first = (z / 2) ** (-nu) * gamma(nu)
-            return first / (2 if sign > 0 else -pi), [z ** (2 - nu), z**nu * log(z)]
+            factor = 2 if sign > 0 else -pi
+            return (z / 2) ** (-nu) * gamma(nu) / factor, [z ** (2 - nu), z**nu * log(z)]
         return _second_kind_of_integer(int(nu), z, n, sign)
 
     return rule
@@ -280,7 +288,8 @@ def _hyper_at_one(parameters: Sequence[Any], w: Expr, n: int) -> tuple[Expr, lis
     top, bottom = parameters
     if len(top) != 2 or len(bottom) != 1:
         raise UnknownBehaviour("how a generalized hypergeometric function behaves at 1 isn't known")
-    (a, b), (c,) = top, bottom
+    a, b = top
+    (c,) = bottom
     s = sympy.expand(c - a - b)
     for N, other in ((-a, b), (-b, a)):
         if N.is_integer and N.is_nonnegative:  # a polynomial, DLMF 15.8.7
@@ -366,7 +375,7 @@ def _airy(sign: int) -> Rule:
         terms = []
         for k in range(n):
             u = sympy.Mul(*(2 * j + 1 for j in range(k, 3 * k))) / (sympy.Integer(216) ** k * factorial(k))
-            terms.append((sign * 1) ** k * u / zeta**k)
+            terms.append(sign**k * u / zeta**k)
         before = exp(sign * zeta) * z ** Rational(-1, 4) / sqrt(pi)
         scale = _ONE if sign > 0 else Rational(1, 2)
         return scale * before * sympy.Add(*terms), [exp(sign * zeta) * z ** (Rational(-1, 4) - Rational(3, 2) * n)]
@@ -409,8 +418,8 @@ def _tricomi(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Exp
         raise UnknownBehaviour("how the hypergeometric function behaves at infinity isn't known")
     a, b = top
     c = sympy.expand(a - b + 1)
-    if c.is_Integer and c <= 0:
-        a, b, c = b, a, 2 - c  # the function is symmetric in a and b
+    if c.is_Integer and c <= 0:  # the function is symmetric in a and b
+        return _tricomi(((b, a), ()), z, n)
     w = 1 / z
     if not c.is_integer:
         first, _ = _hyper_series(((a,), (c,)), w, n)
@@ -419,7 +428,11 @@ def _tricomi(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Exp
         return w**a * main, [w ** (a + n), w ** (a + 1 - c + n)]
     if not c.is_Integer:
         raise UnknownBehaviour(f"whether {c} is positive isn't known")
-    m = int(c) - 1
+    return _tricomi_of_integer(a, int(c) - 1, w, n)
+
+
+def _tricomi_of_integer(a: Expr, m: int, w: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    """w^a U(a, m + 1, w) for m = 0, 1, 2, ...; DLMF 13.2.9."""
     terms = []
     for k in range(n):
         shift = polygamma(0, a + k) - polygamma(0, k + 1) - polygamma(0, m + k + 1)
@@ -438,11 +451,17 @@ def _tricomi_on_the_cut(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Exp
 
 
 def _hyper_at_infinity(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
-    return (_confluent_at_infinity if parameters[1] else _tricomi_on_the_cut)(parameters, z, n)
+    """1F1, or 2F0 where there is no parameter below."""
+    if parameters[1]:
+        return _confluent_at_infinity(parameters, z, n)
+    return _tricomi_on_the_cut(parameters, z, n)
 
 
 def _hyper_at_minus_infinity(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
-    return (_confluent_at_minus_infinity if parameters[1] else _tricomi)(parameters, z, n)
+    """1F1, or 2F0 where there is no parameter below."""
+    if parameters[1]:
+        return _confluent_at_minus_infinity(parameters, z, n)
+    return _tricomi(parameters, z, n)
 
 
 def _one_and_one(top: Any, bottom: Any) -> tuple[Any, Any]:
@@ -501,7 +520,9 @@ def _exponential_integral_at_infinity(sign: int) -> Rule:
     def rule(_: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
         main = exp(sign * z) * sympy.Add(*(factorial(k) / (sign * z) ** (k + 1) for k in range(n)))
         errors = [exp(sign * z) * z ** (-n - 1)]
-        return main, [*errors, _ONE] if sign > 0 else errors
+        if sign > 0:  # beside what grows, a constant
+            errors.append(_ONE)
+        return main, errors
 
     return rule
 

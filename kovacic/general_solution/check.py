@@ -25,7 +25,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import JUMPING, break_points, in_steps, on_piece, taken_apart
+from kovacic.general_solution.steps import JUMPING, Apart, break_points, in_steps, on_piece, taken_apart
 from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import ball, sample_value, samples
 from kovacic.reading.change_of_variable import function_of_x
@@ -67,9 +67,8 @@ def check_answer(
         unchecked.append(f"the answer wasn't put into the equation, numerically: {_said(reason)}")
     if is_wrong:
         raise _failed(question, value, "doesn't satisfy the equation")
-    for condition in question.conditions:
-        if set(condition.points) & set(limits):
-            continue
+    on_values = [condition for condition in question.conditions if set(condition.points).isdisjoint(limits)]
+    for condition in on_values:
         try:
             is_violated = _is_violated(question, value, condition, numbers)
         except _NOT_EVALUATED as reason:
@@ -86,17 +85,26 @@ def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
     """
     known = {*question.symbols.values(), *value.free_symbols, *_symbols_of(question.conditions)}
-    symbols = sorted((s for s in known if s.is_integer or s.is_negative or s.is_nonpositive), key=str)
-    first: dict[Expr, Expr] = {}
+    symbols = sorted(filter(_has_a_kind, known), key=str)
+    candidates = [*_candidates(symbols, natural)]
+    for numbers in candidates:
+        if is_finite(value.xreplace(numbers)):
+            return numbers
+    return next(iter(candidates), {})
+
+
+def _has_a_kind(symbol: Expr) -> bool:
+    """Is it an integer, or not positive?"""
+    return bool(symbol.is_integer or symbol.is_negative or symbol.is_nonpositive)
+
+
+def _candidates(symbols: list[Expr], natural: Expr | None) -> Iterator[dict[Expr, Expr]]:
+    """Values of the symbols in either order, at which the integer `natural` isn't negative."""
     for k in range(1, 1 + _SAMPLES):
         for ordered in (symbols, symbols[::-1]):
             numbers = {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
-            if natural is not None and natural.xreplace(numbers).is_negative:
-                continue
-            first = first or numbers
-            if is_finite(value.xreplace(numbers)):
-                return numbers
-    return first
+            if natural is None or not natural.xreplace(numbers).is_negative:
+                yield numbers
 
 
 def _symbols_of(conditions: Sequence[Condition]) -> Iterator[Expr]:
@@ -115,7 +123,9 @@ def _at_numbers(question: Question, numbers: dict[Expr, Expr]) -> Question:
 
 def _said(reason: Exception) -> str:
     """Why a value isn't known; the messages of other errors than ours are no help."""
-    return str(reason) if isinstance(reason, NotImplementedError) else "a part of it can't be evaluated"
+    if isinstance(reason, NotImplementedError):
+        return str(reason)
+    return "a part of it can't be evaluated"
 
 
 def is_finite(value: Expr) -> bool:
@@ -135,12 +145,13 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
     definite = [integral for integral in _outer_integrals(value) if not integral.has_free(x)]
     value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
     h = question.given.h
-    if h is not None and (h.has(*JUMPING) or h.has(AppliedUndef)):
+    if h is not None and h.has(*JUMPING, AppliedUndef):
         return _is_wrong_in_pieces(question, value)
-    middle = None if start is None else ball(start)
-    base = middle
-    if base is None:
-        base = acb(fmpq(23, 71), fmpq(41, 89) if start is None else fmpq(0))
+    base = acb(fmpq(23, 71), fmpq(41, 89))
+    if start is not None:
+        base = ball(start)
+        if base is None:
+            base = acb(fmpq(23, 71), fmpq(0))
     with ctx.workdps(DIGITS):
         return _residual_is_large(question, value, base + arb(_STEP))
 
@@ -198,7 +209,8 @@ def _in_pieces(question: Question, value: Expr) -> _Pieces:
     whole = [value, *(question.own(part) for part in _coefficients(question))]
     symbols = set().union(*(e.free_symbols for e in whole)) - {x}
     sample = next(islice(samples(symbols), 1, None))
-    functions = sorted({f.func for e in whole for f in e.atoms(AppliedUndef)}, key=str)
+    given = set().union(*(e.atoms(AppliedUndef) for e in whole))
+    functions = sorted({f.func for f in given}, key=str)
     y, a, b, c, f = (_concrete(e.xreplace(sample), functions) for e in whole)
     places = [*break_points(y, x), *break_points(f, x)]
     real = [point for point in places if point.is_number and point.is_real]
@@ -224,15 +236,23 @@ def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
             return e.function.subs(s, start) * (x - start)
         return sympy.Integral(e.function.subs(s, x), x)
 
-    is_up_to_x = lambda e: isinstance(e, sympy.Integral) and len(e.limits[0]) == 3 and e.limits[0][-1] == x  # noqa: E731
-    return value.replace(is_up_to_x, other)
+    return value.replace(lambda e: _is_up_to(e, x), other)
+
+
+def _is_up_to(e: Expr, x: Expr) -> bool:
+    """Is it an integral from a point to x?"""
+    if not isinstance(e, sympy.Integral):
+        return False
+    return len(e.limits[0]) == 3 and e.limits[0][-1] == x
 
 
 def _concrete(e: Expr, functions: Sequence[Any]) -> Expr:
     """With an exponential function for each function that is given by its name."""
+    if not functions:
+        return e
     for k, function in enumerate(functions):
         e = e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
-    return e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit()) if functions else e
+    return e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit())
 
 
 def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, point: Expr) -> bool:
@@ -242,16 +262,20 @@ def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, 
     if apart is None or any(impulse.order > 1 for impulse in apart.impulses):
         return False
     at = ball(point)
-    here = [impulse for impulse in apart.impulses if impulse.a == point]
-    strengths = [sympy.Add(*(impulse.strength for impulse in here if impulse.order == n)) for n in (0, 1)]
+    zero, first = (jet(_strength(apart, point, order), x, at)[0] for order in (0, 1))
+    if any(impulse.a == point for impulse in apart.impulses):
+        zero -= jet(B, x, at)[0] * first
     before = jet(left, x, at)
     after = jet(right, x, at)
-    zero, first = (jet(strength, x, at)[0] for strength in strengths)
-    if here:
-        zero -= jet(B, x, at)[0] * first
-    wanted = (first, zero)
     scale = abs(before[0]) + abs(before[1]) + abs(after[0]) + abs(after[1]) + 1
-    return any(bool(abs(after[n] - before[n] - wanted[n]) > _SMALL * scale) for n in (0, 1))
+    misses = (after[0] - before[0] - first, after[1] - before[1] - zero)
+    return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
+
+
+def _strength(apart: Apart, point: Expr, order: int) -> Expr:
+    """That of all impulses of an order at a point."""
+    here = [impulse for impulse in apart.impulses if impulse.a == point]
+    return sympy.Add(*(impulse.strength for impulse in here if impulse.order == order))
 
 
 def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
@@ -259,7 +283,8 @@ def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
     x = question.x
     if equation.change is None and equation.a.field == QQ:
         a, b, c, f = (value_of_fraction(part, point) for part in (equation.a, equation.b, equation.c, equation.f))
-        f += 0 if equation.h is None else jet(equation.h, x, point)[0]
+        if equation.h is not None:
+            f += jet(equation.h, x, point)[0]
     else:
         parts = [question.own(part) for part in _coefficients(question)]
         a, b, c, f = (jet(part, x, point)[0] for part in parts)
@@ -287,11 +312,12 @@ def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
     h = sympy.sympify(equation.h or 0).xreplace(plain)
     if equation.change is None:
         return a, b, c, f + h
+    # y_t = y'/t' and y_tt = y''/t'^2 - t'' y'/t'^3.
     value = function_of_x(equation)
     slope = value.diff(question.x)
-    a, b, c, f = (part.subs(t, value) for part in (a, b, c, f))
-    a, b = a / slope**2, b / slope - a * slope.diff(question.x) / slope**3
-    return a, b, c, f + a * h
+    of_second, of_first, of_y, right = (part.subs(t, value) for part in (a, b, c, f))
+    in_x = of_second / slope**2
+    return in_x, of_first / slope - in_x * slope.diff(question.x) / slope, of_y, right + in_x * h
 
 
 def _is_violated(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
@@ -301,12 +327,10 @@ def _is_violated(question: Question, value: Expr, condition: Condition, numbers:
     for term in condition.terms:
         total += term.coefficient * value_at(value, question.x, term.point, term.order)
     total = total.xreplace(numbers)
-    integrals = sorted(
-        (e for e in total.atoms(sympy.Integral) if e.limits[0][1:]), key=str
-    )  # numbers that aren't known
-    total = total.xreplace({e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(integrals)})
+    unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
+    letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
     with ctx.workdps(2 * DIGITS):
-        found = jet(total, sympy.Dummy(), acb(0))[0]
+        found = jet(total.xreplace(letters), sympy.Dummy(), acb(0))[0]
         if not found.is_finite():
             raise NotImplementedError("a value isn't finite")
         return bool(abs(found) > _SMALL)

@@ -14,7 +14,7 @@ The steps, each in a module of this package:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import Any
@@ -190,7 +190,8 @@ def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) ->
         return None
     with suppress(NotImplementedError, InputError):
         other, _ = _answered(eq, func, special=True, **given)
-        return other if len(as_text(other.rhs)) < length / 2 else None
+        if len(as_text(other.rhs)) < length / 2:
+            return other
     return None
 
 
@@ -241,34 +242,51 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     """The steps of the head of this module, after the first."""
     notices = []
     found = find_basis(question, budget, special=special)
-    basis = found.basis
     solution = found.solution
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
-    if not question.conditions:
-        particular = particular_solution(basis, None, budget)
-        constants = free_constants(question, basis, particular)
-        value = combination(question, basis, particular, constants)
-        notices += _by_sign(question, found, particular, constants)
-        notices += check_answer(question, value, natural=found.natural)
-        return written(question, value), notices
+    if question.conditions:
+        value, others = _determined(question, found, budget)
+    else:
+        value, others = _general(question, found, budget)
+    return written(question, value), notices + others
+
+
+def _general(question: Question, found: DecidedBasis, budget: Budget) -> tuple[Expr, list[str]]:
+    """C1 y1 + C2 y2 + y0, checked, and what is to be said beside."""
+    basis = found.basis
+    particular = particular_solution(basis, None, budget)
+    constants = free_constants(question, basis, particular)
+    value = combination(question, basis, particular, constants)
+    notices = _by_sign(question, found, particular, constants)
+    return value, notices + check_answer(question, value, natural=found.natural)
+
+
+def _determined(question: Question, found: DecidedBasis, budget: Budget) -> tuple[Expr, list[str]]:
+    """The same with the constants that the conditions determine.  Raises `InputError` where they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
-    basis = real_basis_at(question, basis, solution, start)
+    basis = real_basis_at(question, found.basis, found.solution, start)
     particular = real_particular_at(question, basis, particular_solution(basis, start, budget), start)
     names = free_constants(question, basis, particular)
     generic, others = constants_of(question, basis, particular, names, limits)
     exceptions = [_said(question, basis, particular, case) for case in others if can_be(case)]
     if generic.outcome is Outcome.NONE:
-        unless = f", unless {'; or '.join(exceptions)}" if exceptions else ""
-        singular = " and ".join(str(point) for point, place in limits.items() if not place.is_infinite)
-        at = f" ({singular} is a singular point of the equation)" if singular else ""
-        raise InputError(f"there is no solution with these values: the conditions contradict one another{at}{unless}")
+        raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
     value = combination(question, basis, particular, generic.values)
-    notices += _by_sign(question, found, particular, None)
+    notices = _by_sign(question, found, particular, None)
     notices += check_answer(question, value, start, tuple(limits), natural=found.natural)
-    notices += [f"this holds unless {said}" for said in exceptions]
-    return written(question, value), notices
+    return value, notices + [f"this holds unless {said}" for said in exceptions]
+
+
+def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:
+    """No solution: the singular points among those of the conditions, and the particular cases in which there is one."""
+    said = "there is no solution with these values: the conditions contradict one another"
+    if singular:
+        said += f" ({' and '.join(map(str, singular))} is a singular point of the equation)"
+    if exceptions:
+        said += f", unless {'; or '.join(exceptions)}"
+    return InputError(said)
 
 
 def _by_sign(question: Question, found: DecidedBasis, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
@@ -290,5 +308,7 @@ def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCas
     if case.outcome is Outcome.OPEN:
         return f"{where}: give such values for the solutions there"
     found = written(question, combination(question, basis, particular, case.values))
-    only = f"there is a solution only if {' and '.join(map(condition_of, case.needed))}: " if case.needed else ""
-    return f"{where}, where {only}{found.lhs} = {found.rhs}"
+    if not case.needed:
+        return f"{where}, where {found.lhs} = {found.rhs}"
+    needed = " and ".join(map(condition_of, case.needed))
+    return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"

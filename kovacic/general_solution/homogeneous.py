@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges, solutions
@@ -29,6 +30,8 @@ from kovacic.special.search import BySign, by_sign, special_functions
 
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]
+#: How many sets of values of parameters are said.
+_MOST_REGIONS = 6
 
 
 class NothingKnown(NotImplementedError):
@@ -103,8 +106,8 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     """
     how: dict[str, Any] = {"symbols": question.parameters, "joined": True}
     found: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
-    is_asked = not question.conditions or bool(limit_points(question))
-    if not found or (is_asked and question.equation.is_homogeneous):
+    is_asked = _are_names_asked_for(question)
+    if not found or is_asked:
         halves = by_sign(solution.S, solution.gauge, solution.variable, budget, **how)
         if halves is not None:
             return halves
@@ -120,18 +123,33 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     return y1, y2
 
 
+def _are_names_asked_for(question: Question) -> bool:
+    """Are names of functions, or their behaviour, asked for, and no particular solution?"""
+    is_asked = not question.conditions or bool(limit_points(question))
+    return is_asked and question.equation.is_homogeneous
+
+
 def _joined(solution: Solution, form: KleinForm, budget: Budget) -> Pair | None:
     """Other solutions in case 3, where J is 1 or infinite at real points that aren't singular: functions of J jump there."""
     S = solution.S
     places = form.J.den * (form.J.num - form.J.den)
     while (common := places.gcd(S.den)).degree > 0:
         places //= common
-    if places.degree == 0 or (S.field == QQ and not Atoms(sympy.Symbol("x")).poly(places).as_poly().count_roots()):
+    if not _may_be_zero(places):
         return None
     pair = special_functions(S, solution.gauge, solution.variable, budget)
     if pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
         return pair.y1, pair.y2
     return at_edges(form, S, solution.gauge, solution.variable)
+
+
+def _may_be_zero(polynomial: Poly) -> bool:
+    """Has it zeros, which over Q must be real ones?"""
+    if polynomial.degree == 0:
+        return False
+    if polynomial.field != QQ:
+        return True
+    return bool(Atoms(sympy.Symbol("x")).poly(polynomial).as_poly().count_roots())
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
@@ -149,9 +167,18 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
         found = conditions_of(Parsed(solution.S, solution.variable), known, None, solution.limits)
     except LimitExceeded:
         return said
+    return said + _for_particular_values(found)
+
+
+def _for_particular_values(found: Any) -> str:
+    """The values of parameters for which there is a solution, the first of them; or that there are none."""
+    is_complete = found.complete is True
     regions = [region for region in found.regions if region.case is not None and region.defined]
-    if not regions:
-        return said + (f"; nor is there for any others ({found.theory})" if found.complete is True else "")
-    listed = "; ".join(f"{region.statement} (case {region.case})" for region in regions[:6])
-    more = "; ..." if len(regions) > 6 or found.complete is not True else ""
-    return f"{said}\nthere is one where {listed}{more}: give such values"
+    if regions:
+        listed = [f"{region.statement} (case {region.case})" for region in regions[:_MOST_REGIONS]]
+        if not is_complete or len(regions) > _MOST_REGIONS:
+            listed.append("...")
+        return f"\nthere is one where {'; '.join(listed)}: give such values"
+    if is_complete:
+        return f"; nor is there for any others ({found.theory})"
+    return ""

@@ -111,7 +111,8 @@ def solve_riccati(
     solution = solve(linear, limits=limits)
     group = solution.group
     if solution.case is None:
-        return RiccatiSolutions((), None, None, None if group is None else False, solution)
+        are_all = None if group is None else False
+        return RiccatiSolutions((), None, None, are_all, solution)
     all_algebraic = None if group is None else group.finite
     atoms = Atoms(sympy.Symbol(solution.variable))
     gauge = atoms.ratio(linear.gauge)
@@ -163,7 +164,9 @@ def _polynomial(solution: Solution, gauge: Any, factor: Any, atoms: Atoms) -> An
     coefficients = solution.riccati.coefficients
     value = sum(atoms.ratio(c) * omega**k for k, c in enumerate(coefficients))
     degrees = sum(c.num.degree + c.den.degree for c in coefficients)
-    return _cleared(value, w) if degrees < _LONG_POLYNOMIAL else _cleared_apart(value, w)
+    if degrees < _LONG_POLYNOMIAL:
+        return _cleared(value, w)
+    return _cleared_apart(value, w)
 
 
 def _cleared(value: Any, w: Any) -> Any:

@@ -80,7 +80,9 @@ def read_riccati(eq: Any, func: Any, var: str | None, limits: Limits) -> Riccati
         eq = expression_of(source_of(eq, var, limits, equation=True), limits)
     if not isinstance(eq, sympy.Basic):
         return None
-    whole = exact(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
+    if isinstance(eq, sympy.Equality):
+        eq = eq.lhs - eq.rhs
+    whole = exact(eq)
     function = func if isinstance(func, AppliedUndef) else function_of(whole)
     if len(function.args) != 1 or not function.args[0].is_Symbol:
         return None
@@ -119,31 +121,39 @@ def solved(
     is_inverted = _is_inverted(equation, value)
     solved_for = equation.reciprocal if is_inverted else equation
     linear, u = solved_for.linear
-    is_regular = value is not None and _is_unit(solved_for.r, equation.x, value[0])
-    ics = _start(equation, u, *value, is_inverted=is_inverted) if value is not None and is_regular else {}
-    found, notices = linear_solution(linear, u, ics=ics)
-    constants: dict[Expr, Expr] = {}
-    if not is_regular:  # others may be symbols of r, and of the value
-        symbols = sorted(found.rhs.free_symbols - linear.free_symbols, key=str)
-        constants = {symbol: sympy.Dummy() for symbol in symbols}
-    solution = found.rhs.xreplace(constants)
-    c1c2 = tuple(constants.values())
-    if value is not None and not is_regular:
-        solution = _through(solution, c1c2, equation, *value)
-    rate = _rate_of(solution, c1c2, equation.x)
-    z = sympy.Add(*(_with_sign_before(-term / solved_for.r) for term in sympy.Add.make_args(rate)))
-    w = 1 / z if is_inverted else z
-    w = _in_short(w.xreplace(dict.fromkeys(c1c2, _name_of_constant(equation))), equation.x)
+    if value is not None and _is_unit(solved_for.r, equation.x, value[0]):
+        found, notices = linear_solution(linear, u, ics=_start(equation, u, *value, is_inverted=is_inverted))
+        solution = found.rhs
+        constants: tuple[Expr, ...] = ()
+    else:
+        found, notices = linear_solution(linear, u, ics={})
+        solution, constants = _with_own_constants(found.rhs, linear)
+        if value is not None:
+            solution = _through(solution, constants, equation, *value)
+    rate = _rate_of(solution, constants, equation.x)
+    w = sympy.Add(*(_with_sign_before(-term / solved_for.r) for term in sympy.Add.make_args(rate)))
+    if is_inverted:
+        w = 1 / w
+    w = _in_short(w.xreplace(dict.fromkeys(constants, _name_of_constant(equation))), equation.x)
     unchecked = _check(equation, w, conditions)
     return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
 
 
+def _with_own_constants(solution: Expr, linear: Expr) -> tuple[Expr, tuple[Expr, ...]]:
+    """With letters of their own for C1 and C2, which may be symbols of r, or of the value, too."""
+    symbols = sorted(solution.free_symbols - linear.free_symbols, key=str)
+    letters = {symbol: sympy.Dummy() for symbol in symbols}
+    return solution.xreplace(letters), tuple(letters.values())
+
+
 def _is_inverted(equation: RiccatiEquation, value: tuple[Expr, Expr] | None) -> bool:
     """Is it the linear equation for 1/w, (1), that is solved?  Where only that is regular, or has the simpler coefficients."""
+    x = equation.x
     if value is None:
-        return equation.p != 0 and not equation.p.has(equation.x) and equation.r.has(equation.x)
+        is_constant = equation.p != 0 and not equation.p.has(x)
+        return is_constant and equation.r.has(x)
     point, _ = value
-    return not _is_unit(equation.r, equation.x, point) and _is_unit(equation.p, equation.x, point)
+    return not _is_unit(equation.r, x, point) and _is_unit(equation.p, x, point)
 
 
 def _is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
@@ -180,7 +190,8 @@ def _value_of(conditions: Sequence[Condition]) -> tuple[Expr, Expr] | None:
     if not conditions:
         return None
     condition = conditions[0]
-    if len(conditions) > 1 or not condition.is_value or condition.terms[0].order:
+    is_one = len(conditions) == 1 and condition.is_value
+    if not is_one or condition.terms[0].order:
         raise InputError("a Riccati equation has one value, at one point", hint='write "w(0)=1"')
     assert condition.value is not None
     if condition.points[0] in (sympy.oo, -sympy.oo):
@@ -225,28 +236,32 @@ def _rate(factor: Expr, x: Expr) -> Expr:
     if isinstance(factor, sympy.cos):
         return -factor.args[0].diff(x) * sympy.tan(factor.args[0])
     rate = factor.diff(x) / factor
-    return sympy.cancel(rate) if rate.is_rational_function(x) else sympy.powsimp(sympy.factor_terms(rate))
+    if rate.is_rational_function(x):
+        return sympy.cancel(rate)
+    return sympy.powsimp(sympy.factor_terms(rate))
 
 
 def _with_sign_before(e: Expr) -> Expr:
     """-(-a - b)/c as (a + b)/c: the sign of a sum with more negative terms than others stands before the product."""
-    factors = []
-    sign = 1
-    for factor in sympy.Mul.make_args(e):
-        terms = sympy.Add.make_args(factor)
-        negative = sum(term.could_extract_minus_sign() for term in terms)
-        if factor.is_Add and 2 * negative > len(terms):
-            factor = -factor
-            sign = -sign
-        factors.append(factor)
-    return sympy.Mul(sign, *factors)
+    factors = sympy.Mul.make_args(e)
+    turned = [-factor if _is_mostly_negative(factor) else factor for factor in factors]
+    sign = (-1) ** sum(map(_is_mostly_negative, factors))
+    return sympy.Mul(sign, *turned)
+
+
+def _is_mostly_negative(factor: Expr) -> bool:
+    """Is it a sum with more negative terms than others?"""
+    if not factor.is_Add:
+        return False
+    negative = [term for term in factor.args if term.could_extract_minus_sign()]
+    return 2 * len(negative) > len(factor.args)
 
 
 def _check(equation: RiccatiEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
     """What couldn't be checked, in a sentence each.  Raises `VerificationFailed` where w is seen not to be a solution."""
     value = _value_of(conditions)
     known = [w, equation.p, equation.q, equation.r, *(value or ())]
-    symbols = {s for e in known for s in e.free_symbols} - {equation.x}
+    symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
     unchecked = []
     with ctx.workdps(2 * DIGITS):
@@ -277,10 +292,15 @@ def _is_missed(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], poi
     if left is None or right is None or not left.is_finite():
         return None
     is_missed = bool(abs(left - right) > _SMALL)
-    coefficients = (equation.p, equation.q, equation.r)
-    if is_missed and not all(is_finite(e.subs(equation.x, point)) for e in coefficients):
+    if is_missed and not _is_regular(equation, point):
         raise InputError(f"there is no solution with this value at {point}, a singular point of the equation")
     return is_missed
+
+
+def _is_regular(equation: RiccatiEquation, point: Expr) -> bool:
+    """Are the coefficients finite at the point?"""
+    values = [e.subs(equation.x, point) for e in (equation.p, equation.q, equation.r)]
+    return all(map(is_finite, values))
 
 
 def _is_wrong(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
