@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,11 +16,12 @@ from kovacic.process import Channel, Process, last_of
 
 def values(how: str, *found: Any) -> Iterator[Any]:
     yield from found
-    if how == "for ever":
-        while True:
-            time.sleep(1)
     if how == "an exception":
         raise ZeroDivisionError
+    if how != "to the end":  # a file that says that all values were sent, and then for ever
+        Path(how).touch()
+        while True:
+            time.sleep(1)
 
 
 def talks(channel: Channel) -> None:
@@ -27,15 +30,42 @@ def talks(channel: Channel) -> None:
     raise ArithmeticError("after that")
 
 
-@parametrize("how", ["to the end", "for ever", "an exception"], ordinary=1)
-@parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))], ordinary=1)
+FOUND = pytest.mark.parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))])
+
+
+@FOUND
+@parametrize("how", ["to the end", "an exception"], ordinary=1)
 def test_the_last_value_before_the_end(how: str, found: tuple[Any, ...]) -> None:
-    assert last_of(values, how, *found, seconds=2 if how == "for ever" else 60) == (found[-1] if found else None)
+    assert last_of(values, how, *found, seconds=60) == (found[-1] if found else None)
+
+
+@FOUND
+def test_the_last_value_before_the_time_is_over(
+    found: tuple[Any, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The time is over once all values were sent, however long that takes."""
+    sent = tmp_path / "sent"
+
+    class Timer(threading.Thread):
+        def __init__(self, seconds: float, kill: Callable[[], None]) -> None:
+            super().__init__()
+            self.kill = kill
+
+        def run(self) -> None:
+            while not sent.exists():
+                time.sleep(0.01)
+            self.kill()
+
+        def cancel(self) -> None:
+            """It has run."""
+
+    monkeypatch.setattr(threading, "Timer", Timer)
+    assert last_of(values, str(sent), *found, seconds=60) == (found[-1] if found else None)
 
 
 @pytest.mark.parametrize("seconds", [0, -1])
 def test_nothing_is_started_without_time(seconds: float) -> None:
-    assert last_of(values, "for ever", 1, seconds=seconds) is None
+    assert last_of(values, "to the end", 1, seconds=seconds) is None
 
 
 @pytest.mark.long
