@@ -133,7 +133,7 @@ SUMS_OVER_ROOTS = {
 }
 
 
-@parametrize("S", SUMS_OVER_ROOTS.values(), ordinary=1, ids=SUMS_OVER_ROOTS)
+@parametrize("S", SUMS_OVER_ROOTS.values(), ordinary=1, long=2, ids=SUMS_OVER_ROOTS)
 def test_sums_over_the_roots_of_irrational_polynomials(S: str) -> None:
     x = sympy.Symbol("x")
     for y in kovacic.solve(S.replace("a", "sqrt(2)"), var="x").solutions:

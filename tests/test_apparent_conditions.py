@@ -96,8 +96,7 @@ def test_lame_with_integer_n_is_solvable_for_every_B(curve: str) -> None:
             assert expected in (1, 2)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", ["w^2", "-w^2", "w^3", "4*w^2*v^2"])
+@parametrize("name", ["w^2", "-w^2", "w^3", "4*w^2*v^2"], ordinary=0, long=2)
 def test_a_parameter_in_powers_is_as_good_as_its_power(name: str) -> None:
     """Regge & Wheeler's equation is decided completely in W = w^2, and so it is in w."""
     S = f"({name} + (x-1)*(l*(l+1)*x-3)/x^4)*x^2/(x-1)^2 - (4*x-3)/(4*x^2*(x-1)^2)"
@@ -146,6 +145,7 @@ def test_a_limit_within_the_search_is_a_value(seconds: float) -> None:
         (2, "b*x^3"),
     ],
     ordinary=2,
+    long=4,
 )
 def test_a_logarithm_leaves_case_1(first: int, rest: str) -> None:
     """Beside integer differences of exponents no invariant is asked for in words: where a logarithm vanishes is an equation."""

@@ -63,8 +63,7 @@ def test_command_with_equal_radii(run):
         assert sp.diff(sp.parse_expr(data["omega_3"]).expand().coeff("c1"), X) == 0
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("ratio", ["3/2", "1/3", "-2/5", "1/2"])
+@parametrize("ratio", ["3/2", "1/3", "-2/5", "1/2"], ordinary=0, long=2)
 def test_command_prints_n_in_closed_form(run, ratio):
     """n and omega_3 as printed, read back, solve the linear equations in the roots; y solves (13)."""
     status, output = run("--ratio", ratio, "--json")

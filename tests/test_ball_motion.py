@@ -66,7 +66,7 @@ def differences(motion, found, times):
     return {name: float(np.abs(getattr(motion, name)(times) - found[name]).max()) for name in names}
 
 
-@parametrize("place", ["outside", "inside", "plane"], ordinary=1)
+@parametrize("place", ["outside", "inside", "plane"], ordinary=1, long=1)
 @parametrize("seed", range(20), ordinary=1, long=20)
 def test_newton_and_euler_agree_on_random_bodies(seed, place):
     """u, both spins, the contact point in space and on the ball, the attitude and the normal reaction."""
@@ -105,6 +105,7 @@ def test_the_reference_starts_with_the_rates_that_are_meant():
         (3.5, 0.0, 0.0),
     ],
     ordinary=1,
+    long=3,
     ids=["ordinary", "backwards", "near the poles", "nearer", "nearest", "through the poles"],
 )
 def test_newton_and_euler_agree_also_near_and_through_the_poles(R1, du, dv, n):
@@ -143,7 +144,7 @@ STARTS = {
 }
 
 
-@parametrize("name", sorted(STARTS), ordinary=1)
+@parametrize("name", sorted(STARTS), ordinary=1, long=6)
 def test_every_start_has_its_motion(name):
     a, R1, (u, du, dv, n) = STARTS[name]
     moments = {"A1": "2/5", "A3": "2/5"} if a == 0 else {"A1": "1/4", "A3": "1/3"}
@@ -171,8 +172,7 @@ def steady_precession(sphere):
     return middle
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("R1", [3, -3, None])
+@parametrize("R1", [3, -3, None], ordinary=0, long=2)
 def test_steady_precession(R1):
     """And motions as near to it as rounding allows: all of them are the same up to their distance."""
     sphere = put(BALLS["l > 0"], R1)
@@ -248,7 +248,7 @@ def long_way(motion, sphere, count, rest):
 
 
 @parametrize("name", sorted(BALLS), ordinary=1)
-@parametrize("R1", [3, "2/3", -3, None], ordinary=2)
+@parametrize("R1", [3, "2/3", -3, None], ordinary=2, long=1)
 def test_the_closed_form_and_the_energy_hold_along_the_motion(name, R1):
     """omega_3 and n by the theorem, on either sign of l, against the integrated motion, and along the reference."""
     sphere = put(BALLS[name], R1)
@@ -300,7 +300,7 @@ def pendulum(sphere, gap):
 
 
 @parametrize("R1", [3, "2/3"], ordinary=1)
-@parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2], ordinary=1)
+@parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2], ordinary=1, long=2)
 def test_near_the_separatrix(R1, gap):
     """The ball just swings back before it stands upright, or just goes over: against Newton and Euler's equations."""
     sphere = BALLS["l > 0"].on_sphere(R1)
@@ -314,8 +314,7 @@ def test_near_the_separatrix(R1, gap):
     assert np.abs(motion.u(times) - reference(sphere, start, times)["u"]).max() < 1e-10 / abs(gap)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("gap", [1e-15, 0.0, -1e-15])
+@parametrize("gap", [1e-15, 0.0, -1e-15], ordinary=0, long=2)
 def test_asymptotic_motions_are_followed_as_long_as_their_digits_last(gap):
     start = pendulum(SPHERE, gap)
     motion = solve_motion(SPHERE, start)
@@ -480,6 +479,7 @@ def test_potentials_that_are_not_elementary(potential):
         sp.tanh(sp.cos(U)) / 2 + 0.25,
     ],
     ordinary=1,
+    long=4,
 )
 def test_motion_under_other_potentials(potential):
     """Steep ones, with a barrier that isn't reached, with many equilibria: as central forces in the reference."""

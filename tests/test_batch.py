@@ -445,8 +445,7 @@ def test_a_record_that_contradicts_itself_is_no_answer(tmp_path: Path, change: d
     assert json.loads(path.read_text(encoding="utf-8")) == other
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("content", ["x^2 + 3\n", '{"S": "x", "id": 1}\n"x^2"\n', "\0\nprecious\n", "[]\n"])
+@parametrize("content", ["x^2 + 3\n", '{"S": "x", "id": 1}\n"x^2"\n', "\0\nprecious\n", "[]\n"], ordinary=0, long=2)
 def test_a_file_of_something_else_is_not_taken_up(tmp_path: Path, content: str) -> None:
     path = tmp_path / "equations.jsonl"
     path.write_text(content)

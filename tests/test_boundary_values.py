@@ -185,8 +185,7 @@ INTEGRATED = [
 ]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("a2", "a1", "a0", "f", "interval"), INTEGRATED, ids=str)
+@parametrize(("a2", "a1", "a0", "f", "interval"), INTEGRATED, ids=str, ordinary=0, long=8)
 def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, interval: tuple[Any, Any]) -> None:
     """Generated points and values: the conditions hold, and between them the solution is that of Dormand and Prince."""
     random = Random(a2 + a1 + a0 + f)
@@ -264,6 +263,7 @@ def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
         (x * D2 + D1 - 1, {y(0): 0}, x),
     ],
     ordinary=2,
+    long=10,
     ids=str,
 )
 def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:

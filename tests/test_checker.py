@@ -304,6 +304,7 @@ UNDECIDED = '{"schema": 1, "proof": {"undecided": "a\\nb", "structure": null, "e
         ('{"schema": 1, "seconds": NaN}', 2, "unreadable: NaN is no number"),
     ],
     ordinary=1,
+    long=5,
 )
 def test_the_command(stdin: str, status: int, said: str) -> None:
     done = run("-m", "kovacic", "check", "-", stdin=stdin + "\n")
@@ -413,8 +414,7 @@ def test_no_solvable_equation_of_the_simplest_has_a_proof_of_none(text: str) -> 
     refuse(text)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("entry", SOLVABLE[::16], ids=lambda entry: entry.id)
+@parametrize("entry", SOLVABLE[::16], ids=lambda entry: entry.id, ordinary=0, long=5)
 def test_no_solvable_equation_has_a_proof_of_none(entry: Published) -> None:
     refuse(entry.S)
 

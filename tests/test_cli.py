@@ -464,9 +464,11 @@ def test_ctrl_c_while_solutions_are_computed(
     assert ("Liouvillian solutions exist" in shown.out) == (arguments[0] == "solve")  # what was known has been told
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    "command", ["solve --no-solutions x x", "evaluate x --x0 0 --y0 1 --dy0 0 --at 1,2,3,4", "dsolve y\\'\\'=y"]
+@parametrize(
+    "command",
+    ["solve --no-solutions x x", "evaluate x --x0 0 --y0 1 --dy0 0 --at 1,2,3,4", "dsolve y\\'\\'=y"],
+    ordinary=0,
+    long=2,
 )
 def test_a_reader_that_goes_away_at_once(command: str) -> None:
     program = f"{sys.executable} -m kovacic {command} | true; echo ${{PIPESTATUS[0]}}"
@@ -507,7 +509,7 @@ def test_a_closed_pipe_is_quiet() -> None:
     ],
     ids=str,
     ordinary=0,
-    long=4,
+    long=2,
 )
 def test_a_full_disk_is_told(arguments: list[str]) -> None:
     with open("/dev/full", "w") as full:
@@ -543,7 +545,7 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
         ("batch - -o answers.jsonl 2>&- <<<x+", 2),
     ],
     ordinary=0,
-    long=6,
+    long=3,
 )
 def test_streams_that_the_shell_has_closed(tmp_path: Path, line: str, status: int) -> None:
     """Closed input is empty, closed output can't be written, and what closed standard error would get goes nowhere."""

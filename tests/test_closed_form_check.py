@@ -199,7 +199,9 @@ def test_two_factors_that_turn_in_opposite_directions(w: int, shift: Fraction) -
 @parametrize("k", [1, 2, 3, 4], ordinary=2)
 @parametrize(
     "F",
-    [X * (X**2 + X + 5), (X**2 + 1) ** 2, (X**2 + 1) / (X - 3), (X**2 + 1) * (X**2 + 3), 1 / (X**2 + 2 * X + 3)], ordinary=1,
+    [X * (X**2 + X + 5), (X**2 + 1) ** 2, (X**2 + 1) / (X - 3), (X**2 + 1) * (X**2 + 3), 1 / (X**2 + 2 * X + 3)],
+    ordinary=1,
+    long=2,
     ids=str,
 )  # fmt: skip
 def test_pairs_with_other_phases(F: RatFunc, k: int) -> None:

@@ -237,6 +237,7 @@ def test_reduction_at_a_pole(r: RatFunc, p: Poly, order: int, alpha: Fraction, n
         ("3000/(x + 15)+ 2/(x - 1)", OpenPrimitive, 1),
     ],
     ordinary=1,
+    long=3,
 )
 def test_large_powers(omega: str, kind: type, notes: int) -> None:
     w = read_input(omega).S

@@ -50,8 +50,7 @@ def test_known_conditions_are_found_and_proven_complete(family: Family, answers:
         assert answer.case_at(point) == family.expected(*values), point
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@parametrize("family", FAMILIES, ids=lambda family: family.name, ordinary=0, long=9)
 def test_two_hundred_exact_points_agree_with_the_engine(family: Family, answers: dict[str, Conditions]) -> None:
     report = answers[family.name].check(200)
     assert report, report.disagreements
@@ -153,8 +152,7 @@ def test_sextic_oscillator() -> None:
     assert report.inside >= 15
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "statement", "delta"),
     [
         (
@@ -172,6 +170,8 @@ def test_sextic_oscillator() -> None:
             {0: {"(c, a^2 - 4*e)"}},
         ),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_polynomial_potentials_have_one_statement_with_a_natural_number(
     S: str, statement: str, delta: dict[int, set[str]]
@@ -186,7 +186,7 @@ def test_polynomial_potentials_have_one_statement_with_a_natural_number(
     assert report.open == 0
 
 
-@parametrize("number", range(5), ordinary=1)
+@parametrize("number", range(5), ordinary=1, long=2)
 def test_the_determinant_of_the_quartic_is_that_of_the_banded_system(number: int) -> None:
     """P'' + (2 x^2 + a) P' + (x - a^2/4 ... ) P: the matrix for y = P exp(x^3/3 + a x/2), written down independently."""
     a, c = sympy.symbols("a c")
@@ -385,8 +385,7 @@ def test_solve_under_assumptions() -> None:
     assert "solve_at" in str(answer.reason)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "known"),
     [
         ("x^2 + sqrt(2)*n*x", {0: None, "sqrt(2)": None, 1: None, "I*sqrt(2)": None, 2: None}),
@@ -396,6 +395,8 @@ def test_solve_under_assumptions() -> None:
         ("sqrt(2)*n/x^2 - 3/(16*(x-1)^2)", {0: 1, 1: None}),
         ("(n-sqrt(3))^2/x^2 + 1/x^4", {"sqrt(3)": 1, 1: None, "sqrt(3) + sqrt(2)": 1}),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_algebraic_constants_and_parameters(S: str, known: dict[object, int | None]) -> None:
     answer = kovacic.conditions(S, var="x")
@@ -603,6 +604,7 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
         ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
     ],
     ordinary=1,
+    long=2,
 )
 def test_values_at_which_a_parameter_cannot_be_eliminated(S: str, points: list[tuple[Fraction | int, ...]]) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=1)
@@ -741,8 +743,7 @@ def test_a_region_inside_an_earlier_one_is_left_out() -> None:
     assert answer.check(40)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "S",
     [
         "a/x^2 + b/(x-1)^2 + c/(x-2)^2",
@@ -752,6 +753,8 @@ def test_a_region_inside_an_earlier_one_is_left_out() -> None:
         "+ 4*x - 3)/(16*x^2*(x - 1)^2)",
         "(l*(1 - 1/x)*(l + 1)/x^2 - w^2 + (1 - s^2)*(1 - 1/x)/x^3)/(1 - 1/x)^2",
     ],
+    ordinary=0,
+    long=2,
 )
 def test_the_limit_of_time_holds(S: str) -> None:
     kovacic.conditions("x^2 + n", var="x")  # imports
@@ -779,8 +782,7 @@ LITERATURE = {
 }
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", LITERATURE)
+@parametrize("name", LITERATURE, ordinary=0, long=5)
 def test_families_of_the_literature_are_complete(name: str) -> None:
     answer = kovacic.conditions(LITERATURE[name], var="x", limits=Limits(seconds=60))
     assert answer.complete is True
@@ -866,8 +868,7 @@ def test_natural_numbers_at_a_point() -> None:
     assert data["regions"][0]["determinants"][0] == "Delta_0 = a^2 - 4*c"
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "number", "known"),
     [
         # The exponents are rational only over Q(t) with the square root of -c2.
@@ -876,6 +877,8 @@ def test_natural_numbers_at_a_point() -> None:
         (LITERATURE["sextic with a centrifugal term"], 2, {"a + 2*l + 9": "c^2 - 16*l - 24"}),
         (LITERATURE["sextic with a centrifugal term"], 1, {"a + 2*l + 7": "(c, l + 1)"}),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_determinants_of_the_literature(S: str, number: int, known: dict[str, str]) -> None:
     answer = kovacic.conditions(S, var="x")

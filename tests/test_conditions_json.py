@@ -27,7 +27,7 @@ EQUATIONS = {
 }
 
 
-@parametrize("name", EQUATIONS, ordinary=2)
+@parametrize("name", EQUATIONS, ordinary=2, long=11)
 def test_conditions_are_read_back(name: str) -> None:
     answer = kovacic.conditions(EQUATIONS[name], var="x", max_degree=0)
     again = Conditions.from_json(answer.to_json())

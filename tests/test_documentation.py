@@ -20,12 +20,14 @@ SESSIONS = sessions(*PAGES)
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
 
-@parametrize(("page", "command", "output"), SESSIONS, ordinary=2, ids=[f"{p}: {command}" for p, command, _ in SESSIONS])
+@parametrize(
+    ("page", "command", "output"), SESSIONS, ordinary=2, long=9, ids=[f"{p}: {command}" for p, command, _ in SESSIONS]
+)
 def test_shell_sessions(page: str, command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
     check_command(command, output, capsys)
 
 
-@parametrize("page", PAGES, ordinary=2, ids=lambda page: str(page.relative_to(ROOT)))
+@parametrize("page", PAGES, ordinary=2, long=13, ids=lambda page: str(page.relative_to(ROOT)))
 def test_python_sessions(page: Path) -> None:
     check_python(page)
 

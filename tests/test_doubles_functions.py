@@ -152,7 +152,7 @@ PROMISES: list[tuple[Any, Any, type]] = [
 ]
 
 
-@parametrize(("S", "interval", "kind"), PROMISES, ordinary=2)
+@parametrize(("S", "interval", "kind"), PROMISES, ordinary=2, long=14)
 def test_the_measured_error_keeps_the_promise(S: Any, interval: Any, kind: type) -> None:
     solution = kovacic.solve(S)
     function = lambdify(solution, interval=interval)  # warnings are errors here
@@ -562,14 +562,15 @@ def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any)
         assert np.allclose(f(points) / f(points[k]) * known[k], known, rtol=0, atol=1e-12)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "interval"),
     [
         ("x^2 - 301", (-20, 20)),
         ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (2, 600)),
         ("-(10^6 - 1/4)/(1-x^2) - 3/(4*(1-x^2)^2)", ("-99/100", "99/100")),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_solutions_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
     solution = kovacic.solve(equation)
@@ -618,8 +619,7 @@ def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPa
     assert len(asked) < len(table.centres) / 20
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "interval", "start"),
     [
         ("x", (1, 200), {"x0": 1, "y0": 1, "dy0": 0}),
@@ -628,6 +628,8 @@ def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPa
         ("x*y'' + (9/2-x)*y' + 200*y = 0", (0, 800), {}),
         ("(1-x^2)*y'' - 2*x*y' + 160400*y = 0", (-1, 1), {}),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_the_worst_error_is_that_of_a_dense_measurement(equation: str, interval: Any, start: Any) -> None:
     """Within a factor of 2.5, at 20,000 points against double-doubles; none beside a zero, within a hundredth of the gap."""

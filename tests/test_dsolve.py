@@ -454,7 +454,7 @@ def step(side: int, argument: sympy.Expr, *_: Any) -> sympy.Integer:
     return sympy.Integer(argument.subs(x, side + Rational(1, 2)).is_positive)
 
 
-@parametrize("left", ["y'' + y", "y'' + 3*y' + 2*y", "x^2*y'' - 2*y"], ordinary=1)
+@parametrize("left", ["y'' + y", "y'' + 3*y' + 2*y", "x^2*y'' - 2*y"], ordinary=1, long=1)
 @parametrize("right", JUMPS, ordinary=1)
 def test_steps_and_impulses(left: str, right: str) -> None:
     """The equation holds on both sides of the jump at 1; y is continuous, and y' jumps by the impulse."""
@@ -497,8 +497,7 @@ def test_boundary_values() -> None:
     assert dsolve("y'' = 0", ics={"y(0)": 0, "y(1)": 1, "y(2)": 2}).rhs == x
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "text",
     [
         "x^2*y'' - x*y' + y = 0",
@@ -512,6 +511,8 @@ def test_boundary_values() -> None:
         "(4-(x+2)^2)*y'' - (x+2)*y' + 3*y = 0",
         "(4-(x+2)^2)*y'' - 3*(x+2)*y' + y/9 = 0",
     ],
+    ordinary=0,
+    long=5,
 )
 def test_real_to_the_left_of_a_singularity(text: str) -> None:
     found = dsolve(text, ics={"y(-1)": 1, "y'(-1)": 2})
@@ -799,8 +800,7 @@ def test_values_as_one_text() -> None:
             dsolve("y'' + y = 0", ics=text)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("text", "values"),
     [
         ("y'' + 5/2*y' + 6*y = 1/x", "y(-3/2)=1, y(1)=2"),
@@ -808,6 +808,8 @@ def test_values_as_one_text() -> None:
         ("y'' = 1/x^2", "y(-1)=0, y(1)=0"),
         ("y'' = log(x)", "y(-1)=0, y(1)=0"),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> None:
     """Integrals from one to the other would diverge, and logarithms have other branches."""
@@ -817,14 +819,15 @@ def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> 
     assert not dsolve(text, ics=one_side).rhs.has(sympy.nan, sympy.zoo)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "text",
     [
         "x*(1-x)*y'' + (1/2 - 3*x)*y' - 5/7*y = exp(x)",
         "x*(x-1)*y'' + 7/2*x*y' + y = exp(x)",
         "x*(x-1)*y'' + (3/2 - 2*x)*y' + 2*y = sin(x)",
     ],
+    ordinary=0,
+    long=2,
 )
 def test_integrals_that_are_left_between_singular_points(text: str) -> None:
     """Substituted with any antiderivatives: the Wronskian had another branch between 0 and 1, or beyond."""
@@ -848,8 +851,7 @@ def test_integrals_of_a_step_begin_at_it() -> None:
     assert all(i.limits[0][1:] == (1, x) for i in integrals)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "text",
     [
         "(1-x^2)*y'' - 2*x*y' + 3/4*y = exp(x)",  # Legendre, DLMF 14.2.3
@@ -857,6 +859,8 @@ def test_integrals_of_a_step_begin_at_it() -> None:
         "y'' = (x^2/4 + 1)*y + 1",  # 1F1 and its value at 0
         "x*(1-x)*y'' + (1/2 - 3*x)*y' - 5/7*y = 1",
     ],
+    ordinary=0,
+    long=2,
 )
 def test_wronskians_of_special_functions(text: str) -> None:
     """No Wronskian is written out under an integral; that of the two solutions is the one of the equation."""
@@ -938,8 +942,7 @@ def has_values(a: sympy.Expr, b: sympy.Expr, c: sympy.Expr, start: Any, stops: l
     return all(map(is_right, stops))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("S", [x**2, -(x**2), x**3, 9 * x**4, -(x**4), (x - 1) ** 2])
+@parametrize("S", [x**2, -(x**2), x**3, 9 * x**4, -(x**4), (x - 1) ** 2], ordinary=0, long=3)
 @pytest.mark.parametrize("start", [-1, 0, 1])
 def test_bessel_functions_join_at_ordinary_points(S: sympy.Expr, start: int) -> None:
     """sqrt(x) J_nu(f) is a solution on either side of a zero of f, and not the same one, where the equation is regular."""
@@ -959,7 +962,7 @@ KLEIN_AT_ORDINARY_POINTS = [
     ("a", "c", "start"),
     [(a, c, start) for a, c in KLEIN_AT_ORDINARY_POINTS for start in (Rational(-1, 2), 0, Rational(1, 3))],
     ordinary=0,
-    long=5,
+    long=3,
     ids=str,
 )
 def test_klein_solutions_join_at_ordinary_points(a: sympy.Expr, c: sympy.Expr, start: Any) -> None:
@@ -1076,7 +1079,7 @@ FACTORS = """
 """.replace("^", "**").split()
 
 
-@parametrize("seed", range(80), ordinary=2, long=30)
+@parametrize("seed", range(80), ordinary=2, long=15)
 def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
     """For sums of products of functions that were drawn by lot: the derivative at three points, in x alone; or None."""
     rng = random.Random(seed)
@@ -1098,7 +1101,10 @@ def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
 
 
 @parametrize(
-    "right", ["tan(sqrt(x))", "exp(sqrt(x))/cos(x)", "(x^(1/3)/2 - atan(x))*log(x)", "tan(log(x))*log(x)/x"], ordinary=1
+    "right",
+    ["tan(sqrt(x))", "exp(sqrt(x))/cos(x)", "(x^(1/3)/2 - atan(x))*log(x)", "tan(log(x))*log(x)/x"],
+    ordinary=1,
+    long=2,
 )
 def test_integrals_that_stay_are_in_the_variable(right: str) -> None:
     found = kovacic.dsolve(f"y'' = {right}").rhs
@@ -1114,8 +1120,7 @@ def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
     assert abs(sympy.N(found.subs(x, sympy.Rational(5, 4))) - steps(mpmath.mpf("1.25"))[0]) < 1e-12
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "integrals"),
     [
         ("y'' - y' + exp(2*x)*y = tanh(x)", 2),
@@ -1130,6 +1135,8 @@ def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
         ("sin(x)^2*y'' + sin(x)*cos(x)*y' - y = tan(x)", 1),
         ("y'' = tanh(x)", 1),
     ],
+    ordinary=0,
+    long=6,
 )
 def test_right_hand_sides_beside_functions_of_x(equation: str, integrals: int) -> None:
     """Substituted between and beyond poles, an integral as a function with its integrand as the derivative."""

@@ -92,8 +92,7 @@ def agree_on(kind: str, seed: int, count: int) -> int:
     return served
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss", "dihedral"])
+@parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss", "dihedral"], ordinary=0, long=3)
 def test_both_routes_agree_on_random_legs(kind: str) -> None:
     assert agree_on(kind, 1, 60) > 15
 
@@ -143,7 +142,7 @@ FAULTS = [
 ]
 
 
-@parametrize("fault", FAULTS, ordinary=1, ids=lambda fault: f"{fault[0]}, {fault[4]}")
+@parametrize("fault", FAULTS, ordinary=1, long=4, ids=lambda fault: f"{fault[0]}, {fault[4]}")
 def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     _, module, name, wrong, kind = fault
     monkeypatch.setattr(module, name, wrong)
@@ -174,7 +173,7 @@ def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) ->
         ("-1 + 160400/x^2", 402, 800),
     ],
     ordinary=3,
-    long=25,
+    long=13,
 )
 @parametrize("digits", [5, 15, 60, 300], ordinary=2)
 def test_flints_functions_and_taylor_steps_agree(equation: str, x0: Any, x: Any, digits: int) -> None:
@@ -303,7 +302,10 @@ def test_a_search_that_ran_out_of_time_isnt_remembered() -> None:
 
 
 @parametrize(
-    "S", ["-1 - 2/(7*x^2)", "-x^4 - 3/(16*x^2)", "-30/(16*x^2) - x^4", "-400*x^2", "-9 + 5/x - 1/(4*x^2)"], ordinary=1
+    "S",
+    ["-1 - 2/(7*x^2)", "-x^4 - 3/(16*x^2)", "-30/(16*x^2) - x^4", "-400*x^2", "-9 + 5/x - 1/(4*x^2)"],
+    ordinary=1,
+    long=2,
 )
 def test_many_points_where_a_series_loses_its_digits_cost_little(S: str) -> None:
     """Between the power series and the asymptotic expansion FLINT's values may be worse at a higher precision."""

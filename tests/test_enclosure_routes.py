@@ -106,6 +106,7 @@ def test_case_3(name: str) -> None:
     "S",
     ["-(10100*(1-x^2) + 1)/(1-x^2)^2", "-(250500*(1-x^2) + 1)/(1-x^2)^2", "x^2 - 101", "x^2 - 1001"],
     ordinary=1,
+    long=2,
     ids=["Legendre, 100", "Legendre, 500", "Hermite, 50", "Hermite, 500"],
 )
 def test_polynomials_of_high_degree_on_an_interval_with_their_zeros(S: str) -> None:
@@ -269,7 +270,10 @@ def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> N
 
 
 @parametrize(
-    "S", [*PRIMITIVE.values(), "(x^2+3)/(x^3-x-1)^2", "1/(4*x^2*(x-1)^2) + 1/(x*(x-1))", "1/(x^2+1)^2"], ordinary=1
+    "S",
+    [*PRIMITIVE.values(), "(x^2+3)/(x^3-x-1)^2", "1/(4*x^2*(x-1)^2) + 1/(x*(x-1))", "1/(x^2+1)^2"],
+    ordinary=1,
+    long=3,
 )
 def test_the_product_of_all_loops_is_the_loop_around_infinity(S: str) -> None:
     with flint.ctx.workprec(300):
@@ -302,7 +306,7 @@ GROUPS = {
 }
 
 
-@parametrize("name", sorted(GROUPS), ordinary=0)
+@parametrize("name", sorted(GROUPS), ordinary=0, long=7)
 def test_the_monodromy_of_published_equations_agrees_with_their_groups(name: str) -> None:
     solution = kovacic.solve(published_S(GROUPS[name]))
     assert str(solution.group) == name
@@ -319,7 +323,7 @@ FINITE += [claimed(GroupKind.DICYCLIC, n) for n in (2, 3, 6)]
 FINITE += [claimed(kind) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRAL, GroupKind.ICOSAHEDRAL)]
 
 
-@parametrize("name", sorted(GROUPS), ordinary=0)
+@parametrize("name", sorted(GROUPS), ordinary=0, long=7)
 def test_a_wrong_finite_group_is_disproved(name: str) -> None:
     S = published_S(GROUPS[name])
     matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S))
@@ -348,6 +352,7 @@ def test_a_wrong_finite_group_is_disproved(name: str) -> None:
         ("kovacic-c2-1", [claimed(GroupKind.CYCLIC, 4), claimed(GroupKind.TETRAHEDRAL)]),
     ],
     ordinary=1,
+    long=3,
 )
 def test_a_wrong_infinite_group_is_disproved(id: str, wrong: list[Group]) -> None:
     solution = kovacic.solve(published_S(id))

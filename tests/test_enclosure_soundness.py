@@ -143,8 +143,7 @@ def check(seed: int) -> None:
             assert state.reached or expected.rel_accuracy_bits() < 4 * digits, (seed, state.note)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("block", range(6))
+@parametrize("block", range(6), ordinary=0, long=3)
 def test_no_true_value_is_outside_of_its_ball(block: int) -> None:
     for seed in range(50 * block, 50 * (block + 1)):
         check(seed)
@@ -224,7 +223,7 @@ def off_axis(rng: random.Random, count: int) -> list[complex]:
         ("1 + 1/(8*x + 3)^3", "1/5"),
     ],
     ordinary=0,
-    long=4,
+    long=2,
 )
 def test_values_at_many_complex_points_are_those_at_each_alone(S: str, x0: Any) -> None:
     """One expansion serves the points of its disc, on the right side of every singular point."""

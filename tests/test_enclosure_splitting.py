@@ -141,7 +141,7 @@ def random_system(rng: random.Random) -> System:
     return System.make(tuple(rng.choice([-9, -1, 0, 1, 4, 99]) for _ in range(rng.randint(0, 3))), tuple(den))
 
 
-@parametrize("seed", range(10), ordinary=1)
+@parametrize("seed", range(10), ordinary=1, long=5)
 def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed: int) -> None:
     """Short ends (mirrored legs), decimal ones, and ones of a thousand digits; real and complex."""
     rng = random.Random(seed)
@@ -181,8 +181,7 @@ def test_mirrored_legs_are_two_legs(disc: tuple[Frame, ExactPoint]) -> None:
         assert lost_bits(matrix, 2500) <= 8
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("tiny", [Fraction(1, 3**40), Fraction(1, 10**400), Fraction(3**250, 7**350)])
+@parametrize("tiny", [Fraction(1, 3**40), Fraction(1, 10**400), Fraction(3**250, 7**350)], ordinary=0, long=2)
 def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, ExactPoint], tiny: Fraction) -> None:
     frame, target = disc
     target = target + ExactPoint(tiny, tiny if frame.centre.im else Fraction(0))

@@ -200,7 +200,7 @@ def test_an_undecided_answer_says_why() -> None:
 
 
 @parametrize("text", EQUATIONS, ordinary=1, long=15)
-@parametrize("form", ["text", "markdown", "latex", "html"], ordinary=2)
+@parametrize("form", ["text", "markdown", "latex", "html"], ordinary=2, long=1)
 def test_every_format_of_every_kind(text: str, form: str) -> None:
     explained = kovacic.solve(text).explain(format=form)
     assert "nan" not in explained.lower().split()
@@ -309,8 +309,9 @@ class _Tags(HTMLParser):
             assert self.open.pop() == tag
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("text", "picture"), [(EQUATIONS[0], True), (EQUATIONS[4], True), (EQUATIONS[7], False)])
+@parametrize(
+    ("text", "picture"), [(EQUATIONS[0], True), (EQUATIONS[4], True), (EQUATIONS[7], False)], ordinary=0, long=2
+)
 def test_a_page_needs_nothing_from_elsewhere(text: str, picture: bool) -> None:
     page = kovacic.solve(text).explain(format="html")
     tags = _Tags()

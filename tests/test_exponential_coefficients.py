@@ -74,7 +74,7 @@ POTENTIALS = {
 }
 
 
-@parametrize("name", POTENTIALS, ordinary=1)
+@parametrize("name", POTENTIALS, ordinary=1, long=4)
 def test_shape_invariant_potentials_have_their_spectra(name: str) -> None:
     """Cooper, Khare & Sukhatme 1995, table 4.1: complete, as printed there, and solvable exactly there."""
     S, printed, eigenvalue = POTENTIALS[name]
@@ -111,8 +111,7 @@ SOLUTIONS = [
 ]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("known", SOLUTIONS, ids=str)
+@parametrize("known", SOLUTIONS, ids=str, ordinary=0, long=4)
 def test_the_answer_is_found_that_the_equation_was_made_from(known: Any) -> None:
     """S = y''/y for a chosen y: a solution is found, and both that are returned solve the equation in x."""
     S = sympy.expand(sympy.simplify((known.diff(x, 2) / known).rewrite(sympy.exp)))
@@ -315,8 +314,7 @@ def test_numpy_functions_and_pictures_are_those_of_the_users_variable(careful: b
     assert min(np.ptp(np.log(y / known[1])) for y in found) < 1e-14
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("equation", "interval", "start", "second"),
     [
         ("y'' = (2 + cos(x))*y", (-3, 5), (0, 1, 0), lambda t, y: (2 + mpmath.cos(t)) * y),
@@ -324,6 +322,8 @@ def test_numpy_functions_and_pictures_are_those_of_the_users_variable(careful: b
         ("y'' = exp(x)*y + exp(2*x)", (-1, 2), (0, 1, 0), lambda t, y: mpmath.exp(t) * y + mpmath.exp(2 * t)),
         ("y'' = (exp(k*x) + 1)*y", (-1, 2), (0, 1, 1), lambda t, y: (mpmath.exp(mpmath.sqrt(2) * t) + 1) * y),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_a_table_in_the_users_variable(equation: str, interval: Any, start: Any, second: Any) -> None:
     """Against an independent integrator, on both sides of the start."""

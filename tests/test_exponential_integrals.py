@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 import sympy
-from build import QQ, RatFunc
+from build import QQ, RatFunc, parametrize
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Ei, erf, erfi, exp
@@ -55,8 +55,7 @@ def test_what_is_left_and_why() -> None:
     assert not isinstance(integrate_exponential(1 / (X - 1) + 1 / (X + 1), X * X), str)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("integrand", "functions"),
     [
         ((x**2 + 1) * exp(x - 1 / x) / (x * (x**2 - 1)), {Ei(x - 1 / x)}),
@@ -66,6 +65,8 @@ def test_what_is_left_and_why() -> None:
         ((2 * x + 1) * exp(x**2 + x) / (x**2 + x - 5), {Ei(x**2 + x - 5)}),
         (exp(x / (x - 1)) / (x - 1), {Ei(1 / (x - 1))}),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_second_solutions(integrand: sympy.Expr, functions: set) -> None:
     """y1 = h^(-1/2), so that y2 = y1 int h; substituted, by 30 digits."""

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from build import parametrize
 
 from kovacic.cli import main
 
@@ -50,9 +51,11 @@ def run(example: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mo
 LONG = [pytest.param("ball", 1, 4, marks=pytest.mark.slow)]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("command", "first", "last"), [*((name, 0, 1 if name == "ball" else None) for name in main.COMMANDS), *LONG]
+@parametrize(
+    ("command", "first", "last"),
+    [*((name, 0, 1 if name == "ball" else None) for name in main.COMMANDS), *LONG],
+    ordinary=0,
+    long=6,
 )
 def test_the_examples_run(
     command: str,

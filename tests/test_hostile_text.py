@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 from typing import Any
 
 import pytest
+from build import parametrize
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -158,8 +159,7 @@ def test_brackets_without_end_are_refused(text: str) -> None:
             reader(text)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "arguments",
     [
         ["solve"],
@@ -171,6 +171,8 @@ def test_brackets_without_end_are_refused(text: str) -> None:
         ["solve", "x", "-o"],
     ],
     ids=str,
+    ordinary=0,
+    long=4,
 )
 def test_the_command_shows_its_arguments(arguments: list[str]) -> None:
     hostile = "x\x1b[31m\a\u202e\x9b @"

@@ -65,6 +65,7 @@ def test_solving_text_imports_nothing_heavy() -> None:
         ["solve", "--help"],
     ],
     ordinary=1,
+    long=3,
     ids=str,
 )
 def test_the_command_imports_nothing_heavy(arguments: list[str]) -> None:

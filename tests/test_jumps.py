@@ -41,7 +41,7 @@ def agree(found: Any, wanted: Any, points: Any) -> None:
         assert abs(there - wanted.subs(x, point).evalf(20)) < 1e-12 * (1 + abs(there))
 
 
-@parametrize("seed", range(20), ordinary=1)
+@parametrize("seed", range(20), ordinary=1, long=10)
 def test_steps_and_impulses_in_any_form(seed: int) -> None:
     """y = p + H(x - a) q is the solution for L p + H L q + q(a) delta' + (q'(a) + b(a) q(a)) delta."""
     b, c = (sympy.sympify(part) for part in EQUATIONS[seed % len(EQUATIONS)])
@@ -69,8 +69,7 @@ def test_impulses_of_higher_order() -> None:
     agree((found - DiracDelta(x - 1)).subs(Heaviside(x - 1), 1), u, [sympy.Rational(5, 4), 3])
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "f",
     [
         sympy.Abs(x**2 - 1),
@@ -81,6 +80,8 @@ def test_impulses_of_higher_order() -> None:
         Piecewise((sympy.sin(x), (x > 0) & (x < sympy.pi)), (0, True)),
         sympy.Abs(sympy.Abs(x) - 1),
     ],
+    ordinary=0,
+    long=4,
 )
 def test_corners(f: Any) -> None:
     """The equation holds between the corners, and y and y' are continuous: the differences are those of a solution."""

@@ -29,8 +29,7 @@ def values(text: str, n: Fraction, largest: int = 40) -> bool:
     )
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("functions", "total", "expected"),
     [
         ([2 * d, 2 * d + 1, 2 * d + 3], -1, "n or -n - 1 = "),
@@ -39,6 +38,8 @@ def values(text: str, n: Fraction, largest: int = 40) -> bool:
         ([d, 2 * d + 1], 0, "n = +-"),
         ([3 * d + 1], -1, "n = 3*d + 1 or -3*d - 2"),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_symmetric_families_are_written_once(functions: list, total: int, expected: str) -> None:  # type: ignore[type-arg]
     families = [*functions, *(total - f for f in functions)]

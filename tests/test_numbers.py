@@ -173,7 +173,7 @@ PLACES: dict[str, Callable[[Any], object]] = {
 
 
 @pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
-@parametrize("place", PLACES, ordinary=1, long=24)
+@parametrize("place", PLACES, ordinary=1, long=12)
 def test_every_kind_of_number_is_a_value_or_refused(place: str) -> None:
     other = {}
     for kind, value in KINDS.items():

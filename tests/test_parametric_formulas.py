@@ -46,7 +46,7 @@ def solutions_are_right(name: str, points: int) -> None:
 EACH = [pytest.param(name, marks=pytest.mark.long if k % 12 == 6 else pytest.mark.slow) for k, name in enumerate(ALL)]
 
 
-@parametrize("name", SOME, ordinary=2)
+@parametrize("name", SOME, ordinary=2, long=4)
 def test_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 3)
 
@@ -108,8 +108,7 @@ EQUATIONS = {
 }
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", EQUATIONS)
+@parametrize("name", EQUATIONS, ordinary=0, long=5)
 def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
     text, equation = EQUATIONS[name]
     answer = kovacic.conditions(text, var="x", max_degree=0)
@@ -143,7 +142,7 @@ def texts_say_what_is_meant(name: str, points: int) -> None:
     assert not wrong, wrong[:3]
 
 
-@parametrize("name", SOME, ordinary=2)
+@parametrize("name", SOME, ordinary=2, long=4)
 def test_texts_say_what_is_meant(name: str) -> None:
     texts_say_what_is_meant(name, 6)
 

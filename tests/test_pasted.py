@@ -129,8 +129,7 @@ def normal_form(parts: tuple[Any, Any, Any, Any]) -> Any:
 NAMES = {"ω_0": "omega_0", "omega0": "omega_0", "α": "alpha"}
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", NOTATIONS)
+@parametrize("name", NOTATIONS, ordinary=0, long=8)
 def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
     for parts in EQUATIONS:
         text = NOTATIONS[name](parts)
@@ -238,6 +237,7 @@ def test_what_is_not_read_is_refused_with_a_hint_that_works(text: str, hint: str
         "dsolve(",
     ],
     ordinary=3,
+    long=13,
 )
 def test_rewriting_takes_linear_time(piece: str) -> None:
     """Counted in characters of the result, and by ending at all: each piece 20,000 times in a row."""
@@ -383,7 +383,7 @@ def meant(text: str) -> Any:
     return sympy.sympify(text, locals=symbols)
 
 
-@parametrize("row", PASTED, ordinary=60, ids=[row["text"] for row in PASTED])
+@parametrize("row", PASTED, ordinary=60, long=161, ids=[row["text"] for row in PASTED])
 def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
     """The coefficients of an equation, its right-hand side, its variable and its values are those that a reader finds."""
     question = read_question(row["text"], None, None, None, DEFAULT_LIMITS)

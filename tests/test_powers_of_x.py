@@ -40,6 +40,7 @@ def is_solution(u: Any, found: Any) -> bool:
         (Rational(1, 3), 1, sympy.pi, Rational(1, 4)),
     ],
     ordinary=1,
+    long=3,
 )
 def test_bessel_functions_of_powers(alpha: Any, beta: Any, gamma: Any, nu: Any) -> None:
     """x^alpha J_nu(beta x^gamma) is a solution [DLMF 10.13.4]."""

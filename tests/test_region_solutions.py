@@ -37,7 +37,7 @@ CASES: list[tuple[str, dict[str, Any]]] = [
 ]
 
 
-@parametrize(("S", "values"), CASES, ordinary=1)
+@parametrize(("S", "values"), CASES, ordinary=1, long=5)
 def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values: dict[str, Any]) -> None:
     answer = kovacic.conditions(S, var="x")
     region = answer.region_at(values)
@@ -56,8 +56,7 @@ def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values
     assert natural
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("S", "d", "values"),
     [
         ("x^4 + a*x^2 + b*x + c", 1, {"a": 2}),
@@ -71,6 +70,8 @@ def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values
             {"a": R(1, 3), "b": R(2, 5), "e": R(3, 2)},
         ),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_solutions_with_a_determinant_solve_the_equation_where_it_vanishes(
     S: str, d: int, values: dict[str, Any]
@@ -121,6 +122,7 @@ def test_the_quartic_has_the_solutions_of_its_paper() -> None:
         ),
     ],
     ordinary=1,
+    long=3,
 )
 def test_quotients_and_conjugate_poles_have_solutions(S: str | Callable[[], str], values: dict[str, Any]) -> None:
     test_every_solution_with_a_natural_degree_solves_the_equation(S if isinstance(S, str) else S(), values)

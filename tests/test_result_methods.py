@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 import sympy
+from build import parametrize
 from clocks import controlled
 from flint import arb
 
@@ -61,8 +62,7 @@ def test_a_status_is_equal_to_its_string() -> None:
     assert repr(kovacic.Status.NONE_EXISTS) == "<Status.NONE_EXISTS: 'none'>"
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("missing", "code", "extra"),
     [
         ("numpy", "answer.lambdify(interval=(1, 3))([2.0])", "numeric"),
@@ -71,6 +71,8 @@ def test_a_status_is_equal_to_its_string() -> None:
         ("matplotlib", "answer.plot(1, 2, x0=1, points=5)", "plot"),
         ("matplotlib", "draw_map('n*x + m', (parse_grid('n=1'), parse_grid('m=1')), {}, 'map.png')", "plot"),
     ],
+    ordinary=0,
+    long=3,
 )
 def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: str, extra: str) -> None:
     program = (

@@ -45,8 +45,7 @@ def number(e: Any, at: Any = 1.25, constant: Any = 2) -> Any:
         return plain(mpmath.mpf(at), mpmath.mpf(constant), mpmath.mpf(2) / 3)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: str(problem[0]))
+@parametrize("problem", PROBLEMS, ids=lambda problem: str(problem[0]), ordinary=0, long=3)
 def test_general_solution_and_values(problem: tuple[Any, Any, Any]) -> None:
     p, q, r = coefficients(*problem)
     equation = sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2)
@@ -111,7 +110,7 @@ VANISHING = [
 ]
 
 
-@parametrize("start", ["0", "1", "-2/3"], ordinary=1)
+@parametrize("start", ["0", "1", "-2/3"], ordinary=1, long=1)
 @parametrize("coefficients_as_text", VANISHING, ordinary=2, ids=str)
 def test_a_value_where_the_square_has_no_coefficient(coefficients_as_text: tuple[str, str, str], start: str) -> None:
     """The linear equation is singular there, Riccati's isn't: one solution, that of an integration."""
@@ -154,7 +153,7 @@ WITH_VALUES: list[tuple[Any, Any, Any, Any, Any]] = [
 ]
 
 
-@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=1)
+@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=1, long=4)
 def test_values_with_symbols(p: Any, q: Any, r: Any, point: Any, value: Any) -> None:
     """No symbol of the question is taken for a constant, and r may be 0 at the point."""
     found = kovacic.dsolve(sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2), w(x), ics={w(point): value}).rhs

@@ -170,11 +170,12 @@ def test_conditions_that_are_not_complete(validator: jsonschema.Draft202012Valid
     validator.validate(answer.to_dict())
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "arguments",
     [["--ratio", "3/2"], ["--ratio", "1/3", "--latex"], BALL, [*BALL, "--simulate", "--time", "1"]],
     ids=str,
+    ordinary=0,
+    long=2,
 )
 def test_lines_of_ball(
     arguments: list[str], validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]

@@ -81,6 +81,7 @@ def test_generated_pull_backs_are_found(kind: str) -> None:
     "case",
     list(pull_backs(1, degrees=range(1, 4, 2), seed=11)),
     ordinary=1,
+    long=7,
     ids=lambda case: f"{case.kind} {case.degree}",
 )
 def test_solutions_of_generated_pull_backs_are_right_to_30_digits(case: Case) -> None:
@@ -115,7 +116,7 @@ BOOKS = [
 ]
 
 
-@parametrize(("equation", "first", "second"), BOOKS, ordinary=1, ids=[row[0] for row in BOOKS])
+@parametrize(("equation", "first", "second"), BOOKS, ordinary=1, long=7, ids=[row[0] for row in BOOKS])
 def test_equations_of_the_books(equation: str, first: str, second: str) -> None:
     answer = kovacic.solve(equation)
     assert answer.status is kovacic.Status.NONE_EXISTS
@@ -271,8 +272,7 @@ POLYNOMIALS = [
 ]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("equation", "first"), POLYNOMIALS, ids=[row[0] for row in POLYNOMIALS])
+@parametrize(("equation", "first"), POLYNOMIALS, ids=[row[0] for row in POLYNOMIALS], ordinary=0, long=7)
 def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
     answer = kovacic.solve(equation)
     symbols = {"n": n, "m": m}
@@ -283,8 +283,7 @@ def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
         assert solves(found, answer.S, answer.gauge, n=degree, m=1, a=mpmath.mpf(2) / 7, b=mpmath.mpf(3) / 11), degree
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     "equation",
     [
         "(1-x^2)*y'' - 2*x*y' + n*(n + 1)*y = 0",
@@ -293,6 +292,8 @@ def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
         "x*y'' + (m + 1 - x)*y' + n*y = 0",
         "(1-x^2)*y'' - 2*x*y' + (n*(n + 1) - m^2/(1 - x^2))*y = 0",
     ],
+    ordinary=0,
+    long=3,
 )
 def test_solutions_stay_independent_for_integers_of_either_sign(equation: str) -> None:
     answer = kovacic.solve(equation)
@@ -489,6 +490,7 @@ def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> N
         ("2 + cos(3*x)", "2*sin(3*x)", None),
     ],
     ordinary=1,
+    long=5,
 )
 def test_mathieus_functions(coefficient: str, damping: str, expected: tuple[str, str, str] | None) -> None:
     """The equation itself, by SymPy's derivatives; and the parameters where they are known."""

@@ -77,8 +77,7 @@ def test_levels_of_the_literature(row: Solvable) -> None:
     check(row)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("row", [row for row in TABLE + MORE if row.name in LONG], ids=lambda row: row.name)
+@parametrize("row", [row for row in TABLE + MORE if row.name in LONG], ids=lambda row: row.name, ordinary=0, long=2)
 def test_more_levels_of_the_literature(row: Solvable) -> None:
     check(row)
 
@@ -237,7 +236,7 @@ def test_no_wave_function_is_liouvillian(V: str, domain: tuple[object, object]) 
     assert "no eigenfunction has a closed form" in found.text()
 
 
-@parametrize("d", range(7), ordinary=2)
+@parametrize("d", range(7), ordinary=2, long=3)
 def test_all_levels_of_a_sextic_potential_that_are_liouvillian(d: int) -> None:
     """x^6 + 2 a x^4 + (a^2 - 2 d - 3) x^2 has d // 2 + 1 of them, with polynomials of degree d; not all unless d is tried."""
     V = f"x^6 + 2*x^4 - {2 * d + 2}*x^2"
@@ -390,6 +389,7 @@ def test_poles_of_which_it_isnt_known_whether_they_are_real() -> None:
         ("tan(a*x)^2", "pi/(2*a)", '--from "-pi/(2*a)" --to "pi/(2*a)"'),
     ],
     ordinary=1,
+    long=3,
 )
 def test_a_periodic_potential_on_the_line_has_no_poles(V: str, pole: str, shell: str) -> None:
     with pytest.raises(kovacic.InputError) as refused:
@@ -543,7 +543,7 @@ def test_powers_of_numbers_are_exponentials() -> None:
 
 
 @parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"], ordinary=3)
-@parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))], ordinary=1)
+@parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))], ordinary=1, long=1)
 def test_two_solutions_at_an_end(nu: str, base: str, domain: tuple[object, object]) -> None:
     """They are sqrt(x) and sqrt(x)*log(x) where the exponents agree, real inside the domain, and solve the equation there."""
     found = kovacic.spectrum(f"(({nu})^2 - 1/4)/{base}^2 + {base}^2", domain=domain, boundary="friedrichs")

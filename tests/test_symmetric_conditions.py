@@ -63,6 +63,7 @@ def test_lame_on_the_lemniscatic_and_the_equianharmonic_curve() -> None:
         (6, ("1/3", "1/2", "r")),
     ],
     ordinary=1,
+    long=4,
 )
 def test_the_case_of_the_equation_itself_agrees_with_the_engine(n: int, differences: tuple[str, str, str]) -> None:
     answer = kovacic.conditions(pulled_back(n, *differences), var="x")
@@ -94,7 +95,9 @@ def test_the_centre_of_symmetry_is_found() -> None:
     assert answer.check(30)
 
 
-@parametrize("m", ["1/(x - 2)", "(2*x + 1)/(x - 3)", "1/x", "(x - 1)/(x + 1)", "(x - 1/2)/(3*x + 5)"], ordinary=1)
+@parametrize(
+    "m", ["1/(x - 2)", "(2*x + 1)/(x - 3)", "1/x", "(x - 1)/(x + 1)", "(x - 1/2)/(3*x + 5)"], ordinary=1, long=2
+)
 @pytest.mark.parametrize("S", [LAME, EQUIANHARMONIC])
 def test_moebius_maps_change_nothing(S: str, m: str) -> None:
     """The symmetry x -> zeta x is another Moebius map in another coordinate; the conditions and the engine's cases agree."""

@@ -56,7 +56,7 @@ def conditions(name: str, k: str = "") -> kovacic.Conditions:
     return kovacic.conditions(FAMILIES[name], var="x", assume={"k": k} if k else None)
 
 
-@parametrize("name", FAMILIES, ordinary=1)
+@parametrize("name", FAMILIES, ordinary=1, long=6)
 def test_the_cases_say_what_the_regions_say(name: str) -> None:
     """Solvable exactly where one of the cases holds, in the case of the first one."""
     answer = conditions(name)
@@ -145,8 +145,7 @@ def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
             yield from schwarz_parts(part)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(2, 5), Fraction(7, 4)])
+@parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(2, 5), Fraction(7, 4)], ordinary=0, long=2)
 def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fraction) -> None:
     answer = kovacic.conditions(hypergeometric(("l", "m", str(third))), var="x")
     rows = [row for region in answer.regions for part in schwarz_parts(region.statement) for row in part.resolved()[1]]
@@ -229,14 +228,15 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
     assert natural
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
+@parametrize(
     ("name", "values"),
     [
         ("quartic", {"a": R(2, 3), "b": R(5, 7), "c": R(1, 9)}),
         ("doubly confluent", {"D": R(2, 3), "q": R(5, 7), "a": R(9, 4)}),
         ("black hole", {"s": R(3, 7), "l": R(2, 5)}),
     ],
+    ordinary=0,
+    long=2,
 )
 def test_printed_weights_leave_a_polynomial_of_the_printed_degree(name: str, values: dict[str, Any]) -> None:
     """For theta = y'/y with P = 1, theta' + theta^2 - S has its poles with no more orders, and x^d fits at infinity."""
@@ -270,7 +270,7 @@ def test_polynomials_are_printed_in_factors() -> None:
     assert "s = -l*(l - 1)*(l + 1)*(l + 2)/6 or l*(l - 1)*(l + 1)*(l + 2)/6" in str(conditions("black hole"))
 
 
-@parametrize("name", FAMILIES, ordinary=1)
+@parametrize("name", FAMILIES, ordinary=1, long=6)
 def test_words_and_formulas_are_kept_apart(name: str) -> None:
     """No formula stands among the words, where LaTeX would print it raw."""
     for block in blocks(conditions(name)):
