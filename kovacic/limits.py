@@ -171,6 +171,11 @@ class Budget:
             raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
 
     @property
+    def seconds(self) -> float:
+        """The limit, which is that of an outer budget where this ends with it."""
+        return self._seconds
+
+    @property
     def seconds_left(self) -> float:
         """Seconds until `check` raises."""
         return max(0.0, self._deadline - CLOCK.now())
@@ -275,6 +280,16 @@ def watched_seconds(most: float) -> float:
     """So many seconds, or what is left of a watched budget."""
     budget = _WATCHED.get()
     return most if budget is None else min(most, budget.seconds_left)
+
+
+def may_be_late(seconds: float) -> bool:
+    """Could a step that takes at most so long, and can't be stopped inside, end long after the time of a watched budget?
+
+    Some lateness is allowed, a tenth of the limit and a twentieth of a second.  Where a step is done may depend on this, never
+    what it gives.
+    """
+    budget = _WATCHED.get()
+    return budget is not None and seconds > budget.seconds_left + 0.1 * budget.seconds + 0.05
 
 
 def check_duration(seconds: float, what: str) -> None:

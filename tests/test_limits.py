@@ -10,15 +10,18 @@ from functools import cache
 import pytest
 import sympy
 import transform
-from build import QQ, Conditions, RatFunc, analyse, parametrize
+from build import QQ, Atoms, Conditions, FunctionField, RatFunc, analyse, parametrize
 from clocks import controlled
 from sympy.abc import n, x
 
 import kovacic
 from kovacic import LimitExceeded, Limits, Solution
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.cli.main import run
-from kovacic.limits import Budget, check_time, limited, watched_seconds
+from kovacic.general_solution.substitution import slope
+from kovacic.limits import Budget, check_time, limited, may_be_late, watched_seconds
 from kovacic.verify.local import points
+from kovacic.writing.document import FORMATS, Formula, say
 from kovacic.writing.formula import Formulas
 
 X = RatFunc(QQ.poly([0, 1]))
@@ -89,6 +92,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "check": lambda limits: regions(limits).check(10**6),
     "case_at": lambda limits: regions(limits).case_at({"a": 10**4, "b": 12345, "c": 10**9 + 7}),
     "solve_at": lambda limits: regions(limits).solve_at({"a": 0, "b": 10002, "c": 1}),
+    "spectrum": lambda limits: kovacic.spectrum("x^2 + 1/(x^60 - 1)", limits=limits),
     "dsolve": lambda limits: kovacic.dsolve(HERMITE, limits=limits),
     "dsolve: integrals": lambda limits: kovacic.dsolve("y'' + 2*y' + 5*y = sin(x)/(x^2 + 1)", limits=limits),
 }  # fmt: skip
@@ -181,6 +185,9 @@ def test_a_long_division_in_pieces_gives_quotient_and_remainder(degree: int, lea
         assert divmod(q * divisor + r, divisor) == (q, r)
         assert (q * divisor + r) // divisor == q
         assert (q * divisor + r) % divisor == r
+        assert (q * divisor).exact_quotient(divisor) == q
+        assert (q * divisor + r).exact_quotient(divisor) is None
+        assert (q * divisor * 7).exact_quotient(divisor + 1) is None
 
 
 def test_long_products_and_divisions_look_at_the_clock() -> None:
@@ -212,6 +219,94 @@ def test_every_place_looks_at_the_clock() -> None:
         for place in (*engine, *points(S, budget)[:2]):
             with pytest.raises(LimitExceeded, match="the time limit"):
                 _ = place.logarithm
+
+
+LONG = QQ.poly([Fraction(k % 7 - 3, k % 3 + 1) for k in range(200)] + [1])
+OVER_A = FunctionField(("a",))
+STEPS: dict[str, Callable[[], object]] = {
+    "a polynomial as an expression": lambda: Atoms(x).poly(LONG),
+    "a rational function as an expression": lambda: Atoms(x).ratio(RatFunc(LONG, LONG + 1)),
+    "a derivative": lambda: slope(x**2 * sympy.exp(x) + (x + 1) ** -3, x),
+    "an exact quotient": lambda: LONG.exact_quotient(LONG),
+    "factors over Q": lambda: QQ.factor(LONG),
+    "factors over Q(a)": lambda: OVER_A.factor(OVER_A.poly([OVER_A.generator("a"), 1])),
+    "factors without a over Q(a)": lambda: OVER_A.factor(OVER_A.poly([1, 0, 1])),
+    "zeros": lambda: complex_zeros(LONG.rep.numer()),
+}
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_every_step_that_may_be_long_looks_at_the_clock(name: str) -> None:
+    with controlled() as clock, Budget(Limits(seconds=1)).watched():
+        clock.move(2)
+        with pytest.raises(LimitExceeded, match="time limit"):
+            STEPS[name]()
+
+
+def test_a_step_may_be_a_little_late() -> None:
+    """By a tenth of the limit and a twentieth of a second, and as long as it likes where nobody waits."""
+    assert not may_be_late(1e9)
+    with controlled() as clock, Budget(Limits(seconds=10)).watched():
+        clock.move(8)
+        assert not may_be_late(3.04)
+        assert may_be_late(3.06)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("spacing", [1, Fraction(1, 3)])
+def test_zeros_in_clusters_are_isolated_where_it_can_be_stopped(spacing: Fraction) -> None:
+    """The polynomial with the zeros 1, ..., 160 takes ten seconds, x^160 + x + 1 a fraction of one."""
+    product = QQ.poly([1])
+    for k in range(1, 161):
+        product = product * QQ.poly([-k * spacing, 1])
+    with controlled(), Budget(Limits(seconds=0.3)).watched():
+        with pytest.raises(LimitExceeded, match="zeros of a polynomial of degree 160"):
+            complex_zeros(product.rep.numer())
+        assert len(complex_zeros(QQ.poly([1, 1, *[0] * 78, 1]).rep.numer())) == 80
+
+
+def test_factors_over_parameters_are_those_over_q_where_there_are_none() -> None:
+    """In the order in which they were always found."""
+    f = QQ.poly([-1, *[0] * 11, 1]) * QQ.poly([2, 0, 3]) ** 2
+    found = OVER_A.factor(OVER_A.embed(f))
+    assert {(str(p), k) for p, k in found} == {(str(p), k) for p, k in QQ.factor(f)}
+    a = OVER_A.generator("a")
+    with_a = OVER_A.factor(OVER_A.embed(f) * OVER_A.poly([a, 1]))
+    assert [pair for pair in with_a if pair[0] != OVER_A.poly([a, 1])] == found
+
+
+@pytest.mark.long
+def test_long_factors_over_parameters_are_found_apart_as_here() -> None:
+    a = OVER_A.generator("a")
+    f = OVER_A.poly([-1, *[0] * 503, 1]) * OVER_A.poly([a, 1, a]) ** 2
+    found = OVER_A.factor(f)
+    with Budget().watched():
+        assert OVER_A.factor(f) == found
+    assert len(found) == 25  # the divisors of 504, and one
+    with (
+        controlled(),
+        Budget(Limits(seconds=0.3)).watched(),
+        pytest.raises(LimitExceeded, match="no factors of a polynomial in the variable and the parameters"),
+    ):
+        OVER_A.factor(OVER_A.poly([-1, *[0] * 5039, 1]) * OVER_A.poly([a, 1]))
+
+
+def test_a_page_without_time_has_its_formulas_as_text() -> None:
+    """From the first look that is too late on; nothing of the page is lost."""
+    formulas = [Formulas("x", QQ).math(f) for f in ((X + 1) / (X**2 + 3), X**150 + (X + 1) ** 40 / (X - 2), 1 / X)]
+    blocks = [block for math in formulas for block in (Formula(math), say("so that ", math, " holds"))]
+    written = []
+    for looks in range(30):
+        with controlled(looks_in_time=looks), Budget(Limits(seconds=1)).watched():
+            page = FORMATS["html"].render(blocks)
+        typeset = 6 - page.count("<code>")
+        assert all(page.count(f"<code>{math.text}</code>") <= 2 for math in formulas)
+        assert page.count("so that ") == page.count(" holds") == 3
+        assert bool(typeset) == ("<math" in page)
+        written.append(typeset)
+    assert written == sorted(written)
+    assert written[0] == 0
+    assert len({*written}) > 2
 
 
 def test_the_parts_of_a_call_share_its_clock() -> None:

@@ -23,8 +23,8 @@ from kovacic.algebra.homomorphism import Collector, Homomorphism
 from kovacic.algebra.interpolation import Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly, Scalar
-from kovacic.algebra.rationals import RationalPoly, square_part
-from kovacic.algebra.sparse import by_power, constant_term, factorisation, laurent_constant, square_root
+from kovacic.algebra.rationals import QQ, RationalPoly, square_part
+from kovacic.algebra.sparse import by_power, constant_term, factorisation, laurent_constant, square_root, terms_of
 from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
@@ -101,12 +101,16 @@ class FunctionField(Field):
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         assert isinstance(polynomial, FunctionPoly)
-        one = self.context.constant(1)
-        factors = [
-            (FunctionPoly(self, factor, one).monic(), k)
-            for factor, k in factorisation(polynomial.num)[1]
-            if factor.degrees()[0] > 0
-        ]
+        factors: list[tuple[Poly, int]]
+        if any(polynomial.num.degrees()[1:]):
+            one = self.context.constant(1)
+            factors = [
+                (FunctionPoly(self, factor, one).monic(), k)
+                for factor, k in factorisation(polynomial.num)[1]
+                if factor.degrees()[0] > 0
+            ]
+        else:  # without parameters
+            factors = [(self.embed(factor), k) for factor, k in QQ.factor(_over_q(polynomial.num))]
         return sorted(factors, key=lambda pair: (pair[0].degree, str(pair[0])))
 
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
@@ -185,7 +189,7 @@ class FunctionPoly(Poly):
         return _from_key, (self.field, *self.key())
 
     def key(self) -> tuple[Any, ...]:
-        return _terms(self.num), _terms(self.den)
+        return terms_of(self.num), terms_of(self.den)
 
     @property
     def degree(self) -> int:
@@ -326,8 +330,10 @@ def _substitute(polynomial: Any, values: Sequence[Poly], field: Field) -> Poly:
     return field.poly([columns.get(k, zero) for k in range(max(columns, default=-1) + 1)])
 
 
-def _terms(polynomial: Any) -> tuple[tuple[tuple[int, ...], int], ...]:
-    return tuple((tuple(int(i) for i in e), int(c)) for e, c in polynomial.to_dict().items())
+def _over_q(polynomial: Any) -> Poly:
+    """A polynomial without parameters as one over Q."""
+    coefficients = {int(exponents[0]): int(c) for exponents, c in polynomial.to_dict().items()}
+    return QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)])
 
 
 def _from_key(field: FunctionField, num: tuple[Any, ...], den: tuple[Any, ...]) -> FunctionPoly:

@@ -2,7 +2,8 @@
 
 FLINT isolates them, by a call that can't be stopped.  It is short for coefficients of a few words, and its time can't be
 foreseen for long ones, which may have zeros as near to each other as 1 and 1 + 10^-5000: those of degree 2 are written down,
-and for those of a higher degree FLINT works in a process of its own.
+and for those of a higher degree FLINT works in a process of its own.  So it does where zeros of short ones, if they lie in
+clusters, would take longer than the time that is left.
 """
 
 from __future__ import annotations
@@ -15,10 +16,13 @@ from typing import Any
 from flint import acb, arb, ctx, fmpz, fmpz_poly
 
 from kovacic.errors import LimitExceeded
-from kovacic.limits import check_duration, check_time, watched_seconds
+from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
-#: Seconds that FLINT takes, over the square of the degree.
+#: Seconds that FLINT takes at least, over the square of the degree; and at most, with a part for each bit of the coefficients,
+#: unless zeros lie extremely close together: x(x-1)...(x-79) takes twenty times as long as a polynomial without clusters.
 _SECONDS = 4e-6
+_MOST_SECONDS = 1e-5
+_MOST_SECONDS_PER_BIT = 3e-7
 #: Bits of coefficients for which it takes no longer, beside so many for each degree.
 _SHORT = 400
 _SHORT_PER_DEGREE = 4
@@ -36,12 +40,21 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     if degree < 1:
         return ()
     check_duration(_SECONDS * degree**2, f"the isolation of the zeros of a polynomial of degree {degree}")
-    if degree == 1 or polynomial.height_bits() <= _SHORT + _SHORT_PER_DEGREE * degree:
+    if degree == 1 or _is_soon_done(polynomial):
         return _isolated(polynomial)
     if degree == 2:
         return _of_quadratic(polynomial)
     found = _isolated_apart(tuple([int(c) for c in polynomial.coeffs()]), ctx.prec)
     return tuple((acb(_ball(real), _ball(imaginary)), k) for real, imaginary, k in found)
+
+
+def _is_soon_done(polynomial: fmpz_poly) -> bool:
+    """Are the coefficients short, and is there the time for zeros of any kind?"""
+    degree = polynomial.degree()
+    bits = polynomial.height_bits()
+    if bits > _SHORT + _SHORT_PER_DEGREE * degree:
+        return False
+    return not may_be_late(degree**2 * (_MOST_SECONDS + _MOST_SECONDS_PER_BIT * bits))
 
 
 def _isolated(polynomial: fmpz_poly) -> Zeros:

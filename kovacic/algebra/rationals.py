@@ -163,6 +163,14 @@ class RationalPoly(Poly):
         quotient, remainder = _long_division(self.rep, other.rep)
         return RationalPoly(quotient), RationalPoly(remainder)
 
+    def exact_quotient(self, divisor: Poly) -> RationalPoly | None:
+        if type(divisor) is not RationalPoly or min(self.degree, divisor.degree) <= _LOOK_DEGREE:
+            return super().exact_quotient(divisor)
+        quotient = _exact_quotient(self.rep.numer(), divisor.rep.numer())
+        if quotient is None:
+            return None
+        return RationalPoly(quotient * fmpq(divisor.rep.denom(), self.rep.denom()))
+
     def _foresee_product(self, other: RationalPoly) -> None:
         """Look at the clock before a long product; raise `LimitExceeded` where it won't end in time."""
         check_time()
@@ -362,6 +370,20 @@ def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
         return quotient, rest
     scale = fmpq(1, dividend.denom())
     return fmpq_poly(quotient) * (divisor.denom() * scale), fmpq_poly(rest) * scale
+
+
+def _exact_quotient(dividend: Any, divisor: Any) -> Any:
+    """The quotient of integer polynomials where over Q there is no remainder, else None; over Z, where numbers stay short.
+
+    By Gauss's lemma the quotient of the primitive parts is one over Z, and so is each piece of it; FLINT's division over Z,
+    which rounds, then doesn't have to.
+    """
+    check_time()
+    size = divisor.degree()
+    contents = dividend.content(), divisor.content()
+    above, below = (part / content for part, content in zip((dividend, divisor), contents, strict=True))
+    quotient, rest = _in_pieces(above, below, max(size // _PIECES, _SHORTEST_PIECE))
+    return None if rest else fmpq_poly(quotient) * fmpq(*contents)
 
 
 def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:

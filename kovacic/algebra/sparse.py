@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from math import lcm
-from typing import Any
+from collections.abc import Iterator
+from functools import lru_cache
+from math import inf, lcm
+from typing import Any, cast
 
-from flint import Ordering, fmpq, fmpq_mpoly_ctx
+from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpz_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
+
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time, watched_seconds
+
+#: Above this degree in one of the variables, polynomials are factored in a process that can be stopped.
+_LONG_DEGREE = 400
+
+_Terms = tuple[tuple[tuple[int, ...], int], ...]
 
 
 def laurent_constant(num: Any, den: Any, variable: int) -> Any:
@@ -45,8 +55,41 @@ def constant_term(polynomial: Any) -> int:
     return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
 
 
+def terms_of(polynomial: Any) -> _Terms:
+    """Exponents and coefficients as Python's integers."""
+    return tuple((tuple(int(i) for i in e), int(c)) for e, c in polynomial.to_dict().items())
+
+
 def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     """The content with its sign, and the primitive irreducible factors with their multiplicities."""
+    check_time()
+    if polynomial.is_constant() or max(polynomial.degrees()) <= _LONG_DEGREE or watched_seconds(inf) == inf:
+        return _factored(polynomial)
+    context = polynomial.context()
+    content, factors = _factored_apart(tuple(context.names()), terms_of(polynomial))
+    return content, [(context.from_dict(dict(terms)), k) for terms, k in factors]
+
+
+@lru_cache(maxsize=16)
+def _factored_apart(names: tuple[str, ...], terms: _Terms) -> tuple[int, list[tuple[_Terms, int]]]:
+    """The same found where it can be stopped, as factors of long polynomials over Q are."""
+    from kovacic.process import last_of
+
+    found = last_of(_yield_factors, names, terms, seconds=watched_seconds(inf))
+    if found is None:
+        check_time()
+        reason = "a process of its own gave no factors of a polynomial in the variable and the parameters"
+        raise LimitExceeded(f"{reason}; with seconds=inf none is started", limit="seconds")
+    return cast("tuple[int, list[tuple[_Terms, int]]]", found)
+
+
+def _yield_factors(names: tuple[str, ...], terms: _Terms) -> Iterator[tuple[int, list[tuple[_Terms, int]]]]:
+    context = fmpz_mpoly_ctx.get(names, Ordering.lex)
+    content, factors = _factored(context.from_dict(dict(terms)))
+    yield content, [(terms_of(factor), k) for factor, k in factors]
+
+
+def _factored(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     try:
         content, factors = polynomial.factor()
     except OverflowError:  # python-flint 0.9.0 sorts factors of one shape by coefficients that must be machine integers

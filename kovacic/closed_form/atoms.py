@@ -17,6 +17,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.product import Factor, Product, grouped, merged
 from kovacic.exact import radical
+from kovacic.limits import check_time
 from kovacic.reading.linear import chosen_root
 
 Expr = Any  # SymPy publishes no types
@@ -124,7 +125,12 @@ class Atoms:
     def poly(self, polynomial: Poly, variable: Expr = None) -> Expr:
         """A polynomial, expanded; `variable` may be a root, for an element of K[x]/p."""
         x = self.x if variable is None else variable
-        return Add(*(c * x**k for k, c in enumerate(self.coefficients(polynomial)) if c))
+        terms = []
+        for k, c in enumerate(self.coefficients(polynomial)):
+            check_time()
+            if c:
+                terms.append(c * x**k)
+        return Add(*terms)
 
     def primitive(self, polynomial: Poly) -> tuple[Fraction, Expr]:
         """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""

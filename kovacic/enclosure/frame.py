@@ -18,7 +18,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb_poly, arb, arb_poly, fmpq_poly
+from flint import acb, acb_poly, arb, arb_poly, fmpq_poly
 
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.system import System, distance_lower, offsets
@@ -35,9 +35,9 @@ _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LONG = 100
 _HALVINGS = 60
 _FEW_HALVINGS = 6
-_PIECE_SECONDS = (
-    1e-8  # that it takes to move a long polynomial to the middle of a piece of the way, over its degree squared
-)
+# Seconds that it takes to move a long polynomial to a real and to a complex point, over its degree squared.
+_MOVE_SECONDS = 2e-8
+_COMPLEX_MOVE_SECONDS = 4e-8
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
@@ -264,11 +264,9 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
         length = abs(step).upper()
         marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
         for first, last in itertools.pairwise(marks):
-            if degree > _LONG:
-                check_duration(_PIECE_SECONDS * degree**2, f"a bound for a polynomial of degree {degree}")
-            middle = step * (first + last) / 2
+            middle = start + step * (first + last) / 2
             half = length * (last - first) / 2
-            p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
+            p, q = (_sizes_around(part, middle) for part in both)
             total += _growth_near(p, q, half)
     return total
 
@@ -279,6 +277,15 @@ def _towards_zero(halvings: int) -> list[float]:
     for k in range(1, halvings):
         found += [i / 64 * 2.0**-k for i in range(32, 16, -4)]
     return found
+
+
+def _sizes_around(polynomial: acb_poly, point: acb) -> list[arb]:
+    """The absolute values of the coefficients around a point."""
+    degree = polynomial.degree()
+    if degree > _LONG:
+        seconds = (_COMPLEX_MOVE_SECONDS if point.imag else _MOVE_SECONDS) * degree**2
+        check_duration(seconds, f"a bound for a polynomial of degree {degree}")
+    return [abs(c) for c in polynomial(acb_poly([point, 1])).coeffs()]
 
 
 def _growth_near(p: list[arb], q: list[arb], half: arb) -> float:

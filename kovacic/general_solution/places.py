@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import sympy
@@ -100,6 +101,8 @@ def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
     at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
+    if at.is_Rational and polynomial.field == QQ:
+        return not polynomial(Fraction(int(at.p), int(at.q)))
     value = question.own(atoms.poly(polynomial)).subs(atoms.x, at)
     return value.is_finite is False or is_zero(value)
 

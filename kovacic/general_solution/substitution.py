@@ -1,10 +1,13 @@
-"""The value of an expression at a point by substitution, where each part of it is finite; and the size of an expression."""
+"""The value of an expression at a point by substitution, where each part of it is finite; its size, and its derivative."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import sympy
+
+from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
@@ -29,6 +32,28 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
 def size(expression: Expr) -> int:
     """The number of subexpressions."""
     return 1 + sum(map(size, expression.args))
+
+
+def slope(expression: Expr, x: Expr) -> Expr:
+    """What SymPy's `diff` gives, with a look at the clock at each term and factor: it takes seconds where there are many."""
+    check_time()
+    if expression.is_Add:
+        return sympy.Add(*[slope(term, x) for term in expression.args])
+    if expression.is_Mul:
+        return _slope_of_product(expression.args, x)
+    if expression.is_Pow and expression.exp.is_Number:
+        inner = slope(expression.base, x)
+        return expression * (inner * expression.exp / expression.base)
+    return expression.diff(x)
+
+
+def _slope_of_product(factors: tuple[Expr, ...], x: Expr) -> Expr:
+    terms = []
+    for i, factor in enumerate(factors):
+        inner = slope(factor, x)
+        if inner != 0:
+            terms.append(math.prod((*factors[:i], inner, *factors[i + 1 :]), start=_ONE))
+    return sympy.Add(*terms)
 
 
 def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:

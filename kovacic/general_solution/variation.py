@@ -27,7 +27,8 @@ from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.integrands import NUMBERS, prepared, radicands
 from kovacic.general_solution.steps import JUMPING
-from kovacic.general_solution.substitution import finite_value, size
+from kovacic.general_solution.substitution import finite_value, size, slope
+from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, in_x
 
 Expr = Any  # SymPy publishes no types
@@ -127,8 +128,9 @@ class Basis:
     @property
     def _by_definition(self) -> Expr:
         """The Wronskian wherever the solutions are defined, on any branch; without integrals that cancel."""
-        W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
+        W = self.y1 * slope(self.y2, self.x) - slope(self.y1, self.x) * self.y2
         for integral in W.atoms(sympy.Integral):
+            check_time()
             letter = sympy.Dummy()
             linear = W.xreplace({integral: letter})
             if expand(linear.diff(letter)) == 0:
@@ -153,6 +155,7 @@ class Basis:
         """W/kernel at points, and at 0 from y ~ x^e for series in x; nan where it has no value."""
         by_definition = self._by_definition
         for point in map(sympy.Integer, (0, 1, -1, 2)):
+            check_time()
             W = finite_value(by_definition, self.x, point)
             if W is None:
                 yield sympy.nan
