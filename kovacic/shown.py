@@ -15,6 +15,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+_DELETE = "\x7f"
 _LATEX = {
     "\\": r"\textbackslash{}",
     "^": r"\textasciicircum{}",
@@ -85,6 +86,8 @@ def json_line(data: Any, default: Callable[[Any], str] | None = None) -> str:
     '{"note": "\u03bb \\u202e"}'
     """
     line = json.dumps(data, ensure_ascii=False, default=default)
+    if line.isascii() and _DELETE not in line:  # JSON has escaped the other control characters; megabytes take a moment
+        return line
     if line.isprintable():
         return line
     return "".join(char if char.isprintable() else json.dumps(char)[1:-1] for char in line)

@@ -463,7 +463,7 @@ class Solution(Answer):
         -------
         str
             Formulas that fill more than some screens aren't printed, and parts that would take longer than the limits allow are
-            left out; both are said.
+            left out; both are said.  In HTML, formulas that there is no time to typeset stand as text.
 
         Raises
         ------

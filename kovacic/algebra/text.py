@@ -26,8 +26,18 @@ def quotient_str(num: Any, den: Any, variable: str) -> str:
     num, den = num.field.ground.cleared(num, den)
     above = num.integer_str(variable)
     below = den.integer_str(variable)
-    return above if below == "1" else f"{_parenthesised(above, ' ')}/{_parenthesised(below, ' *')}"
+    if below == "1":
+        return above
+    return f"{_parenthesised(above, _is_sum(above))}/{_parenthesised(below, _is_sum(below) or _is_product(below))}"
 
 
-def _parenthesised(text: str, separators: str) -> str:
-    return f"({text})" if any(separator in text.lstrip("-").replace("**", "^") for separator in separators) else text
+def _parenthesised(text: str, is_needed: bool) -> str:
+    return f"({text})" if is_needed else text
+
+
+def _is_sum(text: str) -> bool:
+    return " " in text
+
+
+def _is_product(text: str) -> bool:
+    return "*" in text.replace("**", "^")

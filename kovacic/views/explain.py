@@ -63,7 +63,7 @@ def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> 
     HTML is one page that needs nothing from elsewhere, in ASCII, with MathML, and with the picture of a real solution where
     there is one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves closed forms out.  Formulas
     that fill more than some screens aren't printed, and parts that would take longer than the limits allow are left out; both
-    are said.  Raises `ValueError` for another format.
+    are said; on a page, formulas that there is no time to typeset stand as text.  Raises `ValueError` for another format.
     """
     if format not in FORMATS:
         raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")

@@ -14,6 +14,8 @@ from pkgutil import get_data
 from string import Template
 
 from kovacic import shown
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
 from kovacic.writing.breaking import LINE, breakable, pieces, width
 from kovacic.writing.formula import Math
 
@@ -152,7 +154,8 @@ def _mathml(math: Math, display: str = "inline") -> str:
     from latex2mathml.converter import convert
 
     if not math.latex:
-        return f"<code>{shown.html(math.text)}</code>"
+        return _code(math)
+    check_time()
     written = convert(math.latex, display=display)
     # A prime is raised and small by itself, and infinity is no operator.
     written = re.sub(
@@ -161,19 +164,40 @@ def _mathml(math: Math, display: str = "inline") -> str:
     return written.replace("<mo>&#x0221E;</mo>", "<mi>&#x0221E;</mi>")
 
 
+def _code(math: Math) -> str:
+    """What can't be typeset, or not in time, as text."""
+    return f"<code>{shown.html(math.text)}</code>"
+
+
 def _html_math(math: Math) -> str:
+    try:
+        check_time()
+        return _html_line(math.latex) if math.latex else _code(math)
+    except LimitExceeded:
+        return _code(math)
+
+
+def _html_line(latex: str) -> str:
     """In a line; of a formula that is wider than a page many small ones, between which browsers break the line."""
-    if width(math.latex) <= 1.5 * LINE:
-        return _mathml(math)
-    parts = [_mathml(Math("", piece if piece[0] not in "+-" else f"{{}} {piece}")) for piece in pieces(math.latex)]
+    if width(latex) <= 1.5 * LINE:
+        return _mathml(Math("", latex))
+    parts = [_mathml(Math("", piece if piece[0] not in "+-" else f"{{}} {piece}")) for piece in pieces(latex)]
     return "<wbr/>".join(parts)
 
 
 def _html_formula(math: Math) -> str:
+    try:
+        check_time()
+        return _html_block(math)
+    except LimitExceeded:
+        return f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">{_code(math)}</div>'
+
+
+def _html_block(math: Math) -> str:
     rows = _rows(math)
     if all(width(row) <= 1.5 * LINE for row in rows):
         return f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">{_mathml(math, "block")}</div>'
-    return "".join(f'<div style="padding:.4em 0">{_html_math(Math(math.text, row))}</div>' for row in rows)
+    return "".join(f'<div style="padding:.4em 0">{_html_line(row)}</div>' for row in rows)
 
 
 FORMATS = {
