@@ -49,9 +49,11 @@ def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limit
 
 def _has_rational_poles(parsed: Parsed) -> bool:
     """Not where there isn't the time to find them, either."""
-    with suppress(LimitExceeded):
-        return all(factor.degree == 1 for factor, _ in parsed.S.field.factor(parsed.S.den))
-    return False
+    try:
+        factors = parsed.S.field.factor(parsed.S.den)
+    except LimitExceeded:
+        return False
+    return all(factor.degree == 1 for factor, _ in factors)
 
 
 def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> ParametricAnswer | None:
