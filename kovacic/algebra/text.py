@@ -24,8 +24,8 @@ def _term(coefficient: str, monomial: str) -> str:
 def quotient_str(num: Any, den: Any, variable: str) -> str:
     """`num/den`, two polynomials, in lowest terms, with integer coefficients."""
     num, den = num.field.ground.cleared(num, den)
-    above = num.integer_str(variable)
-    below = den.integer_str(variable)
+    above: str = num.integer_str(variable)
+    below: str = den.integer_str(variable)
     if below == "1":
         return above
     return f"{_parenthesised(above, _is_sum(above))}/{_parenthesised(below, _is_sum(below) or _is_product(below))}"
