@@ -36,7 +36,9 @@ def test_lifting_by_primes_and_by_the_recurrence_agree(m: int, shift: int, moved
     valuations, N = bound
     by_recurrence = polynomial_invariant(problem, m, N, valuations)
     assert by_recurrence == found[0].P
-    images = [invariants_modulo(h, problem, m, *bound, 6) for h, _ in zip(QQ.homomorphisms(), range(3), strict=False)]
+    images = [
+        invariants_modulo(h, problem, m, *bound, margin=6) for h, _ in zip(QQ.homomorphisms(), range(3), strict=False)
+    ]
     for h, (space, _) in zip(QQ.homomorphisms(), images, strict=False):
         assert space == [h(found[0].P)]
 
@@ -58,7 +60,7 @@ def test_a_larger_margin_and_another_prime_give_the_same_dimension() -> None:
             if bound is None:
                 continue
             dimensions = {
-                len(invariants_modulo(h, problem, m, *bound, margin)[0])
+                len(invariants_modulo(h, problem, m, *bound, margin=margin)[0])
                 for h, _ in zip(QQ.homomorphisms(), range(3), strict=False)
                 for margin in (6, 30)
             }

@@ -56,7 +56,9 @@ class DegreeBound:
         None where the place isn't a single point with a choice between rational numbers.
         """
         halves = [half for other, half in self.choices if other is place]
-        if place.degree > 1 or not halves or (place.delta is None and place.factor.field != QQ):
+        if place.degree > 1 or not halves:
+            return None
+        if place.delta is None and place.factor.field != QQ:
             return None
         others = [half for other, half in self.choices if other is not place]
         signed = (halves[0], -halves[0])
@@ -131,7 +133,9 @@ def irregular_difference_squared(place: Place) -> Poly:
         slope = _moved(p, p, extension, nu + 1) // t  # p = t slope
         power = extension.poly([1])
         for digit in f"{place.order:b}":
-            power = power * power * (slope if digit == "1" else 1) % end
+            power = power * power % end
+            if digit == "1":
+                power = power * slope % end
         E = E * power
     u = N * E % end
     v = u[0].inverse()
@@ -152,7 +156,9 @@ def _moved(f: Poly, p: Poly, extension: AlgebraicField | None, count: int) -> Po
     """f(t + c) modulo t^count, c the class of x modulo p: by Taylor's formula over the extension by c, if there is one."""
     if extension is None:
         t = p.field.poly([0, 1])
-        return (f(t - p[0]) if p[0] else f) % t**count
+        if p[0]:
+            f = f(t - p[0])
+        return f % t**count
     coefficients = []
     for k in range(count):
         coefficients.append(extension.element(f % p))

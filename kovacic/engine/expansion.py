@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from math import lcm
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx, fmpz_poly
 
@@ -42,8 +42,38 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
     """
     place = _cheapest_place(problem, m, valuations)
     D, R, T, point = _coefficients(problem, place, valuations)
-    lowest, *others = _recurrence(m, D, R, T)
-    solutions: list[tuple[int, RationalSeries]] = []  # with the powers at which they begin
+    solutions, conditions = _local_solutions(problem, _recurrence(m, D, R, T), N)
+    combination = _null_vector(conditions, len(solutions))
+    if combination is None:
+        return None
+    P = fmpq_poly([])
+    for factor, solution in zip(combination, solutions, strict=True):
+        P += solution.truncated(N) * factor
+    if place is not None and place.at_infinity:
+        return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
+    return RationalPoly(P)(QQ.poly([-point, 1])).monic()
+
+
+class _Solution(NamedTuple):
+    """A solution of the recurrence that begins with t^start."""
+
+    start: int
+    series: RationalSeries
+
+    def term(self, k: int) -> Any:
+        """The coefficient of t^k."""
+        return self.series.term(k - self.start) if k >= self.start else fmpq(0)
+
+    def truncated(self, N: int) -> Any:
+        """The terms up to t^N."""
+        return self.series.polynomial(max(N + 1 - self.start, 0)).rep.left_shift(self.start)
+
+
+def _local_solutions(problem: Problem, factors: Sequence[Any], N: int) -> tuple[list[_Solution], list[list[Any]]]:
+    """The solutions to some terms beyond t^N, and the conditions, a row each, on a combination of them that is a polynomial of
+    degree N at most: those of the recurrence where its first factor vanishes, and that the terms beyond are zero."""
+    lowest, *others = factors
+    solutions: list[_Solution] = []
     conditions = []
     end = N + 1
     i = 0
@@ -51,26 +81,16 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
         if i % 16 == 0:
             problem.budget.check()
         pivot = lowest(i)
-        factors = [factor(i - h) for h, factor in enumerate(others[:i], 1)]
-        obstructions = [series.extend(pivot, factors) for _, series in solutions]
+        values = [factor(i - h) for h, factor in enumerate(others[:i], 1)]
+        obstructions = [solution.series.extend(pivot, values) for solution in solutions]
         if not pivot:
             if any(obstructions):
                 conditions.append(obstructions)
-            solutions.append((i, RationalSeries(len(others))))
+            solutions.append(_Solution(i, RationalSeries(len(others))))
             end = N + 1 + len(solutions) + _MARGIN
         i += 1
-    conditions += [
-        [series.term(k - start) if k >= start else fmpq(0) for start, series in solutions] for k in range(N + 1, end)
-    ]
-    combination = _null_vector(conditions, len(solutions))
-    if combination is None:
-        return None
-    P = fmpq_poly([])
-    for factor, (start, series) in zip(combination, solutions, strict=True):
-        P += series.polynomial(max(N + 1 - start, 0)).rep.left_shift(start) * factor
-    if place is not None and place.at_infinity:
-        return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
-    return RationalPoly(P)(QQ.poly([-point, 1])).monic()
+    conditions += [[solution.term(k) for solution in solutions] for k in range(N + 1, end)]
+    return solutions, conditions
 
 
 def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Place | None:
@@ -79,14 +99,18 @@ def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Plac
     best = None
     for place, least in zip(problem.places, valuations, strict=True):
         if place.kind is Kind.REGULAR and place.degree == 1:
-            exponents = (
-                {Fraction(m, 2)} if place.delta is None else {(m + (2 * k - m) * place.delta) / 2 for k in range(m + 1)}
-            )
-            count = sum(1 for value in exponents if value.denominator == 1 and value >= least)
+            count = sum(1 for value in _exponents(place, m) if value.denominator == 1 and value >= least)
             if count < fewest:
                 fewest = count
                 best = place
     return best
+
+
+def _exponents(place: Place, m: int) -> set[Fraction]:
+    """Those of the products of m solutions that may be integers."""
+    if place.delta is None:  # irrational: y+ and y- equally often
+        return {Fraction(m, 2)}
+    return {(m + (2 * k - m) * place.delta) / 2 for k in range(m + 1)}
 
 
 def _coefficients(

@@ -88,7 +88,7 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            spaces = [invariants_modulo(h, problem, m, valuations, N, margin) for h in bundle]
+            spaces = [invariants_modulo(h, problem, m, valuations, N, margin=margin) for h in bundle]
         except BadPrimeError:
             continue
         excluded = _excluded(bundle, spaces, m, N)
@@ -149,7 +149,7 @@ def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -
 
 
 def invariants_modulo(
-    h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, margin: int
+    h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, *, margin: int
 ) -> tuple[list[Any], int]:
     """The echelon basis modulo p of all P whose expansion agrees with a form to N + m + 2 + margin terms; and the point."""
     num = h(problem.S.num)

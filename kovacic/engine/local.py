@@ -73,33 +73,48 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
     At a regular place Q is an exponent: (1 + Delta)/2 alone if there is a logarithm.  At an unramified irregular place
     Q = +-[sqrt S] + (nu +- b/a)/2 t^(nu-1) [Kovacic 1986, sec. 3.2].  Empty if a square root doesn't exist modulo p.
     """
-    p = equation.p
     nu = equation.nu
-    allowed = None if exponents is None else [e.numerator * pow(e.denominator, -1, p) % p for e in exponents]
-    half = pow(2, -1, p)
     ratio = equation.N.mul_low(equation.E.inverse_series_trunc(nu), nu)
     if place.kind is Kind.REGULAR:
-        if place.delta is not None:
-            difference: int | None = place.delta.numerator * pow(place.delta.denominator, -1, p) % p
-        else:
-            difference = square_root(1 + 4 * int(ratio[0]), p)
-        if difference is None:
-            return []
-        signs = [1] if place.logarithm or difference == 0 else [1, -1]
-        parts = [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
-        return [Q for Q in parts if allowed is None or int(Q[0]) in allowed]
+        parts = _regular_parts(equation.p, place, int(ratio[0]))
+    else:
+        parts = _irregular_parts(equation.p, nu, ratio)
+    if exponents is None:
+        return parts
+    allowed = [_modulo(exponent, equation.p) for exponent in exponents]
+    return [Q for Q in parts if int(Q[nu - 1]) in allowed]
+
+
+def _modulo(number: Fraction, p: int) -> int:
+    return number.numerator * pow(number.denominator, -1, p) % p
+
+
+def _regular_parts(p: int, place: Place, leading: int) -> list[Any]:
+    """(1 + Delta)/2 and (1 - Delta)/2 with Delta^2 = 1 + 4 s, s the leading coefficient."""
+    difference = square_root(1 + 4 * leading, p) if place.delta is None else _modulo(place.delta, p)
+    if difference is None:
+        return []
+    signs = [1] if place.logarithm or difference == 0 else [1, -1]
+    half = pow(2, -1, p)
+    return [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
+
+
+def _irregular_parts(p: int, nu: int, ratio: Any) -> list[Any]:
+    """+-[sqrt S] + (nu +- b/a)/2 t^(nu-1), for S = ratio/t^(2 nu).
+
+    With S = (a + ... + r t^(nu-1))^2 / t^(2 nu) + O(t^-nu): b = 2 a r, so that b/a = 2 r.
+    """
     if not int(ratio[0]):
         raise BadPrimeError("the leading coefficient at an irregular place vanishes")
     root = square_root(int(ratio[0]), p)
     if root is None:
         return []
+    half = pow(2, -1, p)
     parts = []
     for leading in (root, -root % p):
         series = square_root_series(ratio, nu, leading)
-        # With S = (a + ... + r t^(nu-1))^2 / t^(2 nu) + O(t^-nu): b = 2 a r, so that b/a = 2 r.
         exponent = (nu * half + int(series[nu - 1])) % p
-        if allowed is None or exponent in allowed:
-            parts.append(series.truncate(nu - 1) + nmod_poly([exponent], p).left_shift(nu - 1))
+        parts.append(series.truncate(nu - 1) + nmod_poly([exponent], p).left_shift(nu - 1))
     return parts
 
 

@@ -188,13 +188,18 @@ def _families(
     families = [Family((), zero)]
     for point, chosen in zip(points, choices, strict=True):
         check_time()
-        weight = SCALE[m] * (1 if point.place.at_infinity else -point.count)
+        weight = _weight(point, m) * point.count
         parts = [(choice, zero + weight * choice.value) for choice in chosen]
         longer = []
         for family in families:
             longer += [Family((*family.choices, choice), family.d + part) for choice, part in parts]
         families = longer
     return families
+
+
+def _weight(point: SingularPoint, m: int) -> Fraction | int:
+    """What d has an exponent at this point times: SCALE[m] at infinity, minus that at a pole."""
+    return SCALE[m] if point.place.at_infinity else -SCALE[m]
 
 
 def _may_succeed(family: Family, m: int) -> bool:
@@ -244,7 +249,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
     # By d, and whether all e are even so far, which for m = 2 excludes the family.
     sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
     for point, chosen in zip(points, choices, strict=True):
-        weight = SCALE[m] * (1 if point.place.at_infinity else -1)
+        weight = _weight(point, m)
         parts = [(weight * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
             check_time()
@@ -270,9 +275,9 @@ def _choices(point: SingularPoint, m: int, roots: _Roots) -> tuple[Choice, ...] 
         return tuple(map(Choice, _AT_ORDINARY_INFINITY.get(m, range(13))))
     if place.order > 2:
         return _at_irregular(place, m, roots)
-    # alpha_c = 1, or e_c = 12 (4 for m = 2)
-    if place.order == 1:
-        return (Choice(1 if m == 1 else 2 * _centre(m)),)
+    if place.order == 1:  # alpha_c = 1, or e_c = 12 (4 for m = 2)
+        value = 1 if m == 1 else 2 * _centre(m)
+        return (Choice(value),)
     if m == 1:
         return _square_root_exponents(place, roots)
     return _rational_exponents(place, m)
@@ -286,7 +291,8 @@ def _centre(m: int) -> int:
 def _at_irregular(place: Place, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
     """(c3), (inf3) for m = 1, and E_c with one element for m = 2; higher degrees don't occur."""
     if m == 2:
-        return (Choice(4 - place.order if place.at_infinity else place.order),)
+        value = 4 - place.order if place.at_infinity else place.order
+        return (Choice(value),)
     if m == 1 and place.degree == 1 and place.order % 2 == 0:
         return _irregular(place, roots)
     return None
@@ -374,8 +380,13 @@ class _Trial:
         self.x = x
         self.D = problem.D.over(field)
         self.T = problem.T.over(field)
-        X = field.poly([0, 1])
-        self.factors = [X - p.at if p.at is not None else p.place.factor.over(field) for p in points[1:]]
+        self.factors = [self._factor(point) for point in points[1:]]
+
+    def _factor(self, point: SingularPoint) -> Poly:
+        """x - c, or the polynomial of conjugate poles that are taken together."""
+        if point.at is None:
+            return point.place.factor.over(self.field)
+        return self.field.poly([0, 1]) - point.at
 
     def degree(self, family: Family) -> int:
         return natural(family.d)
@@ -454,5 +465,10 @@ def _conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tupl
     x = Symbol("x")
     rows = range(1 + max(image.degree for image in images))
     terms = (zip((image[i] for image in images), (*unknowns, Integer(1)), strict=True) for i in rows)
-    found = [expand(Add(*(in_sympy(c, x) * a for c, a in row))) for row in terms]
-    return unknowns, tuple(dict.fromkeys(e.primitive()[1] if e.is_Add else e for e in found if e))
+    found = [_primitive(expand(Add(*(in_sympy(c, x) * a for c, a in row)))) for row in terms]
+    return unknowns, tuple(dict.fromkeys(e for e in found if e))
+
+
+def _primitive(expression: Any) -> Any:
+    """A sum without the common factor of its coefficients; anything else as it is."""
+    return expression.primitive()[1] if expression.is_Add else expression

@@ -97,13 +97,18 @@ def _lifted_factor(problem: Problem, field: Field, P: Poly, X: Poly, Y: Poly) ->
         if len(degrees) > 1:
             continue
         degree = degrees.pop()
-        directly = degree <= _LIFTED_DEGREE
-        proposal = lifter.add(bundle, [[R, zeros] if directly else [R] for R, zeros in parts])
+        if degree <= _LIFTED_DEGREE:
+            proposal = lifter.add(bundle, [[R, zeros] for R, zeros in parts])
+        else:  # R alone is lifted
+            proposal = lifter.add(bundle, [[R] for R, _ in parts])
         if not proposal:
             continue
         R = proposal[0]
-        form = Form(1, R, proposal[1] if directly else _polynomial_part(problem, R, degree) or field.poly([]))
-        if form.P and form.is_form(problem):
+        zeros = proposal[1] if degree <= _LIFTED_DEGREE else _polynomial_part(problem, R, degree)
+        if not zeros:
+            continue
+        form = Form(1, R, zeros)
+        if form.is_form(problem):
             return form
     raise AssertionError("the sequence of primes is infinite")
 
@@ -175,7 +180,7 @@ class _ModularSearch:
         return images
 
     def _modulo(self, bundle: Sequence[Homomorphism], degrees: list[int]) -> list[tuple[Any, int] | None]:
-        return [_omega_modulo(h, self._problem, self._place, degrees, self._exponents) for h in bundle]
+        return [_omega_modulo(h, self._problem, self._place, degrees, exponents=self._exponents) for h in bundle]
 
 
 def _omegas_of_low_degree(problem: Problem) -> list[Form]:
@@ -209,9 +214,13 @@ def _lifted(
 ) -> Form | None:
     """The form with these R and degrees of P modulo p, once there are enough primes; None as long as there aren't."""
     degrees = {degree for _, degree in images}
-    proposal = lifter.add(bundle, [[R] for R, _ in images]) if len(degrees) == 1 else None
-    P = _polynomial_part(problem, proposal[0], degrees.pop()) if proposal else None
-    return None if P is None or proposal is None else Form(1, proposal[0], P)
+    if len(degrees) != 1:
+        return None
+    proposal = lifter.add(bundle, [[R] for R, _ in images])
+    if not proposal:
+        return None
+    P = _polynomial_part(problem, proposal[0], degrees.pop())
+    return None if P is None else Form(1, proposal[0], P)
 
 
 #: Degrees of P that are tried before their bound is computed where that is the more expensive part.
@@ -232,6 +241,7 @@ def _omega_modulo(
     problem: Problem,
     place: Place,
     degrees: list[int],
+    *,
     exponents: list[Fraction] | None = None,
     sign: int | None = None,
 ) -> tuple[Any, int] | None:
@@ -249,7 +259,7 @@ def _omega_modulo(
     for degree in degrees:
         problem.budget.check()
         problem.budget.check_degree(degree, "the polynomial part of a solution")
-        found = [pair for Q in parts if (pair := rational_omega(c, Q, degree))]
+        found = [pair for pair in (rational_omega(c, Q, degree) for Q in parts) if pair]
         if len(found) > 1:
             raise BadPrimeError("two solutions modulo this prime")
         if found:

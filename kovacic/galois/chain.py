@@ -215,7 +215,10 @@ def _reduced(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]
     a = a // common
     b = b // common
     others = ((a * a - model.h * b * b) // (E.u // common)).monic()
-    conjugate = Points(others, -a * b.inverse_modulo(others) % others if others.degree else others * 0)
+    ordinate = others * 0
+    if others.degree:
+        ordinate = -a * b.inverse_modulo(others) % others
+    conjugate = Points(others, ordinate)
     return _sum(model.h, conjugate, Points(common, E.v % common)), (a, -b)
 
 

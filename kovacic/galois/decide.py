@@ -54,19 +54,20 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
 def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
     """By a rational form F of degree 2; None stands for the first one that there is, if there is any."""
     residues = rational_residues(f.theta)
-    square = F is not None and _is_square(problem, F)
-    space = None
-    if F is None or square:
-        space = invariants(problem, 2)
-    if F is None and isinstance(space, list):
+    space: list[Form] = []  # all the rational forms, where F alone doesn't tell
+    if F is None or _is_square(problem, F):
+        found = invariants(problem, 2)
+        space = found if isinstance(found, list) else []
+    if F is None and space:
         F = space[0].semi_invariant(problem)
-        square = _is_square(problem, F)
+    is_square = F is not None and _is_square(problem, F)
     if isinstance(residues, Ground):
-        return Group(GroupKind.BOREL if F is None else GroupKind.MULTIPLICATIVE, residues, form=F)
+        kind = GroupKind.BOREL if F is None else GroupKind.MULTIPLICATIVE
+        return Group(kind, residues, form=F)
     n = lcm(1, *(r.denominator for r in residues))
-    if square and isinstance(space, list) and len(space) == 3:
+    if is_square and len(space) == 3:
         return Group(GroupKind.CYCLIC, Ground.ALL_INVARIANT, n, F)
-    if F is None or square:  # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
+    if F is None or is_square:  # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
         return Group(GroupKind.ADDITIVE, Ground.RESIDUES, n, F)
     return Group(GroupKind.CYCLIC, Ground.RESIDUES, n, F)
 

@@ -42,6 +42,13 @@ class Torus(NamedTuple):
     name: str
     order: int | None
 
+    @classmethod
+    def of(cls, rank: int, *orders: int) -> Torus:
+        """G_m^rank times the groups of roots of unity of these orders."""
+        parts = ["G_m"] * rank + [f"mu_{n}" for n in orders if n > 1]
+        order = None if rank else prod(orders)
+        return cls(" x ".join(parts) or "trivial", order)
+
 
 @dataclass(frozen=True)
 class EquationGroup:
@@ -99,7 +106,8 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     assert f is not None
     if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):
         torus = _torus(*_forms(f.theta, rho))
-        return EquationGroup(normal_form, N, "G_a" if torus.order == 1 else f"G_a extended by {torus.name}", False)
+        name = "G_a" if torus.order == 1 else f"G_a extended by {torus.name}"
+        return EquationGroup(normal_form, N, name, False)
     if kind in (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE):
         torus = _torus(*_forms(f.theta, rho))
         return EquationGroup(normal_form, N, torus.name, torus.order is not None, torus.order)
@@ -134,7 +142,8 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
         e = _COMMON_QUOTIENT[group.kind]
         if N % e or not any(_is_integral(j * (N // e) * rho - f.theta) for j in range(1, e + 1) if gcd(j, e) == 1):
             e = 1
-        return group.order * N // (e * (2 if (N // e) % 2 == 0 else 1))
+        common = e if (N // e) % 2 else 2 * e  # with -1, which is in both
+        return group.order * N // common
     if N == 2:  # the sign is a character of G that is trivial at -1, or independent of it
         return group.order
     if N % 2:
@@ -198,19 +207,15 @@ def _coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
 def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:
     """The diagonalisable group with the characters Z^2/L, L = {(a, b) : the first forms vanish, the others are integers}."""
 
-    def group(rank: int, *orders: int) -> Torus:
-        parts = ["G_m"] * rank + [f"mu_{n}" for n in orders if n > 1]
-        return Torus(" x ".join(parts) or "trivial", None if rank else prod(orders))
-
     rows = [row for row in vanishing if any(row)]
     if rows:
         p, q = rows[0]
         if any(p * s != q * r for r, s in rows):
-            return group(2)
-        a, b = (-q / p).as_integer_ratio() if p else (1, 0)
-        return group(1, lcm(1, *((r * a + s * b).denominator for r, s in integral)))
+            return Torus.of(2)
+        a, b = (-q / p).as_integer_ratio() if p else (1, 0)  # p a + q b = 0
+        return Torus.of(1, lcm(1, *((r * a + s * b).denominator for r, s in integral)))
     n = lcm(1, *(value.denominator for row in integral for value in row))
     matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
     # The entries have no common factor, n being the least common denominator: the elementary divisors are 1 and the minors'.
     minors = gcd(*(r[0] * s[1] - r[1] * s[0] for k, r in enumerate(matrix) for s in matrix[:k]))
-    return group(0, n // minors, n)
+    return Torus.of(0, n // minors, n)

@@ -26,7 +26,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import count, islice, takewhile
+from itertools import combinations, count, islice, takewhile
 from math import lcm, prod
 from typing import Any, NamedTuple
 
@@ -110,13 +110,18 @@ def curve_of(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
         e = residue(problem, R, place)
         growth += e * place.degree
         if e:
-            points.append(CurvePoint(place.factor, e, place.delta if e == 2 and place.delta else Fraction(0)))
+            points.append(CurvePoint(place.factor, e, _residue_of_eta(e, place.delta)))
     if f.P.degree > 0:
         points.append(CurvePoint(f.P, 2, Fraction(1)))
     place = problem.infinity
     e = 4 - growth
     delta = Fraction(1) if place.kind is PlaceKind.ORDINARY else place.delta
-    return SquareRootCurve(tuple(points), CurvePoint(place.factor, e, delta if e == 2 and delta else Fraction(0)))
+    return SquareRootCurve(tuple(points), CurvePoint(place.factor, e, _residue_of_eta(e, delta)))
+
+
+def _residue_of_eta(e: int, delta: Fraction | None) -> Fraction:
+    """The difference of the exponents where the valuation is 2, else 0."""
+    return delta if e == 2 and delta else Fraction(0)
 
 
 def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurve, l: int) -> Group:  # noqa: E741
@@ -159,7 +164,9 @@ def _by_function(H: RatFunc, k: int) -> Group | None:
 
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     """Homomorphisms to prime fields, from p = 5 on; smaller ones first, since orders grow like p^genus.  Numbers only."""
-    primes = (p for p in (count(5) if field.ground == QQ else ()) if fmpz(p).is_prime())
+    if field.ground != QQ:
+        return iter(())
+    primes = (p for p in count(5) if fmpz(p).is_prime())
     tried = islice((h for p in primes for h in homomorphisms_modulo(field, p)), _PRIMES_TRIED)
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
@@ -203,7 +210,7 @@ def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # no
 def _demand_units(residues: list[Fraction], p: int) -> None:
     """The kernel knows the residues by their squares modulo p: these have to be units, and different ones."""
     squares = {residue**2 for residue in residues}
-    differences = {a - b for a in squares for b in squares if a != b}
+    differences = {a - b for a, b in combinations(squares, 2)}
     if any(value.numerator * value.denominator % p == 0 for value in squares | differences):
         raise BadPrimeError("a residue isn't a unit, or two have the same square")
 
