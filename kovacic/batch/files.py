@@ -19,10 +19,10 @@ import sys
 import tempfile
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple, TextIO
 
 from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
@@ -65,10 +65,12 @@ def read_items(
         return
     for line in lines:
         text = line.text.strip()
-        if form == "jsonl" and text and line.error is None:
-            yield _json_item(line.number, text, var)
-        elif line.error is not None or (text and (form == "jsonl" or not text.startswith("#"))):
+        if line.error is not None:
             yield Item(line.number, text, var, error=line.error)
+        elif text and form == "jsonl":
+            yield _json_item(line.number, text, var)
+        elif text and not text.startswith("#"):
+            yield Item(line.number, text, var)
 
 
 def count_items(name: str, *, form: str | None = None) -> int:
@@ -106,8 +108,9 @@ def _lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
                 while line and not line.endswith(b"\n"):
                     line = plain.readline(longest)
                 line = b"\n"
+            encoding = "utf-8-sig" if number == 1 else "utf-8"
             try:
-                text = line.decode("utf-8-sig" if number == 1 else "utf-8")
+                text = line.decode(encoding)
             except UnicodeDecodeError as wrong:
                 text = line.decode("utf-8", errors="backslashreplace")
                 error = ParseError(f"the line isn't UTF-8 text: byte {wrong.start} is {wrong.reason}")
@@ -159,7 +162,8 @@ def _csv_items(lines: Iterable[Item], var: str | None) -> Iterator[Item]:
 
     def texts() -> Iterator[str]:
         for line in lines:
-            wrong.extend([line.error] if line.error else [])
+            if line.error is not None:
+                wrong.append(line.error)
             yield line.text
 
     reader = csv.reader(texts())
@@ -202,11 +206,10 @@ def answers(path: Path | None) -> Iterator[Callable[[Record], None]]:
         stream.write(record.json + "\n")
         stream.flush()
 
-    with (
-        path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
-        if path
-        else nullcontext(sys.stdout) as stream
-    ):
+    opened: AbstractContextManager[TextIO] = nullcontext(sys.stdout)
+    if path:
+        opened = path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
+    with opened as stream:
         yield write
 
 
@@ -247,12 +250,12 @@ def take_up(path: Path) -> Done:
         with path.open("rb") as stream, repaired:
             for line in stream:
                 answer = _answer(line)
-                if answer is None or answer[0] in done.checksums:
+                if answer is None or answer.number in done.checksums:
                     broken = True
                     foreign = foreign or (line.endswith(b"\n") and line.strip(b"\0\n") != b"")
                     continue
-                number, checksum, label = answer
-                done.checksums[number], done.labels[number] = checksum, label
+                done.checksums[answer.number] = answer.checksum
+                done.labels[answer.number] = answer.label
                 repaired.write(line)
             repaired.flush()
             os.fsync(repaired.fileno())
@@ -266,13 +269,21 @@ def take_up(path: Path) -> Done:
     return done
 
 
-def _answer(line: bytes) -> tuple[int, int, str] | None:
-    """The number, a checksum of the input and the label of a line; None for what isn't a whole answer."""
+class _Answer(NamedTuple):
+    """The number of a line, a checksum of the input and the label."""
+
+    number: int
+    checksum: int
+    label: str
+
+
+def _answer(line: bytes) -> _Answer | None:
+    """That of a line; None for what isn't a whole answer."""
     if not line.endswith(b"\n"):
         return None
     try:
         data = json.loads(line)
-        return int(data["line"]), _checksum(data["input"]), label_of(data)
+        return _Answer(int(data["line"]), _checksum(data["input"]), label_of(data))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
 

@@ -408,7 +408,8 @@ def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[I
 def _cause(status: int, words: str) -> str:
     end = f"signal {_signal_name(status)}" if status < 0 else f"exit status {status}"
     last_line = words.splitlines()[-1].strip() if words else ""
-    return f"the worker process ended with {end}" + (f": {last_line}" if last_line else "")
+    cause = f"the worker process ended with {end}"
+    return f"{cause}: {last_line}" if last_line else cause
 
 
 def _signal_name(status: int) -> str:

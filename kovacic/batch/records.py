@@ -147,8 +147,10 @@ class Job:
 
     def __post_init__(self) -> None:
         self._set(timeout=seconds_of(self.timeout, "timeout"))
-        self._set(memory=None if self.memory is None else whole(self.memory, "memory, in MiB,", least=1))
-        self._set(jobs=None if self.jobs is None else whole(self.jobs, "jobs", least=1))
+        if self.memory is not None:
+            self._set(memory=whole(self.memory, "memory, in MiB,", least=1))
+        if self.jobs is not None:
+            self._set(jobs=whole(self.jobs, "jobs", least=1))
         self._set(limits=limits_of(self.limits))
         if self.timeout is not None and not 0 < self.timeout < 1e8:
             raise InputError(f"a timeout of {self.timeout} s isn't possible", hint="give seconds, above 0")
@@ -178,7 +180,8 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
     structure = solution.decision.structure
     label = UNDECIDED
     if not solution.reason:
-        label = _LABELS[None if structure is None else structure.value][0]
+        name = None if structure is None else structure.value
+        label, *_ = _LABELS[name]
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
 
 
@@ -194,8 +197,11 @@ def label_of(data: Mapping[str, Any]) -> str:
     if data["status"] == UNDECIDED and data["proof"]["undecided"]:
         return UNDECIDED
     label, case, degree = _LABELS[data["proof"]["structure"]]
-    found = data["status"], data["case"], len(data["riccati"]["coefficients"]) - 1 if data["riccati"] else 0
-    if found != ("none" if case is None else "liouvillian", case, degree) or not data["verified"]:
+    status = "none" if case is None else "liouvillian"
+    found = 0
+    if data["riccati"]:
+        found = len(data["riccati"]["coefficients"]) - 1
+    if (data["status"], data["case"], found) != (status, case, degree) or not data["verified"]:
         raise ValueError("the answer contradicts itself")
     return label
 
@@ -207,7 +213,8 @@ def refused(item: Item, error: KovacicError, seconds: float = 0.0, *, shell: boo
     details: dict[str, Any] = {"type": type(error).__name__, "message": str(error)}
     if not isinstance(error, InputError):
         return _without_answer(item, FAILED, {"status": "error", "error": details}, seconds)
-    details |= {"message": error.message, "position": error.position, "hint": error.shell if shell else error.hint}
+    hint = error.shell if shell else error.hint
+    details |= {"message": error.message, "position": error.position, "hint": hint}
     return _without_answer(item, ERROR, {"status": "error", "error": details}, seconds)
 
 

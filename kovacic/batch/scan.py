@@ -47,7 +47,8 @@ class Grid:
         return len(self.numerators)
 
     def __iter__(self) -> Iterator[Fraction | str]:
-        return (k if isinstance(k, str) else Fraction(k, self.denominator) for k in self.numerators)
+        for k in self.numerators:
+            yield k if isinstance(k, str) else Fraction(k, self.denominator)
 
 
 def parse_grid(text: str) -> Grid:
@@ -66,10 +67,15 @@ def parse_grid(text: str) -> Grid:
     name = name.strip()
     if not separator or not name.isidentifier():
         raise InputError(f"{text!r} isn't a grid", hint="NAME=START:STOP:STEP or NAME=VALUE,VALUE: n=0:10:1/4")
-    values = [_value(part, text) for part in re.split("[:,]" if ":" in rest else ",", rest)]
     if ":" not in rest:
-        return Grid(name, values)
-    if "," in rest or len(values) > 3 or not all(isinstance(value, Fraction) for value in values):
+        return Grid(name, [_value(part, text) for part in rest.split(",")])
+    values = [_value(part, text) for part in re.split("[:,]", rest)]
+    return _range(name, values, text)
+
+
+def _range(name: str, values: list[Fraction | str], text: str) -> Grid:
+    """The grid of START, STOP and perhaps STEP."""
+    if "," in text or len(values) > 3 or not all(isinstance(value, Fraction) for value in values):
         raise InputError(f"{text!r} isn't START:STOP:STEP with rational numbers", hint="n=0:10:1/4")
     start, stop, step = (Fraction(value) for value in (*values, 1)[:3])
     if not step or (stop - start) / step < 0:
@@ -144,7 +150,8 @@ def row(record: Record) -> tuple[str, ...]:
     remark = data["error"]["message"] if "error" in data else data["proof"]["undecided"]
     cells = (data["status"], data.get("case"), riccati.get("degree"), group.get("name"), group.get("order"),
              data.get("seconds"), remark)  # fmt: skip
-    return (*data["parameters"].values(), *("" if cell is None else str(cell) for cell in cells))
+    shown = ["" if cell is None else str(cell) for cell in cells]
+    return (*data["parameters"].values(), *shown)
 
 
 def draw_map(
@@ -170,7 +177,8 @@ def draw_map(
         handles = draw_cells(axes, right, up, cells, kinds)
     axes.set_xlabel(rightwards.name)
     axes.set_ylabel(upwards.name)
-    axes.set_title(f"y'' = S y,  S = {expression if len(expression) <= 70 else expression[:67] + '...'}", fontsize=10)
+    shown = expression if len(expression) <= 70 else expression[:67] + "..."
+    axes.set_title(f"y'' = S y,  S = {shown}", fontsize=10)
     axes.figure.legend(handles=handles, loc="outside right upper", fontsize=9, frameon=False)
     axes.figure.savefig(path, dpi=150)
 

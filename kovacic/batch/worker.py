@@ -32,7 +32,8 @@ def serve(channel: Channel) -> None:
         item = Item(*channel.receive())
         if job.memory is not None:
             _limit_memory(job.memory)
-        set_alarm(0.0 if job.timeout is None else job.timeout + 5.0)
+        if job.timeout is not None:
+            set_alarm(job.timeout + 5.0)
         record = solve_item(item, job, limits)
         set_alarm(0.0)
 
@@ -53,4 +54,6 @@ def _limit_memory(mebibytes: int) -> None:
         size = int(statm.readline().split()[0]) * resource.getpagesize()
     wanted = size + (mebibytes << 20)
     (_, hard) = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
+    if hard != resource.RLIM_INFINITY:
+        wanted = min(wanted, hard)
+    resource.setrlimit(resource.RLIMIT_AS, (wanted, hard))
