@@ -195,4 +195,7 @@ def _decided(
         decision, sentence, proven = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
     except LimitExceeded as limit:
         return Decision(None, (), undecided=str(limit)), parsed.notices, False, known
-    return decision, (*parsed.notices, sentence) if sentence else parsed.notices, proven, known
+    notices = parsed.notices
+    if sentence:
+        notices = (*notices, sentence)
+    return decision, notices, proven, known

@@ -170,10 +170,8 @@ class RiccatiPolynomial:
     def coefficients(self) -> tuple[RatFunc, ...]:
         """The coefficients of W^0, ..., W^m in lowest terms; the last one is 1."""
         m = self.degree
-        return tuple(
-            RatFunc(self.numerators[k] * (-1) ** k, self.P * self.D**k) if k else RatFunc(self.P.field.poly([1]))
-            for k in range(m, -1, -1)
-        )
+        lower = [RatFunc(self.numerators[k] * (-1) ** k, self.P * self.D**k) for k in range(m, 0, -1)]
+        return (*lower, RatFunc(self.P.field.poly([1])))
 
 
 @dataclass(frozen=True)

@@ -173,8 +173,10 @@ class Equation:
         terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]
         left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)
         right = [_coefficient(self.f, self.variable)] if self.f or self.h is None else []
-        if self.h is not None:
-            right.append(as_text(self.h) if self.change is None else f"[a right-hand side in {self.change.variable}]")
+        if self.h is not None and self.change is None:
+            right.append(as_text(self.h))
+        elif self.h is not None and self.change is not None:
+            right.append(f"[a right-hand side in {self.change.variable}]")
         line = f"{left} = {' + '.join(right)}".replace("+ -", "- ")
         return line.replace("**", "^") if caret else line
 
@@ -228,9 +230,12 @@ def _coefficient(function: RatFunc, variable: str) -> str:
         size = str(abs(number))
         factor = variable if power == 1 else f"{variable}**{power}"
         if power == 0:
-            terms.append(sign + size)
+            term = size
+        elif size == "1":
+            term = factor
         else:
-            terms.append(sign + (factor if size == "1" else f"{size}*{factor}"))
+            term = f"{size}*{factor}"
+        terms.append(sign + term)
     return " + ".join(terms).replace("+ -", "- ") or "0"
 
 

@@ -147,8 +147,14 @@ def _of_sympy(value: Any, name: str) -> Parts | None:
     parts = value.as_real_imag() if getattr(value, "is_number", False) else ()
     if not parts or not all(part.is_Rational or part.is_Float for part in parts):
         return None
-    real, imaginary = (fmpq(int(p.p), int(p.q)) if p.is_Rational else _mpf(p._mpf_, name) for p in parts)
+    real, imaginary = (_of_sympy_real(part, name) for part in parts)
     return real, imaginary
+
+
+def _of_sympy_real(number: Any, name: str) -> Any:
+    if number.is_Rational:
+        return fmpq(int(number.p), int(number.q))
+    return _mpf(number._mpf_, name)
 
 
 def _of_flint(value: Any, name: str) -> Parts | None:
@@ -158,7 +164,8 @@ def _of_flint(value: Any, name: str) -> Parts | None:
         return None
     ball = acb(value)
     _demand_exact(ball.is_finite() and ball.real.is_exact() and ball.imag.is_exact(), name)
-    (above, e), (aside, k) = ball.real.man_exp(), ball.imag.man_exp()
+    above, e = ball.real.man_exp()
+    aside, k = ball.imag.man_exp()
     return _power(above, e, name), _power(aside, k, name)
 
 
@@ -215,7 +222,8 @@ def _mpf(parts: tuple[int, int, int, int], name: str) -> Any:
     sign, mantissa, exponent, _ = parts
     if not mantissa and exponent:
         raise InputError(f"{name} isn't a finite number")
-    return _power(-int(mantissa) if sign else int(mantissa), exponent, name)
+    signed = -int(mantissa) if sign else int(mantissa)
+    return _power(signed, exponent, name)
 
 
 def _power(mantissa: Any, exponent: Any, name: str) -> Any:

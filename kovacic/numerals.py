@@ -47,7 +47,9 @@ def fraction(text: str | int) -> Fraction:
     if isinstance(text, int):
         return Fraction(text)
     above, slash, below = text.partition("/")
-    return Fraction(integer(above), integer(below) if slash else 1)
+    if not slash:
+        return Fraction(integer(above))
+    return Fraction(integer(above), integer(below))
 
 
 def in_a_message(number: int) -> str:
