@@ -31,8 +31,8 @@ def _sequence(even: Levels, odd: Levels) -> Levels | None:
     energy = even.energy.subs(n, n / 2)
     if sympy.simplify(energy.subs(n, 2 * n + 1) - odd.energy) != 0:
         return None
-    conditions = [_solved_for_number(c.subs(n, n / 2)) for c in even.conditions]
-    of_odd = [_solved_for_number(c.subs(n, (n - 1) / 2)) for c in odd.conditions]
+    conditions = [_solved_for_number(c.subs(n, n / 2), n) for c in even.conditions]
+    of_odd = [_solved_for_number(c.subs(n, (n - 1) / 2), n) for c in odd.conditions]
     if [*map(str, conditions)] != [*map(str, of_odd)]:
         return None
     norm = None
@@ -48,9 +48,8 @@ def _by_parity(even: Any, odd: Any, n: Any) -> Any:
     return sympy.Piecewise((even.subs(n, n / 2), is_even), (odd.subs(n, (n - 1) / 2), True))
 
 
-def _solved_for_number(condition: Any) -> Any:
+def _solved_for_number(condition: Any, n: Any) -> Any:
     """n/2 < c as n < 2 c; a condition that isn't linear in n, with a number before it, as it is."""
-    n = sympy.Symbol("n")
     difference = condition.gts - condition.lts
     slope = sympy.expand(difference).coeff(n, 1)
     if not slope.is_number or slope == 0:

@@ -20,7 +20,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import acb, acb_poly, arb, arb_poly
 
@@ -60,6 +60,8 @@ def product_form(
 ) -> ProductForm | None:
     """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
 
+    Double-doubles are its arithmetic if it is to be `careful`.
+
     None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 60 where
     a table is better.
     """
@@ -72,26 +74,40 @@ def product_form(
 def _exponential(
     problem: NumericProblem, branch: Exponential, region: Region, base: ExactPoint, careful: bool
 ) -> ProductForm | None:
+    """Case 1: y = exp(int theta) P."""
     c = branch.constant()
     degree = branch.P.degree
     table = None
-    if degree > _FEW_ZEROS and region.is_real and any(region.singular):
-        table = polynomial_table(_Expansion.of(problem, branch, base), region, careful)
-    elif degree > _FEW_ZEROS and region.is_real:
-        ends = (as_point(end.real, "an end") for end in (region.low, region.high))
-        if degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
+    if degree > _FEW_ZEROS and region.is_real:
+        if any(region.singular):
+            table = polynomial_table(_Expansion.of(problem, branch, base), region, careful)
+        elif _is_for_a_table(problem, degree, region):
             return None
-    if table is None and degree > _MAX_ZEROS:
-        return None
+    roots: list[tuple[acb, int]] = []
+    if table is None:
+        if degree > _MAX_ZEROS:
+            return None
+        roots = zeros(branch.P, c)
+        if sum(k for _, k in roots) < degree:
+            return None  # not all were found
     theta = LogDerivative.make(branch.theta, c)
-    P = embed(branch.P, c)
-    roots = zeros(branch.P, c) if table is None else []
-    if table is None and sum(k for _, k in roots) < degree:
-        return None  # not all were found
     powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in roots]
-    is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *P.coeffs()])
+    is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *embed(branch.P, c).coeffs()])
     factors = _factors(powers, to_acb(base), is_real)
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
+
+
+def _is_for_a_table(problem: NumericProblem, degree: int, region: Region) -> bool:
+    """Is the solution itself tabulated with less effort, on an interval without a singular end?"""
+    ends = (as_point(end.real, "an end") for end in (region.low, region.high))
+    return degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT
+
+
+class _Series(NamedTuple):
+    """Coefficients, and the most that one may be."""
+
+    row: list[Any]
+    most: Any
 
 
 @dataclass(frozen=True)
@@ -114,26 +130,33 @@ class _Expansion:
 
     def __call__(self, cell: Cell, variant: Variant) -> list[Any] | None:
         """The coefficients; None if the piece won't do."""
-        x = arb(cell[0])
-        h = arb((1, cell[1]))
         prec = 300 + 3 * self.branch.P.degree
         while prec <= _HIGHEST:
             check_time()
-            with working_precision(prec):
-                P, slope, *equation = self._balls(prec)
-                row = [P(x), slope(x) * h]
+            series = self._series(cell, variant, prec)
+            if series is None:
+                return None
             with working_precision(200 + prec // 4):
-                most = GROWTH * max(abs(v).upper() for v in row)
-                local = [[v * h**k for v in part(type(P)([x, h])).coeffs()] for k, part in enumerate(equation)]
-                if not _continued(row, local, variant.tested, most):
-                    return None
-                sizes = [abs(v) for v in row]
+                sizes = [abs(v) for v in series.row]
                 small = max(v.mid() for v in sizes) * arb((1, -variant.bits))
                 if all(v.rad() <= small for v in sizes):
-                    converges = sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small
-                    return row if converges else None
+                    converges = sum(sizes, arb(0)) <= series.most and max(v.mid() for v in sizes[-2:]) <= small
+                    return series.row if converges else None
             prec *= 2
         return None
+
+    def _series(self, cell: Cell, variant: Variant, prec: int) -> _Series | None:
+        """The coefficients in balls at this precision; None where one is too large."""
+        x = arb(cell[0])
+        h = arb((1, cell[1]))
+        with working_precision(prec):
+            P, slope, *equation = self._balls(prec)
+            row = [P(x), slope(x) * h]
+        with working_precision(200 + prec // 4):
+            most = GROWTH * max(abs(v).upper() for v in row)
+            line = type(P)([x, h])
+            local = [[v * h**k for v in part(line).coeffs()] for k, part in enumerate(equation)]
+            return _Series(row, most) if _continued(row, local, variant.tested, most) else None
 
     def _balls(self, prec: int) -> list[Any]:
         """P, P' and the equation's coefficients, real polynomials where they are real; P(base) = 1."""
@@ -201,16 +224,20 @@ def _parameters(conic: Conic, a: acb) -> tuple[acb, tuple[acb, acb] | None]:
     X = a - conic.vertex
     square = X if conic.shape is Shape.LINE else X * X + conic.m
     s = square * 0 if square.contains(0) else (square * conic.sigma).sqrt()
-    if conic.shape is not Shape.ELLIPSE:
-        return s, (s, -s) if conic.shape is Shape.LINE else (X + s, X - s)
+    if conic.shape is Shape.LINE:
+        return s, (s, -s)
+    if conic.shape is Shape.HYPERBOLA:
+        return s, (X + s, X - s)
     right = a - conic.ends[0]
-    return s, None if right.contains(0) else (s / right, -s / right)
+    if right.contains(0):
+        return s, None
+    return s, (s / right, -s / right)
 
 
 def conic_of(g: acb_poly, middle: arb) -> Conic | None:
     """The curve whose s is real near `middle`; None for another degree, or coefficients that aren't real."""
     coefficients: list[Any] = g.coeffs()
-    if len(coefficients) not in (2, 3) or any(not c.imag.contains(0) for c in coefficients):
+    if len(coefficients) not in (2, 3) or not _all_real(coefficients):
         return None
     low, *rest = (c.real for c in coefficients)
     value = g(middle).real
@@ -222,7 +249,8 @@ def conic_of(g: acb_poly, middle: arb) -> Conic | None:
     vertex = -rest[0] / 2
     m = low - vertex * vertex
     ends = (vertex - (-m).sqrt(), vertex + (-m).sqrt()) if m < 0 else ()
-    return Conic(Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE, sigma, vertex, m, ends)
+    shape = Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE
+    return Conic(shape, sigma, vertex, m, ends)
 
 
 def _on_curve(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
@@ -242,12 +270,12 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: ExactPo
     if conic is None:
         return None
     integral = integrate_on_curve(r, g)
-    kappa = (embed(kappa_squared, c)(0) * conic.sigma).sqrt()
     even = theta / 2 if problem.gauge is None else theta / 2 + problem.gauge
-    # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
-    average = value(even, c, z) + value(RatFunc(P.derivative(), P), c, z) / 2
     root, parameters = _parameters(conic, z)
     assert parameters is not None
+    # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
+    kappa = (embed(kappa_squared, c)(0) * conic.sigma).sqrt()
+    average = value(even, c, z) + value(RatFunc(P.derivative(), P), c, z) / 2
     odd = kappa * value(integral.integrand, c, z) / root
     target = omega(problem, which, base, 200)
     if not (average + odd).overlaps(target):
@@ -266,26 +294,36 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: ExactPo
     return ProductForm(region, base, factors, _exponent(smooth), is_real, sheet, conic)
 
 
-def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[list[acb]]:
-    """Points a of the x-line with their residues: mu of phi/2, and rho of r."""
+class _Residues(NamedTuple):
+    """A point a of the x-line with its residues: mu of phi/2, and rho of r."""
+
+    a: acb
+    mu: acb
+    rho: acb
+
+
+def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[_Residues]:
+    """The points with residues, each once."""
     zero = acb(0)
-    found = [[pole.zeta, pole.coefficients[0], zero] for pole in smooth.poles]
-    found += [[a, acb(k) / 2, zero] for a, k in zeros(P, c)]
-    found += [[a, zero, embed(part.value, c)(a)] for part in residues for a, _ in zeros(part.factor, c)]
-    merged: list[list[acb]] = []
-    for a, mu, rho in found:
-        for other in merged:
-            if (other[0] - a).abs_upper() < _SAME * (1 + abs(a)):
-                other[1:] = other[1] + mu, other[2] + rho
-                break
+    found = [_Residues(pole.zeta, pole.coefficients[0], zero) for pole in smooth.poles]
+    found += [_Residues(a, acb(k) / 2, zero) for a, k in zeros(P, c)]
+    for part in residues:
+        found += [_Residues(a, zero, embed(part.value, c)(a)) for a, _ in zeros(part.factor, c)]
+    merged: list[_Residues] = []
+    for one in found:
+        near = _SAME * (1 + abs(one.a))
+        known = next((k for k, other in enumerate(merged) if (other.a - one.a).abs_upper() < near), None)
+        if known is None:
+            merged.append(one)
         else:
-            merged.append([a, mu, rho])
+            other = merged[known]
+            merged[known] = _Residues(other.a, other.mu + one.mu, other.rho + one.rho)
     return merged
 
 
-def _powers(places: list[list[acb]], conic: Conic, kappa: acb, rest: acb) -> Powers:
+def _powers(places: list[_Residues], conic: Conic, kappa: acb, rest: acb) -> Powers:
     """The exponents in t of (1)."""
-    total = sum((mu for _, mu, _ in places), acb(0))
+    total = sum((place.mu for place in places), acb(0))
     i = acb(0, 1)
     found: Powers = []
     for a, mu, rho in places:

@@ -24,6 +24,7 @@ from kovacic.doubles.product_form import ProductDerivative, ProductForm
 from kovacic.doubles.region import Measured, Region, facts
 from kovacic.enclosure.closed_form import closed_form_of, decided, omega
 from kovacic.enclosure.points import ExactPoint, as_point, working_precision
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.limits import Limits
 
 _PREC = 400
@@ -133,14 +134,10 @@ def combination(
     chart: RationalChart, region: Region, candidates: list[ExactPoint], limits: Limits | None
 ) -> Combination | None:
     """The solution that the chart is given, if it is real, from the certificate of case 1; None where there is none."""
-    problem = chart.problem
-    if chart.is_forced or not region.is_real or any(region.singular) or problem.S is None:
+    if chart.is_forced or not region.is_real or any(region.singular):
         return None
-    if problem.S.num.degree + problem.S.den.degree > _DEGREE:
-        return None
-    known = decided(problem, _UNKNOWN)
-    closed = None if known is None else closed_form_of(known)
-    if known is None or closed is None or not closed.is_elementary:
+    known = _with_certificate(chart.problem)
+    if known is None:
         return None
     chart = replace(chart, problem=known)
     with working_precision(_PREC):
@@ -148,14 +145,32 @@ def combination(
         if base is None:
             return None
         y, dy = chart.states([base], _DIGITS, limits)[0]
+        if not (y.imag.is_zero() and dy.imag.is_zero()):
+            return None
         first, second = (omega(known, which, base, _PREC) for which in (0, 1))
         gap = first - second
-        found = [(dy - second * y) / gap, (first * y - dy) / gap]
-        if not (y.imag.is_zero() and dy.imag.is_zero()) or any(c.contains(0) or not c.is_finite() for c in found):
+        factors = [(dy - second * y) / gap, (first * y - dy) / gap]
+        if not all(map(_is_safe, factors)):
             return None
-        conjugate = not first.imag.contains(0)
-        forms = [product_form(known, which, region, base, False) for which in range(1 if conjugate else 2)]
-    return _with_factors(region, forms, found, float(base.x))
+        are_conjugate = not first.imag.contains(0)
+        used = (0,) if are_conjugate else (0, 1)
+        forms = [product_form(known, which, region, base, False) for which in used]
+    return _with_factors(region, forms, factors, float(base.x))
+
+
+def _with_certificate(problem: NumericProblem) -> NumericProblem | None:
+    """The problem, decided; None where S is large, and where there is no elementary solution."""
+    S = problem.S
+    if S is None or S.num.degree + S.den.degree > _DEGREE:
+        return None
+    known = decided(problem, _UNKNOWN)
+    closed = None if known is None else closed_form_of(known)
+    return known if closed is not None and closed.is_elementary else None
+
+
+def _is_safe(factor: acb) -> bool:
+    """Can it be told from 0, and is it finite?"""
+    return not factor.contains(0) and factor.is_finite()
 
 
 def _with_factors(
@@ -176,13 +191,17 @@ def _base(chart: RationalChart, region: Region, candidates: list[ExactPoint]) ->
     """x0 in the interval, or a point near its middle, where both logarithmic derivatives are finite; a double."""
     low, high = region.interval
     start = as_point(chart.given.get("x0"), "x0")
-    inside = start.is_real() and low <= start.re <= high
-    for point in [start, *candidates] if inside else candidates:
-        base = ExactPoint(Fraction(float(point.x)))
-        try:
-            for which in (0, 1):
-                omega(chart.problem, which, base, _PREC)
-        except ZeroDivisionError:
-            continue
-        return base
-    return None
+    if start.is_real() and low <= start.re <= high:
+        candidates = [start, *candidates]
+    bases = (ExactPoint(Fraction(float(point.x))) for point in candidates)
+    return next((base for base in bases if _are_finite(chart, base)), None)
+
+
+def _are_finite(chart: RationalChart, base: ExactPoint) -> bool:
+    """Both logarithmic derivatives?"""
+    try:
+        for which in (0, 1):
+            omega(chart.problem, which, base, _PREC)
+    except ZeroDivisionError:
+        return False
+    return True

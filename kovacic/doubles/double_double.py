@@ -18,7 +18,7 @@ Y. Hida, X. Li and D. Bailey, "Algorithms for quad-double precision floating poi
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -114,30 +114,42 @@ class Complex:
     @classmethod
     def of(cls, value: acb) -> Complex:
         """The number next to the midpoint of a ball; real, if the ball meets the real axis."""
-        return cls(Pair.of(value.real), None if value.imag.contains(0) else Pair.of(value.imag))
+        if value.imag.contains(0):
+            return cls(Pair.of(value.real))
+        return cls(Pair.of(value.real), Pair.of(value.imag))
 
     def __add__(self, other: Complex) -> Complex:
         re = self.re + other.re
         if other.im is None:
             return Complex(re, self.im)
-        return Complex(re, other.im if self.im is None else self.im + other.im)
+        if self.im is None:
+            return Complex(re, other.im)
+        return Complex(re, self.im + other.im)
 
     def __sub__(self, other: Complex) -> Complex:
         re = self.re - other.re
         if other.im is None:
             return Complex(re, self.im)
-        return Complex(re, -other.im if self.im is None else self.im - other.im)
+        if self.im is None:
+            return Complex(re, -other.im)
+        return Complex(re, self.im - other.im)
 
     def __mul__(self, other: Complex) -> Complex:
         if other.im is None:
-            return Complex(self.re * other.re, None if self.im is None else self.im * other.re)
+            return self.each(lambda part: part * other.re)
         if self.im is None:
-            return Complex(self.re * other.re, self.re * other.im)
+            return other.each(lambda part: self.re * part)
         return Complex(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+
+    def each(self, function: Callable[[Any], Any]) -> Complex:
+        """The function of both parts; of the real one where the other is 0."""
+        if self.im is None:
+            return Complex(function(self.re))
+        return Complex(function(self.re), function(self.im))
 
     def conjugate(self) -> Complex:
         """re - i im."""
-        return Complex(self.re, None if self.im is None else -self.im)
+        return self if self.im is None else Complex(self.re, -self.im)
 
     def reciprocal(self) -> Complex:
         """1/self."""
@@ -154,9 +166,11 @@ def scaled(a: Any, e: Any) -> Any:
 
 def split(z: Complex) -> tuple[Complex, Any]:
     """(z 2^-e, e), where 2^e is about |z|."""
-    size = np.abs(double(z.re)) if z.im is None else np.maximum(np.abs(double(z.re)), np.abs(double(z.im)))
-    e = np.frexp(size)[1]
-    return Complex(scaled(z.re, -e), None if z.im is None else scaled(z.im, -e)), e
+    size = np.abs(double(z.re))
+    if z.im is not None:
+        size = np.maximum(size, np.abs(double(z.im)))
+    _, e = np.frexp(size)
+    return z.each(lambda part: scaled(part, -e)), e
 
 
 def double(a: Any) -> Any:

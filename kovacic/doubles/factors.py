@@ -42,15 +42,18 @@ class Conic:
         """(t, s) at points with sigma g(x) > 0, Pairs or arrays."""
         X = x - self.vertex
         if self.shape is Shape.LINE:
-            s = square_root(X if self.sigma > 0 else -X)
+            sigma_g = X if self.sigma > 0 else -X
+            s = square_root(sigma_g)
             return s, s
         if self.shape is Shape.ELLIPSE:
             left = x - self.ends[0]
             right = self.ends[1] - x
             return square_root(right / left), square_root(left * right)
-        # The differences are exact near a branch point, unlike X^2 + m; for X < 0, X + s would cancel, and m/(s - X) doesn't.
-        s = square_root((x - self.ends[0]) * (x - self.ends[1]) if self.ends else X * X + self.m)
-        far = absolute(X) + s
+        sigma_g = X * X + self.m
+        if self.ends:  # the differences are exact near a branch point
+            sigma_g = (x - self.ends[0]) * (x - self.ends[1])
+        s = square_root(sigma_g)
+        far = absolute(X) + s  # for X < 0, X + s would cancel, and m/(s - X) doesn't
         return select(double(X) < 0, self.m / far, far), s
 
     def slopes(self, x: Any, t: Any, s: Any) -> tuple[Any, Any]:
@@ -81,7 +84,13 @@ class RootFactor:
     def whole(self) -> int | None:
         """The power, where that is a small integer."""
         k = self.power.re.hi
-        return round(k) if self.power.im is None and abs(k) <= _MULTIPLIED_OUT and k == round(k) else None
+        is_small = self.power.im is None and abs(k) <= _MULTIPLIED_OUT
+        return round(k) if is_small and k == round(k) else None
+
+    @property
+    def is_natural(self) -> bool:
+        """Is the power a small integer that isn't negative?"""
+        return self.whole is not None and self.whole >= 0
 
     def slope(self, t: Complex) -> Complex:
         """The derivative of its logarithm by t."""
@@ -113,7 +122,9 @@ class RationalFunction:
                 c *= inverse
             terms.append(c)
         total = sum_of(terms)
-        return total if total is None or times is None else total * times
+        if total is None or times is None:
+            return total
+        return total * times
 
     @property
     def derivative(self) -> RationalFunction:
@@ -121,7 +132,8 @@ class RationalFunction:
         degree = len(self.polynomial) - 1
         powers = [Complex(Pair(float(degree - k))) for k in range(degree)]
         polynomial = tuple(c * power for c, power in zip(self.polynomial[:-1], powers, strict=True))
-        return RationalFunction(polynomial, tuple((a, c * Complex(Pair(float(-k))), k + 1) for a, c, k in self.polar))
+        polar = tuple((a, c * Complex(Pair(float(-k))), k + 1) for a, c, k in self.polar)
+        return RationalFunction(polynomial, polar)
 
 
 def sum_of(terms: list[Complex]) -> Complex | None:

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from typing import Any, Literal, Required, Unpack
 
 import numpy as np
@@ -312,21 +313,30 @@ def measure(
         assert not isinstance(function, Combination)
         assert function.base is not None
         chart = chart.beginning(which, function.base)
-    near = _zeros(function) if points is None else ()
-    extra = _suspects(function, *near) if near else np.empty(0)
-    given = np.append(samples(function, near) if near else np.atleast_1d(points), extra)
-    exact = [as_point(complex(x), "x") for x in given]
+    extra = np.empty(0)
+    if points is None:
+        zeros, gaps = _zeros(function)
+        points = samples(function, (zeros, gaps))
+        extra = _suspects(function, zeros, gaps)
+    given = np.append(np.atleast_1d(points), extra)
     found = [complex(v) for v in function(given)]
-    # far ways of thousands of oscillations have the closed form in balls alone
-    method = None if isinstance(function, Combination) else "taylor"
-    reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method=method)]
-    if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
-        raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
+    reference = _reference(function, chart, given, limits)
     with working_precision(_PREC):
         errors = _errors(found, reference, normed=bool(start))
     typical = [e for e in errors[: len(errors) - extra.size] if e is not None]
     counted = [e for e in errors if e is not None]
     return Measured(float(np.median(typical or [math.inf])), max(counted, default=math.inf), len(counted))
+
+
+def _reference(function: Function, chart: PieceChart, points: Any, limits: Limits | None) -> list[acb]:
+    """The values at these points in balls.  Raises LimitExceeded where they aren't found."""
+    exact = [as_point(complex(x), "x") for x in points]
+    # far ways of thousands of oscillations have the closed form in balls alone
+    method = None if isinstance(function, Combination) else "taylor"
+    values = [y for y, _ in chart.states(exact, _DIGITS, limits, method=method)]
+    if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in values):
+        raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
+    return values
 
 
 def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list[float | None]:
@@ -336,13 +346,14 @@ def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list
     if not quotients:
         return []
     factor = acb(1) if normed else _median(quotients)
-    return [None if y.contains(0) else _units(v, (y * factor).mid()) for v, y in pairs]
+    return [_units(v, y, factor) for v, y in pairs]
 
 
 def _median(quotients: list[acb]) -> acb:
     """By the real or the imaginary parts, whichever is the larger of the first one."""
-    by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
-    ordered = sorted(quotients, key=lambda q: q.real if by_real else q.imag)
+    first = quotients[0]
+    part = "real" if abs(first.real) >= abs(first.imag) else "imag"
+    ordered = sorted(quotients, key=attrgetter(part))
     return ordered[len(ordered) // 2]
 
 
@@ -356,7 +367,8 @@ def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:
         return low + size.real * share + 1j * size.imag * ((share * 7.3) % 1)
     left, right = (size.real / 1000 * singular for singular in region.singular)
     zeros, gaps = near or _zeros(function)
-    chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS if len(zeros) else 0).astype(int))
+    used = _ZEROS if len(zeros) else 0
+    chosen = np.unique(np.linspace(0, len(zeros) - 1, used).astype(int))
     beside = [zeros[chosen] + way * gaps[chosen] for way in (-_BESIDE, _BESIDE)]
     count = _SAMPLES - 2 - 2 * len(chosen)
     between = low.real + size.real * (np.arange(count) + 0.5) / (count + 0.13)
@@ -377,12 +389,14 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
         beside = [zeros + way * _BESIDE * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
         points = np.concatenate([points[starts == stops], *beside])
     with np.errstate(all="ignore"):
-        sizes = np.abs(y := exact(points))
+        y = exact(points)
+        sizes = np.abs(y)
         quotients = function(points) / y
         within = np.flatnonzero((sizes > TINY) & (sizes < HUGE) & np.isfinite(quotients))
         sizes = sizes[within]
         quotients = quotients[within]
-        errors = np.abs(quotients - (np.median(quotients) if within.size else 1)) * sizes / np.spacing(sizes)
+        factor = np.median(quotients) if within.size else 1
+        errors = np.abs(quotients - factor) * sizes / np.spacing(sizes)
     return points[within[np.argsort(errors)[-_WORST:]]]
 
 
@@ -407,19 +421,25 @@ def _zeros(function: Function) -> tuple[Any, Any]:
     if np.iscomplexobj(y):
         return np.empty(0), np.empty(0)
     k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
-    (a, b), (p, q) = x[[k, k + 1]], y[[k, k + 1]]
+    a = np.array([x[k], y[k]])  # brackets: points and values
+    b = np.array([x[k + 1], y[k + 1]])
     for _ in range(4):
         with np.errstate(all="ignore"):
-            quotient = np.abs(q / p)
-        zeros = a + (b - a) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
-        left = np.sign(values := function(zeros)) == np.sign(p)
-        (a, p), (b, q) = np.where(left, (zeros, values), (a, p)), np.where(left, (b, q), (zeros, values))
+            quotient = np.abs(b[1] / a[1])
+        zeros = a[0] + (b[0] - a[0]) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
+        between = np.array([zeros, function(zeros)])
+        is_left = np.sign(between[1]) == np.sign(a[1])
+        a = np.where(is_left, between, a)
+        b = np.where(is_left, b, between)
     gaps = np.diff([function.region.low.real, *zeros, function.region.high.real])
     return zeros, np.minimum(gaps[:-1], gaps[1:])
 
 
-def _units(value: complex, exact: acb) -> float | None:
-    """The error of one value; None where the exact value is beyond the range of normal doubles."""
+def _units(value: complex, y: acb, factor: acb) -> float | None:
+    """The error of one value; None where the solution may be 0, or is beyond the range of normal doubles."""
+    if y.contains(0):
+        return None
+    exact = (y * factor).mid()
     size = abs(exact)
     if not TINY < size < HUGE:
         return None

@@ -27,7 +27,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -39,6 +39,14 @@ from kovacic.enclosure.points import ExactPoint
 
 _ROOM = 900.0
 """Bits that a plain product may grow by before its binary exponent is taken out."""
+
+
+class _Parts(NamedTuple):
+    """y = value * 2^binary * exp(growth); growth is None in plain arithmetic where there is none."""
+
+    value: Complex
+    binary: Any
+    growth: Complex | None
 
 
 @dataclass(frozen=True)
@@ -93,10 +101,15 @@ class ProductForm:
     measured: Measured | None = None
 
     def __repr__(self) -> str:
-        return f"<ProductForm on {self.region}, {'real' if self.is_real else 'complex'}>"
+        return f"<ProductForm on {self.region}, {self.kind}>"
 
     def _repr_html_(self) -> str:
-        return facts("the closed form", self.region, self.measured, values="real" if self.is_real else "complex")
+        return facts("the closed form", self.region, self.measured, values=self.kind)
+
+    @property
+    def kind(self) -> str:
+        """Of the values: "real" or "complex"."""
+        return "real" if self.is_real else "complex"
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -163,31 +176,36 @@ class ProductForm:
         """
         points = self.region.points(x)
         with np.errstate(all="ignore"):
-            value, binary, growth = self._parts(points.reshape(-1), careful=True)
-            unit = _complex_array(value)
-            total = double(growth.re + LOG_2 * Pair(0.0 + binary)) + np.log(np.abs(unit))
+            parts = self._parts(points.reshape(-1), careful=True)
+            growth = parts.growth
+            assert growth is not None
+            unit = _complex_array(parts.value)
+            total = double(growth.re + LOG_2 * Pair(0.0 + parts.binary)) + np.log(np.abs(unit))
             unit = np.sign(unit) * _complex_array(_turn(growth))
         return unit.reshape(points.shape)[()], total.reshape(points.shape)[()]
 
     def _values(self, x: Any) -> Any:
-        value, binary, growth = self._parts(x, self.careful)
-        value = Complex(double(value.re), None if value.im is None else double(value.im))
-        if self.careful:
-            turns = np.rint(growth.re.hi / LOG_2.hi)
-            rest = growth.re - Pair(turns, 0.0 * turns) * LOG_2
-            value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
-            binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
-        elif growth is not None:
-            factor = Complex(np.exp(growth.re))
-            value = factor if np.ndim(value.re) == 0 else value * factor
-        if growth is not None and growth.im is not None:
-            value *= _turn(growth)
+        parts = self._parts(x, self.careful)
+        value = parts.value.each(double)
+        binary = parts.binary
+        growth = parts.growth
+        if growth is not None:
+            if self.careful:
+                turns = np.rint(growth.re.hi / LOG_2.hi)
+                rest = growth.re - Pair(turns, 0.0 * turns) * LOG_2
+                value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
+                binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
+            else:
+                factor = Complex(np.exp(growth.re))
+                value = factor if np.ndim(value.re) == 0 else value * factor
+            if growth.im is not None:
+                value *= _turn(growth)
         if np.ndim(binary):
-            value = Complex(np.ldexp(value.re, binary), None if value.im is None else np.ldexp(value.im, binary))
+            value = value.each(lambda part: np.ldexp(part, binary))
         return value.re if self.is_real else _complex_array(value)
 
-    def _parts(self, x: Any, careful: bool) -> tuple[Complex, Any, Any]:
-        """y = value * 2^binary * exp(growth); without any growth 0 if careful, else None."""
+    def _parts(self, x: Any, careful: bool) -> _Parts:
+        """The function in the parts of the product."""
         point = self._as_complex(x, careful)
         growth = [self.exponent(point)]
         t = point
@@ -202,30 +220,31 @@ class ProductForm:
             product.begin(*self.polynomial.parts(x))
         for f in self.factors:
             product.multiply(f, growth)
-        total = sum_of([g for g in growth if g is not None])
-        if total is not None and self.is_real:
-            total = Complex(total.re)
+        total = self._sum_of(growth)
         if careful:
             zero = 0.0 * x.real
             total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
         if product.value is not None:
-            return product.value, product.binary, total
-        one = 1.0 if total is not None and not careful else np.ones(x.shape)
-        return Complex(one), product.binary, total
+            return _Parts(product.value, product.binary, total)
+        one = np.ones(x.shape) if careful or total is None else 1.0
+        return _Parts(Complex(one), product.binary, total)
+
+    def _sum_of(self, growth: list[Complex | None]) -> Complex | None:
+        """The exponent; its real part for a real function."""
+        total = sum_of([g for g in growth if g is not None])
+        if total is not None and self.is_real:
+            return Complex(total.re)
+        return total
 
     def _as_complex(self, x: Any, careful: bool) -> Complex:
         """The points x, their parts double-doubles if careful."""
-        re = x if self.region.is_real else x.real
-        im = None if self.region.is_real else x.imag
-        if not careful:
-            return Complex(re, im)
-        return Complex(_with_low_part(re), None if im is None else _with_low_part(im))
+        point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
+        return point.each(_with_low_part) if careful else point
 
     @property
     def _reach(self) -> float:
         """The largest modulus of a zero or a singular point."""
-        sizes = [math.hypot(f.zeta.re.hi, 0.0 if f.zeta.im is None else f.zeta.im.hi) for f in self.factors]
-        return max(sizes, default=0.0)
+        return max((_modulus(f.zeta) for f in self.factors), default=0.0)
 
 
 @dataclass(frozen=True)
@@ -246,7 +265,7 @@ class ProductDerivative:
     careful: bool = True
 
     def __repr__(self) -> str:
-        return f"<ProductDerivative on {self.region}, {'real' if self.form.is_real else 'complex'}>"
+        return f"<ProductDerivative on {self.region}, {self.form.kind}>"
 
     @property
     def region(self) -> Region:
@@ -294,10 +313,16 @@ class ProductDerivative:
         for factor in form.factors:
             hit = factor.zeros(t)
             if hit.any():
-                others = tuple(f for f in form.factors if f is not factor)
-                rest = replace(form, factors=others)._values(x[hit]) if factor.whole == 1 else 0.0
-                total[hit] = rest * (dt if np.ndim(dt) == 0 else dt[hit])
+                dt_there = dt[hit] if np.ndim(dt) else dt
+                total[hit] = self._rest(factor, x[hit]) * dt_there
         return total
+
+    def _rest(self, factor: RootFactor, x: Any) -> Any:
+        """What y' is over dt/dx at a zero of this factor: the product of the others, where it is a simple one."""
+        if factor.whole != 1:
+            return 0.0
+        others = tuple(f for f in self.form.factors if f is not factor)
+        return replace(self.form, factors=others, careful=self.careful)._values(x)
 
     def _slope(self, x: Any) -> tuple[Complex, Any, Any]:
         """t, dt/dx and the logarithmic derivative of the product, arrays."""
@@ -319,6 +344,12 @@ class ProductDerivative:
         if not form.is_real and total.im is not None:
             slope = slope + 1j * double(total.im)
         return t, double(dt.re), slope
+
+
+def _modulus(z: Complex) -> float:
+    if z.im is None:
+        return math.hypot(z.re.hi, 0.0)
+    return math.hypot(z.re.hi, z.im.hi)
 
 
 def _with_low_part(v: Any) -> Any:
@@ -345,26 +376,32 @@ class _Product:
 
     def multiply(self, f: RootFactor, growth: list[Complex | None]) -> None:
         """One factor more."""
-        d = self.t - f.zeta
+        d: Complex = self.t - f.zeta
+        e: Any = 0  # the factor is 2^e d
+        if self.careful:
+            d, e = split(d)
         power = f.power
-        whole = f.whole
-        d, e = split(d) if self.careful else (d, 0)
         if f.paired:
             if power.im is not None:
                 growth.append(Complex(angle(d * f.turn.conjugate()) * (power.im * Pair(-2.0))))
             d = Complex(d.re * d.re + d.im * d.im)
             e = 2 * e
             power = Complex(power.re)
-        if d.im is None and (whole is None or whole < 0):
+        whole = f.whole
+        if d.im is None and not f.is_natural:
             d = Complex(absolute(d.re))
-        is_real = d.im is None and power.im is None
-        if whole is None and is_real and not self.careful:
-            self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
-        elif whole is None or (d.im is not None and whole < 0):
-            growth.append(power * self._logarithm(d, e, f.turn))
-        else:
+        if whole is None:
+            is_real = d.im is None and power.im is None
+            if is_real and not self.careful:
+                self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
+            else:
+                growth.append(power * self._logarithm(d, e, f.turn))
+        elif d.im is None or f.is_natural:
             self.binary = self.binary + e * whole
-            self._times_power(d, whole, 2 if f.paired else 1)
+            degree = 2 if f.paired else 1
+            self._times_power(d, whole, degree)
+        else:
+            growth.append(power * self._logarithm(d, e, f.turn))
 
     def _logarithm(self, d: Complex, e: Any, turn: Complex) -> Complex:
         """That of 2^e d, continuous along a line."""
@@ -400,7 +437,11 @@ def _turn(growth: Complex) -> Complex:
     """exp(i im)."""
     if growth.im is None:
         return Complex(1.0)
-    t, rest = (growth.im.hi, growth.im.lo) if isinstance(growth.im, Pair) else (growth.im, 0.0)
+    t = growth.im
+    rest: Any = 0.0
+    if isinstance(growth.im, Pair):
+        t = growth.im.hi
+        rest = growth.im.lo
     c = np.cos(t)
     s = np.sin(t)
     return Complex(c - rest * s, s + rest * c)

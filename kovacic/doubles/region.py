@@ -86,7 +86,8 @@ class Region:
             raise InputError(
                 "complex arguments need a rectangle of the complex plane", hint="give two opposite corners as interval"
             )
-        points = points.astype(float if self.is_real else complex, copy=False)
+        kind = float if self.is_real else complex
+        points = points.astype(kind, copy=False)
         if points.size and not self._contains(points):
             shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
             raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
@@ -139,7 +140,8 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     a, b = (as_point(v, "an end of the interval") for v in (first, second))
     low = ExactPoint(min(a.re, b.re), min(a.im, b.im))
     high = ExactPoint(max(a.re, b.re), max(a.im, b.im))
-    if a == b or (a.is_real() and b.is_real() and a != low):
+    is_reversed = a.is_real() and b.is_real() and a != low
+    if a == b or is_reversed:
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
     singular = (False, False)
     if problem is not None:
@@ -157,21 +159,22 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
 
 
 def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
+    """Is it singular at these corners?  Raises InputError where it may be at another point."""
     at_low = False
     at_high = False
     a = to_acb(low)
     b = to_acb(high)
     for system in (problem.system, problem.gauge_poles):
         for root, _ in system.roots("den", _PREC):
-            here = root.overlaps(a)
-            there = root.overlaps(b)
-            at_low = at_low or here
-            at_high = at_high or there
-            x = root.real
-            y = root.imag
-            outside = x < a.real or x > b.real or y < a.imag or y > b.imag
-            if not (here or there or outside):
+            is_low = root.overlaps(a)
+            is_high = root.overlaps(b)
+            is_beside = root.real < a.real or root.real > b.real
+            is_above_or_below = root.imag < a.imag or root.imag > b.imag
+            is_outside = is_beside or is_above_or_below
+            if not (is_low or is_high or is_outside):
                 raise InputError(f"the interval contains the singular point {name_of(system, root)}")
+            at_low = at_low or is_low
+            at_high = at_high or is_high
     return at_low, at_high
 
 

@@ -186,7 +186,8 @@ class TabulatedFunction:
         if isinstance(x, float) and self.region.low.real <= x <= self.region.high.real:
             return self._single(float(x))
         points = self.region.points(x)
-        return in_blocks(self._values, points, 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2)
+        block = 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2
+        return in_blocks(self._values, points, block)
 
     def __repr__(self) -> str:
         return f"<TabulatedFunction on {self.region}, {self.centres.size} pieces>"
@@ -246,7 +247,9 @@ class TabulatedFunction:
 
     def _values(self, flat: Any) -> Any:
         parts, powers = self.parts(flat)
-        found = [double(part) if powers is None else np.ldexp(double(part), powers) for part in parts]
+        found = [double(part) for part in parts]
+        if powers is not None:
+            found = [np.ldexp(part, powers) for part in found]
         return found[0] if len(found) == 1 else found[0] + 1j * found[1]
 
     def parts(self, flat: Any) -> tuple[list[Any], Any]:
@@ -263,22 +266,24 @@ class TabulatedFunction:
         Piece by piece, so that the coefficients are numbers, where many points lie on each.
         """
         index = np.searchsorted(self.edges, flat, side="right")
-        runs = list[Any]()
-        if flat.size < _CROWD * self.centres.size:
-            runs.append((slice(None), index))
-        else:
-            order = np.argsort(index, kind="stable")
-            ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
-            runs += [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
         found = np.zeros((len(self.coefficients), 1 + self.careful, flat.size))
-        for where, k in runs:
+        for where, k in self._runs(index):
             u = scaled(two_sum(flat[where], -self.centres[k]), -self.exponents[k])
             for row, table in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
                 value = horner(map(Pair, *table), u) if self.careful else Pair(horner(table[0], u.hi))
                 for half, numbers in zip(row, (value.hi, value.lo), strict=False):
                     half[where] = numbers
-        numbers = [Pair(*row) if self.careful else row[0] for row in found]
-        return numbers, self.powers[index] if self.powers.any() else None
+        numbers = [Pair(*row) for row in found] if self.careful else [row[0] for row in found]
+        powers = self.powers[index] if self.powers.any() else None
+        return numbers, powers
+
+    def _runs(self, index: Any) -> list[tuple[Any, Any]]:
+        """Which points are treated together, and on which pieces: all of them, or those of one piece after the other."""
+        if index.size < _CROWD * self.centres.size:
+            return [(slice(None), index)]
+        order = np.argsort(index, kind="stable")
+        ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
+        return [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
 
 
 @limited
@@ -363,7 +368,8 @@ def table_of(
     if chart.is_forced:
         coefficients += scaled(series[:, 2, None], -powers)
     x0 = chart.given.get("x0")
-    return _assembled(region, x0 if isinstance(x0, ExactPoint) else None, cells, coefficients, powers, variant)
+    base = x0 if isinstance(x0, ExactPoint) else None
+    return replace(_assembled(region, cells, coefficients, powers, variant), base=base)
 
 
 def polynomial_table(
@@ -374,11 +380,11 @@ def polynomial_table(
     cells, found = _pieces(region, lambda some: [expand(cell, variant) for cell in some], lambda x, h: x > math.inf)
     with working_precision(_PREC):
         table, powers = _rounded(found, variant)
-    return _assembled(region, None, cells, _given(table), powers, variant)
+    return _assembled(region, cells, _given(table), powers, variant)
 
 
 def _assembled(
-    region: Region, base: ExactPoint | None, cells: list[Cell], coefficients: Pair, powers: Any, variant: Variant
+    region: Region, cells: list[Cell], coefficients: Pair, powers: Any, variant: Variant
 ) -> TabulatedFunction:
     """The table with the highest terms lowered, from an array of terms, parts and pieces."""
     lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
@@ -389,7 +395,7 @@ def _assembled(
     arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, table
     for array in arrays:
         array.flags.writeable = False
-    return TabulatedFunction(region, base, *arrays, careful=variant is _CAREFUL)
+    return TabulatedFunction(region, None, *arrays, careful=variant is _CAREFUL)
 
 
 def _root(region: Region) -> Cell:
@@ -423,11 +429,10 @@ def _pieces(
         check_time()
         too_large: list[Cell] = []
         if untried:
-            centres = np.array([float(c) for c, _ in untried])
-            scales = np.array([math.ldexp(1.0, e) for _, e in untried])
-            for cell, no in zip(untried, refused(centres, scales), strict=True):
+            for cell, is_refused in zip(untried, _refused(untried, refused), strict=True):
                 is_inside = low <= cell[0] <= high  # values are inside only
-                (promising if is_inside and not no else too_large).append(cell)
+                fate = promising if is_inside and not is_refused else too_large
+                fate.append(cell)
         else:
             for cell, item in zip(promising, expand(promising), strict=True):
                 if item is None:
@@ -435,11 +440,16 @@ def _pieces(
                 else:
                     done[cell] = item
             promising = []
-        untried = []
-        for cell in too_large:
-            untried += _halves(cell, low, high)
+        untried = [half for cell in too_large for half in _halves(cell, low, high)]
     cells = sorted(done)
     return cells, [done[cell] for cell in cells]
+
+
+def _refused(cells: list[Cell], refused: Callable[[Any, Any], Any]) -> Any:
+    """What is said of the centres and scales of pieces."""
+    centres = np.array([float(c) for c, _ in cells])
+    scales = np.array([math.ldexp(1.0, e) for _, e in cells])
+    return refused(centres, scales)
 
 
 def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
@@ -453,44 +463,74 @@ def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
 
 
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
-    """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
+    """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series.
+
+    The equation a y'' + b y' + c y = source has the coefficients of u^j at a[j], b[j + 1] and c[j + 2].
+    """
     terms = variant.terms
     count = 2 if not chart.is_forced else 3
     size = len(cells)
+    equations = _equations(chart, cells, terms)
+    length = max(2, *(len(part) + i for local in equations for i, part in enumerate(local)))
+    numbers = np.zeros((2, 3, length, size))
+    for k, local in enumerate(equations):
+        for i, part in enumerate(local):
+            numbers[:, i, i : i + len(part), k] = halves(part)
+    source = np.zeros((2, terms, count, size))
+    if chart.is_forced:
+        for k, cell in enumerate(cells):
+            source[:, :, 2, k] = halves(_source(chart, cell, equations[k][0], terms))
+    with np.errstate(all="ignore"):
+        z = _recurrence(numbers, source, variant)
+        sizes = np.abs(z[0, : variant.tested])
+        converges = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
+        is_bounded = (sizes[:, :2].sum(0) <= GROWTH).all(0)
+    found: list[Any] = [None] * size
+    for k in range(size):
+        if converges[k] and is_bounded[k]:
+            found[k] = z[..., k]
+    return found
+
+
+def _recurrence(equation: Any, source: Any, variant: Variant) -> Any:
+    """The coefficients of the series, shaped as those of the source, from the first two of y1, y2 and y3: 1, 0; 0, 1; 0, 0."""
+    a, b, c = (Pair(*equation[:, i]) for i in range(3))
+    length = equation.shape[2]
+    z = np.zeros(source.shape)
+    z[0, 0, 0] = z[0, 1, 1] = 1.0
+    for n in range(2, variant.terms):
+        j = np.arange(1, min(length, n + 1))
+        m = (n - j)[:, None] + 0.0
+        weights = c[j]
+        for function, factor in ((b, m), (a, m * (m - 1))):
+            if function.hi[1:].any():
+                weights += function[j] * Pair(factor)
+        if n < variant.tested:
+            rest = Pair(*source[:, n - 2]) - folded(weights[:, None] * Pair(*z[:, n - j]))
+            term = rest * Pair.of(1 / arb(n * (n - 1)))
+            z[:, n] = term.hi, term.lo
+        else:  # as small as the last half of the digits
+            z[0, n] = (source[0, n - 2] - (weights.hi[:, None] * z[0, n - j]).sum(0)) / (n * (n - 1))
+    return z
+
+
+def _equations(chart: PieceChart, cells: list[Cell], terms: int) -> list[list[list[arb]]]:
+    """The coefficients of the equation on each of the pieces."""
     found = []
     for k, (centre, e) in enumerate(cells):
         if k % 32 == 0:
             check_time()
         found.append(_local(chart, ExactPoint(centre), e, terms))
-    length = max(2, *(len(part) + i for local in found for i, part in enumerate(local)))
-    numbers, source, z = (np.zeros((2, *shape, size)) for shape in ((3, length), (terms, count), (terms, count)))
-    for k, ((centre, e), local) in enumerate(zip(cells, found, strict=True)):
-        for i, part in enumerate(local):
-            numbers[:, i, i : i + len(part), k] = halves(part)
-        if chart.is_forced:
-            nodes, inverse = _interpolation(terms)
-            values = [[chart.source(ExactPoint(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
-            source[:, :, 2, k] = halves((inverse * arb_mat(values)).entries())
-    a, b, c = (Pair(*numbers[:, i]) for i in range(3))
-    z[0, 0, 0] = z[0, 1, 1] = 1.0
-    with np.errstate(all="ignore"):
-        for n in range(2, terms):
-            j = np.arange(1, min(length, n + 1))
-            m = (n - j)[:, None] + 0.0
-            weights = c[j]
-            for function, factor in ((b, m), (a, m * (m - 1))):
-                if function.hi[1:].any():
-                    weights += function[j] * Pair(factor)
-            if n < variant.tested:
-                rest = Pair(*source[:, n - 2]) - folded(weights[:, None] * Pair(*z[:, n - j]))
-                term = rest * Pair.of(1 / arb(n * (n - 1)))
-                z[:, n] = term.hi, term.lo
-            else:  # as small as the last half of the digits
-                z[0, n] = (source[0, n - 2] - (weights.hi[:, None] * z[0, n - j]).sum(0)) / (n * (n - 1))
-        sizes = np.abs(z[0, : variant.tested])
-        good = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
-        good &= (sizes[:, :2].sum(0) <= GROWTH).all(0)
-    return [z[..., k] if fine else None for k, fine in enumerate(good)]
+    return found
+
+
+def _source(chart: PieceChart, cell: Cell, a: list[arb], terms: int) -> list[arb]:
+    """The coefficients of a times the right-hand side on a piece, by interpolation."""
+    centre, e = cell
+    nodes, inverse = _interpolation(terms)
+    values = [[chart.source(ExactPoint(centre), e, u) * arb_poly(a)(u)] for u in nodes]
+    coefficients: list[arb] = (inverse * arb_mat(values)).entries()
+    return coefficients
 
 
 def _local(chart: PieceChart, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
@@ -535,9 +575,12 @@ def _states(
             v[..., which], powers[which] = _rounded(rows, variant)
         lost[which] = 0.0
 
-    sparse = variant is _PLAIN and not chart.is_forced
-    enclose(known := np.unique(np.append(np.arange(0, size, _STRIDE if sparse else 1), size - 1)))
-    for sign, matrices in zip((1, -1), _transfers(series, exponents) if len(known) < size else (), strict=False):
+    is_sparse = variant is _PLAIN and not chart.is_forced
+    stride = _STRIDE if is_sparse else 1
+    known = np.unique(np.append(np.arange(0, size, stride), size - 1))
+    enclose(known)
+    transfers = _transfers(series, exponents) if len(known) < size else ()
+    for sign, matrices in zip((1, -1), transfers, strict=False):
         k = known
         while k.size:
             k = k[(k + sign >= 0) & (k + sign < size)]
@@ -550,8 +593,11 @@ def _states(
             shift = np.frexp(length[better])[1]
             k = k[better] + sign
             new = new[..., better]
-            v[..., k], powers[k], lost[k] = np.ldexp([new.hi, new.lo], -shift), powers[k - sign] + shift, less[better]
-    if (rest := np.flatnonzero(~(lost <= _LOST))).size:
+            v[..., k] = np.ldexp([new.hi, new.lo], -shift)
+            powers[k] = powers[k - sign] + shift
+            lost[k] = less[better]
+    rest = np.flatnonzero(~(lost <= _LOST))
+    if rest.size:
         enclose(rest)
     kept = np.where(np.abs(powers) > _ROOM, powers, 0)
     return scaled(_given(v), powers - kept), kept
@@ -565,9 +611,12 @@ def _rounded(rows: Sequence[Sequence[Any]], variant: Variant) -> tuple[Any, Any]
         size = max(abs(v).mid() for v in row)
         if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):
             raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-        powers.append(int(log2(size)) if size > 0 else 0)
-        parts = (part for v in row for part in (v.real, v.imag * 0 if v.imag.contains(0) else v.imag))
-        numbers += [part * arb((1, -powers[-1])) for part in parts]
+        power = int(log2(size)) if size > 0 else 0
+        scale = arb((1, -power))
+        for v in row:
+            imaginary = v.imag * 0 if v.imag.contains(0) else v.imag
+            numbers += [v.real * scale, imaginary * scale]
+        powers.append(power)
     return halves(numbers).reshape(2, len(rows), -1, 2).transpose(0, 2, 3, 1), np.array(powers)
 
 
