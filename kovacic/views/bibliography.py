@@ -11,17 +11,20 @@ from functools import cache
 
 from kovacic import derived
 from kovacic.answer import Answer, was_computed
-from kovacic.decision import NoInvariant, NoRationalOmega, Structure
+from kovacic.decision import Decision, NoInvariant, NoRationalOmega, Structure
 
 
 class Reference(dict[str, str]):
     """One publication: the fields of its BibTeX entry, its `key`, and for what this package uses it (`use`)."""
 
     def text(self) -> str:
-        where = ", ".join(filter(None, (f"{self['journal']} {self.get('volume', '')}".strip(), self.get("pages"))))
-        doi = f", doi {self['doi']}" if "doi" in self else ""
+        where = f"{self['journal']} {self.get('volume', '')}".strip()
+        if "pages" in self:
+            where += f", {self['pages']}"
         authors = self["author"].replace(" and ", ", ")
-        published = f"{where.replace('--', '-')} ({self['year']}){doi}"
+        published = f"{where.replace('--', '-')} ({self['year']})"
+        if "doi" in self:
+            published += f", doi {self['doi']}"
         return f"[{self['key']}] {authors}, {self['title']}, {published}: {self['use']}."
 
     def bibtex(self) -> str:
@@ -40,24 +43,37 @@ def literature() -> dict[str, Reference]:
 
 def references(answer: Answer) -> tuple[Reference, ...]:
     """What the answer rests on; for the group as well, if it was asked for."""
-    decision = answer.decision
-    evidence = [item for exclusion in decision.exclusions for item in exclusion.evidence]
-    used = ["Kov86"]
-    if decision.invariant is not None or any(isinstance(item, NoInvariant) for item in evidence):
-        used += ["UW96", "HW97"]
-    unique = decision.structure is Structure.REDUCIBLE and decision.invariant is None
-    if unique or any(isinstance(item, NoRationalOmega) for item in evidence):
-        used += ["vH97", "CvH04"]
-    elif decision.structure is Structure.REDUCIBLE:
-        used.append("HvdP95")
+    used = ["Kov86", *_for_the_decision(answer.decision)]
     if answer.case == 3:
         used.append("SU93")
-    if answer.case == 3 and was_computed(derived.closed_form, answer):
-        used.append("HW05")
-    group = derived.group(answer) if was_computed(derived.group, answer) else None
-    if group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST"):
+        if was_computed(derived.closed_form, answer):
+            used.append("HW05")
+    if _has_group_on_a_curve(answer):
         used += ["Dav81", "Can87"]
     return tuple(literature()[key] for key in used)
+
+
+def _for_the_decision(decision: Decision) -> list[str]:
+    """What the invariants, and the rational omega, rest on."""
+    evidence = [item for exclusion in decision.exclusions for item in exclusion.evidence]
+    used = []
+    if decision.invariant is not None or any(isinstance(item, NoInvariant) for item in evidence):
+        used += ["UW96", "HW97"]
+    is_reducible = decision.structure is Structure.REDUCIBLE
+    is_unique = is_reducible and decision.invariant is None
+    if is_unique or any(isinstance(item, NoRationalOmega) for item in evidence):
+        used += ["vH97", "CvH04"]
+    elif is_reducible:
+        used.append("HvdP95")
+    return used
+
+
+def _has_group_on_a_curve(answer: Answer) -> bool:
+    """Was the group asked for, and found from a function on an algebraic curve?"""
+    if not was_computed(derived.group, answer):
+        return False
+    group = derived.group(answer)
+    return group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST")
 
 
 def citation(answer: Answer, *, style: str = "text") -> str:

@@ -100,10 +100,8 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
     names = Formulas(answer.variable, answer.S.field)
     decision = answer.decision
-    riccati = decision.riccati
-    form = decision.semi_invariant
-    constants = answer.constants
     conditions = _generic_conditions(answer)
+    gauge = None if answer.equation is None else names.python(answer.gauge)
     data = {
         "schema": SCHEMA,
         "input": answer.text,
@@ -111,42 +109,65 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "S": names.python(answer.S),
         "status": decision.status.value,
         "case": decision.case,
-        "riccati": riccati
-        and {
-            "variable": names.unknown,
-            "degree": riccati.degree,
-            "coefficients": [names.python(coefficient) for coefficient in riccati.coefficients],
-        },
-        "constants": constants and {"symbol": names.symbol, "minimal_polynomial": constants.to_str(names.symbol)},
+        "riccati": _omega(decision.riccati, names),
+        "constants": _constants(answer.constants, names.symbol),
         "field": _field(answer.S.field),
         "generic_conditions": conditions,
         "verified": answer.verified,
-        "proof": {
-            "structure": decision.structure and decision.structure.value,
-            "semi_invariant": form and riccati and {**_form(form, names), "D": names.python(riccati.D)},
-            "invariant": decision.invariant and _form(decision.invariant, names),
-            "excluded": [
-                {
-                    "structure": excluded.structure.value,
-                    "case": excluded.structure.case,
-                    "evidence": [_evidence(evidence, names) for evidence in excluded.evidence],
-                }
-                for excluded in decision.exclusions
-            ],
-            "undecided": decision.undecided,
-        },
+        "proof": _proof(decision, names),
         "notices": list(answer.notices),
         "seconds": answer.seconds,
-        "equation": answer.equation and _equation(answer.equation),
-        "gauge": answer.equation and names.python(answer.gauge),
+        "equation": _equation(answer.equation),
+        "gauge": gauge,
     }
     if full:
         data["group"] = group_dict(answer)
-        try:
-            data["solutions"] = [as_text(y) for y in derived.solutions(answer)] or None
-        except LimitExceeded:
-            data["solutions"] = None
+        data["solutions"] = _solutions(answer)
     return data
+
+
+def _omega(riccati: RiccatiPolynomial | None, names: Formulas) -> dict[str, Any] | None:
+    """The polynomial of omega."""
+    if riccati is None:
+        return None
+    coefficients = [names.python(coefficient) for coefficient in riccati.coefficients]
+    return {"variable": names.unknown, "degree": riccati.degree, "coefficients": coefficients}
+
+
+def _constants(modulus: Poly | None, symbol: str) -> dict[str, Any] | None:
+    """The constant that the polynomial of omega has."""
+    if modulus is None:
+        return None
+    return {"symbol": symbol, "minimal_polynomial": modulus.to_str(symbol)}
+
+
+def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
+    """What a check needs beside the polynomial of omega."""
+    structure = None if decision.structure is None else decision.structure.value
+    invariant = None if decision.invariant is None else _form(decision.invariant, names)
+    semi_invariant = None
+    if decision.semi_invariant is not None and decision.riccati is not None:
+        semi_invariant = {**_form(decision.semi_invariant, names), "D": names.python(decision.riccati.D)}
+    return {
+        "structure": structure,
+        "semi_invariant": semi_invariant,
+        "invariant": invariant,
+        "excluded": [_exclusion(exclusion, names) for exclusion in decision.exclusions],
+        "undecided": decision.undecided,
+    }
+
+
+def _exclusion(exclusion: Exclusion, names: Formulas) -> dict[str, Any]:
+    evidence = [_evidence(item, names) for item in exclusion.evidence]
+    return {"structure": exclusion.structure.value, "case": exclusion.structure.case, "evidence": evidence}
+
+
+def _solutions(answer: Answer) -> list[str] | None:
+    """Two solutions in closed form; None where there are none, or a limit was reached."""
+    try:
+        return [as_text(y) for y in derived.solutions(answer)] or None
+    except LimitExceeded:
+        return None
 
 
 def _generic_conditions(answer: Answer) -> dict[str, Any] | None:
@@ -163,14 +184,22 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
     group = derived.group(answer)
     if group is None:
         return None
-    order, n = (None if number is None else for_json(number) for number in (group.order, group.n))
-    data: dict[str, Any] = {"name": group.name, "order": order, "finite": group.finite}
-    data |= {"family": group.kind.value, "n": n}
+    data: dict[str, Any] = {
+        "name": group.name,
+        "order": _integer(group.order),
+        "finite": group.finite,
+        "family": group.kind.value,
+        "n": _integer(group.n),
+    }
     if group.function is not None:
         data["function"] = _function(group.function, Formulas(answer.variable, answer.S.field))
     if group.orders:
         data["orders"] = [{"prime": p, "order": for_json(k)} for p, k in group.orders]
     return data
+
+
+def _integer(number: int | None) -> int | str | None:
+    return None if number is None else for_json(number)
 
 
 def from_dict(data: Mapping[str, Any]) -> Answer:
@@ -209,25 +238,35 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
 def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     """What is claimed of S, with its proof; nothing is verified."""
     proof = data["proof"]
-    riccati = data["riccati"]
-    semi_invariant = data["proof"]["semi_invariant"]
-    has_omega = riccati is not None
-    if has_omega != (semi_invariant is not None) or (data["constants"] is not None and not has_omega):
+    semi_invariant = proof["semi_invariant"]
+    has_omega = data["riccati"] is not None
+    has_constants = data["constants"] is not None
+    if has_omega != (semi_invariant is not None) or (has_constants and not has_omega):
         raise ValueError("omega needs its polynomial and the semi-invariant")
     rational = _Reader.over(S.field, variable)
-    names = Formulas(variable, S.field)
     reader = rational.extended(data["constants"])
-    form = reader.semi_invariant(semi_invariant) if has_omega else None
+    form = None
+    riccati = None
+    structure = None
+    invariant = None
+    if has_omega:
+        form = reader.semi_invariant(semi_invariant)
+    if proof["structure"] is not None:
+        structure = Structure(proof["structure"])
+    names = Formulas(variable, S.field)
+    exclusions = tuple(_read_exclusion(entry, names) for entry in proof["excluded"])
+    if proof["invariant"] is not None:
+        invariant = rational.semi_invariant(proof["invariant"])
+    if form is not None:
+        riccati = _riccati(form.P, reader.poly(semi_invariant["D"]), data["riccati"], reader)
+    undecided = _typed(proof, "undecided", str, type(None))
     decision = Decision(
-        structure=None if proof["structure"] is None else Structure(proof["structure"]),
-        exclusions=tuple(
-            Exclusion(Structure(entry["structure"]), tuple(_read_evidence(item, names) for item in entry["evidence"]))
-            for entry in proof["excluded"]
-        ),
-        invariant=None if proof["invariant"] is None else rational.semi_invariant(proof["invariant"]),
+        structure=structure,
+        exclusions=exclusions,
+        invariant=invariant,
         semi_invariant=form,
-        riccati=None if form is None else _riccati(form.P, reader.poly(semi_invariant["D"]), riccati, reader),
-        undecided=_typed(proof, "undecided", str, type(None)),
+        riccati=riccati,
+        undecided=undecided,
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
@@ -251,21 +290,27 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _demand_the_same(found: Any, written: Any, path: str) -> None:
-    """Raises `ValueError` where what was found isn't what we would write; at the top there may be further keys."""
+    """Raises `ValueError` where what was found isn't what we would write; `path` is its place in the answer, "" at the top."""
+    are_lists = isinstance(written, list) and isinstance(found, list)
     if isinstance(written, Mapping) and isinstance(found, Mapping):
-        unknown = set(found) - set(written) if path else set()
-        missing = set(written) - set(found) - _MAY_BE_ABSENT
-        if unknown or missing:
-            raise ValueError(
-                f"{path or 'the answer'} has other keys: {', '.join(sorted(map(repr, unknown | missing)))}"
-            )
-        for key in (set(found) & set(written)) - _BY_VALUE - _ELSEWHERE:
-            _demand_the_same(found[key], written[key], f"{path}.{key}" if path else key)
-    elif isinstance(written, list) and isinstance(found, list) and len(found) == len(written):
+        _demand_the_same_object(found, written, path)
+    elif are_lists and len(found) == len(written):
         for k, (one, other) in enumerate(zip(found, written, strict=True)):
             _demand_the_same(one, other, f"{path}.{k}")
     elif found != written or type(found) is not type(written):
         raise ValueError(f"{path} can't be {found!r}")
+
+
+def _demand_the_same_object(found: Mapping[str, Any], written: Mapping[str, Any], path: str) -> None:
+    """The same of an object with keys; at the top there may be further ones."""
+    differing = set(written) - set(found) - _MAY_BE_ABSENT
+    if path:
+        differing |= set(found) - set(written)
+    if differing:
+        raise ValueError(f"{path or 'the answer'} has other keys: {', '.join(sorted(map(repr, differing)))}")
+    for key in (set(found) & set(written)) - _BY_VALUE - _ELSEWHERE:
+        inner_path = f"{path}.{key}" if path else key
+        _demand_the_same(found[key], written[key], inner_path)
 
 
 def _check_normal_form(answer: Answer) -> None:
@@ -276,8 +321,9 @@ def _check_normal_form(answer: Answer) -> None:
     if form is None or riccati is None:
         return
     D = field.poly([1])
-    for p, k in field.factor(answer.S.den) if answer.S.den.degree > 0 else []:
-        D *= p ** ((k + 1) // 2)
+    if answer.S.den.degree > 0:
+        for p, k in field.factor(answer.S.den):
+            D *= p ** ((k + 1) // 2)
     if form.P.lc != 1 or riccati.D != D:
         raise ValueError("P or D isn't in its normal form")
 
@@ -330,15 +376,19 @@ def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable
         raise ValueError("the gauge isn't that of the equation")
 
 
-def _equation(equation: Equation) -> dict[str, Any]:
+def _equation(equation: Equation | None) -> dict[str, Any] | None:
+    if equation is None:
+        return None
     x = equation.variable
+    h = None if equation.h is None else as_text(equation.h)
+    change = None if equation.change is None else equation.change.to_dict()
     return {
         "text": equation.text(caret=False),
         "unknown": equation.unknown,
         **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
-        "h": None if equation.h is None else as_text(equation.h),
+        "h": h,
         "field": _field(equation.a.field),
-        "change": equation.change and equation.change.to_dict(),
+        "change": change,
     }
 
 
@@ -348,7 +398,8 @@ def _field(field: Field) -> dict[str, Any] | None:
         return None
     data: dict[str, Any] = {"parameters": list(parameters_of(field)), "symbol": None, "minimal_polynomial": None}
     if isinstance(field, AlgebraicField):
-        data["symbol"], data["minimal_polynomial"] = field.name, field.modulus.to_str("t")
+        data["symbol"] = field.name
+        data["minimal_polynomial"] = field.modulus.to_str("t")
         if field.approximation is not None:
             data["near"] = [f"{float(part):.15g}" for part in field.approximation]
     return data
@@ -426,6 +477,11 @@ def _evidence(evidence: Evidence, names: Formulas) -> dict[str, Any]:
     if isinstance(evidence, NoInvariant):
         return {"kind": "no_invariant", **vars(evidence)}
     return {"kind": "no_rational_omega", **vars(evidence), "place": names.place_name(evidence.place)}
+
+
+def _read_exclusion(data: Mapping[str, Any], names: Formulas) -> Exclusion:
+    structure = Structure(data["structure"])
+    return Exclusion(structure, tuple(_read_evidence(item, names) for item in data["evidence"]))
 
 
 def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:

@@ -7,7 +7,9 @@ expressions as `Solution.solutions` has, ^ for powers.  Over the rational number
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
+from typing import NamedTuple
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -33,11 +35,14 @@ def written(structure: ClosedStructure, variable: str) -> tuple[str, str] | None
         return None
     first = _product(structure.first, variable)
     if isinstance(structure, Diagonal):
-        return (first, _product(structure.second, variable)) if _is_plain(structure.second) else None
+        if not _is_plain(structure.second):
+            return None
+        return first, _product(structure.second, variable)
     primitive = structure.primitive
     if isinstance(primitive, OpenPrimitive):
         integral = f"Integral({_product(structure.bare.to_power(-2), variable)}, {variable})"
-        return first, integral if first == "1" else f"{first}*{integral}"
+        second = integral if first == "1" else f"{first}*{integral}"
+        return first, second
     if isinstance(primitive, RationalPrimitive) and not primitive.parts.residues:
         factors = merged(structure.first, normalised_constant(primitive.parts.exact))
         return first, _text(factors, structure.first.exponential, variable)
@@ -61,14 +66,26 @@ def _text(found: list[Factor], exponential: RatFunc, variable: str, *others: str
         if all(base.degree <= 0 for base in bases):
             continue
         shown = [_primitive(base, around_zero=e.denominator > 1) for base in bases]
-        (above if e > 0 else below).append(_power([_sum(RatFunc(base), variable) for base in shown], abs(e)))
+        power = _power([_sum(RatFunc(base), variable) for base in shown], abs(e))
+        if e > 0:
+            above.append(power)
+        else:
+            below.append(power)
     above += others
     if exponential.num.degree > 0 or not exponential.is_polynomial:
         above.append(f"exp({_sum(exponential, variable)})")
+    return _quotient(above, below)
+
+
+def _quotient(above: list[str], below: list[str]) -> str:
+    """Factors above and below a line."""
+    if not below and len(above) == 1:
+        return above[0]
+    numerator = "*".join(map(_factor, above)) or "1"
     if not below:
-        return above[0] if len(above) == 1 else "*".join(map(_factor, above)) or "1"
-    denominator = _factor(below[0]) if len(below) == 1 else f"({'*'.join(map(_factor, below))})"
-    return f"{'*'.join(map(_factor, above)) or '1'}/{denominator}"
+        return numerator
+    denominator = "*".join(map(_factor, below))
+    return f"{numerator}/{denominator}" if len(below) == 1 else f"{numerator}/({denominator})"
 
 
 def _number(constant: Poly) -> Fraction:
@@ -80,8 +97,16 @@ def _number(constant: Poly) -> Fraction:
 def _primitive(base: Poly, *, around_zero: bool) -> Poly:
     """A multiple with coprime integer coefficients; under a root real around 0."""
     top, bottom = base.content()
-    imaginary = around_zero and base.degree == 2 and not base[1] and base.rational_coefficients()[0] < 0
-    return base * Fraction(-bottom if imaginary else bottom, top)
+    if around_zero and _is_negative_at_zero(base):
+        bottom = -bottom
+    return base * Fraction(bottom, top)
+
+
+def _is_negative_at_zero(base: Poly) -> bool:
+    """Is it a x^2 - b with b > 0?"""
+    if base.degree != 2 or base[1]:
+        return False
+    return bool(base.rational_coefficients()[0] < 0)
 
 
 def _power(bases: list[str], exponent: Fraction) -> str:
@@ -107,63 +132,103 @@ def _factor(text: str) -> str:
 def _sum(r: RatFunc, variable: str, radical: str = "") -> str:
     """A rational function times a square root: terms of a polynomial, and a proper fraction."""
     polynomial, rest = divmod(r.num, r.den)
-    terms = [
-        _term(Fraction(int(c.p), int(c.q)), radical, {0: "", 1: variable}.get(k, f"{variable}^{k}"))
-        for k, c in reversed(list(enumerate(polynomial.rational_coefficients())))
-        if c
-    ]
+    terms: list[str] = []
+    for k, c in reversed(list(enumerate(polynomial.rational_coefficients()))):
+        if c:
+            terms.append(_term(Fraction(int(c.p), int(c.q)), radical, _monomial(variable, k)))
     if rest:
-        num, den = (_primitive(p, around_zero=False) for p in (rest, r.den))
-        scale = _number(rest.lc) / _number(num.lc) * _number(den.lc) / _number(r.den.lc)
-        sign = -1 if _number(num.lc) < 0 else 1
-        numerator = _sum(RatFunc(num * sign), variable)
-        divisor = _sum(RatFunc(den), variable)
-        terms.append(_term(scale * sign, radical, "" if numerator == "1" else _factor(numerator), divisor))
+        terms.append(_proper_fraction(rest, r.den, variable, radical))
     if terms and terms[0].startswith("-") and not terms[-1].startswith("-"):
         terms.reverse()
     return " + ".join(terms).replace("+ -", "- ") or "0"
+
+
+def _monomial(variable: str, k: int) -> str:
+    """x^k, nothing for k = 0."""
+    return {0: "", 1: variable}.get(k, f"{variable}^{k}")
+
+
+def _proper_fraction(above: Poly, below: Poly, variable: str, radical: str) -> str:
+    """A number times a quotient of polynomials with coprime integer coefficients, the first one positive."""
+    num = _primitive(above, around_zero=False)
+    den = _primitive(below, around_zero=False)
+    scale = _number(above.lc) / _number(num.lc) * _number(den.lc) / _number(below.lc)
+    if _number(num.lc) < 0:
+        num = -num
+        scale = -scale
+    numerator = _sum(RatFunc(num), variable)
+    monomial = "" if numerator == "1" else _factor(numerator)
+    return _term(scale, radical, monomial, divisor=_sum(RatFunc(den), variable))
 
 
 def _term(c: Fraction, radical: str, monomial: str, divisor: str = "") -> str:
     """c * radical * monomial / divisor."""
     size = "" if abs(c.numerator) == 1 else digits(abs(c.numerator))
     above = "*".join(part for part in (size, radical, monomial) if part) or "1"
-    factors = [digits(c.denominator)] if c.denominator > 1 else []
-    if divisor:
-        factors.append(_factor(divisor))
-    below = factors[0] if len(factors) == 1 else f"({'*'.join(factors)})"
-    if divisor and len(factors) == 1 and "*" in below and not below.startswith("("):
+    if c < 0:
+        above = f"-{above}"
+    if not divisor:
+        return above if c.denominator == 1 else f"{above}/{digits(c.denominator)}"
+    below = _factor(divisor)
+    if c.denominator > 1:
+        return f"{above}/({digits(c.denominator)}*{below})"
+    if "*" in below and not below.startswith("("):
         below = f"({below})"
-    return ("-" if c < 0 else "") + (f"{above}/{below}" if factors else above)
+    return f"{above}/{below}"
 
 
 def _conjugate(form: Conjugate, variable: str) -> tuple[str, str] | None:
     """common * (A +- s B) exp(+-s V), s^2 = delta, or real and imaginary part where delta < 0."""
     delta = form.delta.field.rational_value(form.delta)
-    if delta is None or form.delta.field != QQ or form.phase.residues or not _is_plain(form.common):
+    if delta is None or form.delta.field != QQ:
+        return None
+    if form.phase.residues or not _is_plain(form.common):
         return None
     scale, inner = square_part(abs(delta))
     radical = "" if inner == 1 else f"sqrt({inner})"  # |s| = scale * radical
-    V = form.phase.exact * scale
     top, bottom = (form.A or form.B).content()
-    A, B = (RatFunc(p * Fraction(bottom, top)) for p in (form.A, form.B * scale))
-    if delta > 0:
-        pair = [_with(_sum(A, variable), _sum(B * sign, variable, radical)) for sign in (1, -1)]
-        exponentials = [f"exp({_sum(V * sign, variable, radical)})" for sign in (1, -1)]
-        first, second = (
-            _product(form.common, variable, *(text for text in both if text != "1"))
-            for both in zip(pair, exponentials, strict=True)
-        )
-        return first, second
-    if next(c for c in V.num.rational_coefficients()[::-1] if c) < 0:
-        V = -V
-        B = -B
-    angle = _sum(V, variable, radical)
-    first, second = (
-        _with(_times(A, f, variable), _times(B * sign, g, variable, radical))
-        for f, g, sign in ((f"cos({angle})", f"sin({angle})", -1), (f"sin({angle})", f"cos({angle})", 1))
+    number = Fraction(bottom, top)
+    parts = _ConjugateParts(
+        A=RatFunc(form.A * number),
+        B=RatFunc(form.B * scale * number),
+        V=form.phase.exact * scale,
+        radical=radical,
+        variable=variable,
     )
-    return _product(form.common, variable, first), _product(form.common, variable, second)
+    found = parts.exponentials() if delta > 0 else parts.waves()
+    first, second = (_product(form.common, variable, *factors) for factors in found)
+    return first, second
+
+
+class _ConjugateParts(NamedTuple):
+    """A +- s B and exp(+-s V), with s = radical, or s = i radical for the waves."""
+
+    A: RatFunc
+    B: RatFunc
+    V: RatFunc
+    radical: str
+    variable: str
+
+    def exponentials(self) -> Iterator[list[str]]:
+        """The factors of (A + s B) exp(s V), and of (A - s B) exp(-s V)."""
+        for sign in (1, -1):
+            factor = _with(_sum(self.A, self.variable), _sum(self.B * sign, self.variable, self.radical))
+            exponential = f"exp({_sum(self.V * sign, self.variable, self.radical)})"
+            yield [text for text in (factor, exponential) if text != "1"]
+
+    def waves(self) -> Iterator[list[str]]:
+        """The real part A cos(r V) - r B sin(r V), r the radical, and the imaginary part A sin(r V) + r B cos(r V)."""
+        B = self.B
+        V = self.V
+        leading = next(c for c in V.num.rational_coefficients()[::-1] if c)
+        if leading < 0:
+            V = -V
+            B = -B
+        angle = _sum(V, self.variable, self.radical)
+        cosine = f"cos({angle})"
+        sine = f"sin({angle})"
+        yield [_with(_times(self.A, cosine, self.variable), _times(-B, sine, self.variable, self.radical))]
+        yield [_with(_times(self.A, sine, self.variable), _times(B, cosine, self.variable, self.radical))]
 
 
 def _times(r: RatFunc, function: str, variable: str, radical: str = "") -> str:

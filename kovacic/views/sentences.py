@@ -11,13 +11,13 @@ from kovacic.decision import Evidence, NecessaryCondition, NoInvariant
 from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
 from kovacic.writing.omega import omega_math
 
-#: Characters; beside a longer formula another pair is offered.
-SCREEN = 600
-#: What is said before it.
 #: Verdicts.
 SOLVABLE = "Liouvillian solutions exist"
 UNSOLVABLE = "no Liouvillian solution exists"
 UNDECIDED = "undecided"
+#: Characters; beside a longer formula another pair is offered.
+SCREEN = 600
+#: What is said before it.
 SHORTER = "shorter, in special functions:"
 
 
@@ -34,7 +34,9 @@ def unknown_of(answer: Answer) -> str:
 def equation_of(answer: Answer) -> Math:
     """The equation as it was given."""
     equation = answer.equation
-    return normal_form(answer) if equation is None else Math(str(equation), latex_text(equation.text(caret=False)))
+    if equation is None:
+        return normal_form(answer)
+    return Math(str(equation), latex_text(equation.text(caret=False)))
 
 
 def normal_form(answer: Answer, y: str = "y") -> Math:
@@ -52,10 +54,13 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
     """Why a structure is excluded, without the bounds of the linear systems."""
     if isinstance(evidence, NecessaryCondition):
         yield evidence.rule.value
-        for k, place in enumerate(evidence.places):
-            yield ", " if k else " (at "
+        before = " (at "
+        for place in evidence.places:
+            yield before
             yield formulas.place(place)
-        yield ")" if evidence.places else ""
+            before = ", "
+        if evidence.places:
+            yield ")"
     elif isinstance(evidence, NoInvariant):
         m = evidence.invariant_degree
         if evidence.prime is None:
@@ -73,7 +78,9 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
 def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Names and formulas of two solutions, in special functions where nothing is Liouvillian, if any are known; and notes."""
     form = derived.closed_form(answer)
-    return _named(answer, derived.special(answer) if form is None else form), () if form is None else form.notes
+    if form is None:
+        return _named(answer, derived.special(answer)), ()
+    return _named(answer, form), form.notes
 
 
 def shorter_pair(answer: Answer, length: int) -> list[tuple[Math, Math]]:
@@ -84,7 +91,8 @@ def shorter_pair(answer: Answer, length: int) -> list[tuple[Math, Math]]:
     if answer.case is None or length <= SCREEN:
         return []
     pair = _named(answer, derived.special(answer))
-    return pair if max((len(y.text) for _, y in pair), default=length) < length / 2 else []
+    longest = max((len(y.text) for _, y in pair), default=length)
+    return pair if longest < length / 2 else []
 
 
 def _named(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:

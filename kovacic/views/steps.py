@@ -91,69 +91,108 @@ class Steps:
                 delta = Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
             else:
                 delta = "not rational"
+        points = str(place.degree)
         order = str(place.order)
         if place.at_infinity:
+            points = "1"
             order = str(-self.answer.S.degree) if self.answer.S else "-"
-        return [
-            self.formulas.place(str(place)),
-            "1" if place.at_infinity else str(place.degree),
-            order,
-            _KINDS[place.kind] + (", logarithm" if place.logarithm else ""),
-            delta,
-        ]
+        kind = _KINDS[place.kind]
+        if place.logarithm:
+            kind += ", logarithm"
+        return [self.formulas.place(str(place)), points, order, kind, delta]
 
     def necessary(self) -> Iterator[Block]:
         yield Heading("Kovacic's necessary conditions (section 2.1)")
         rows: list[list[Sentence]] = []
         for case, condition in _CONDITIONS.items():
             failing = [] if case == 2 else [place for place in self.places if not _allowed(case, [place])]
-            verdict: list[str | Math] = ["holds" if _allowed(case, self.places) else "fails"]
-            for k, place in enumerate(failing):
-                verdict += [", " if k else " at ", self.formulas.place(str(place))]
+            said = "holds" if _allowed(case, self.places) else "fails"
+            verdict: list[str | Math] = [said]
+            before = " at "
+            for place in failing:
+                verdict += [before, self.formulas.place(str(place))]
+                before = ", "
             rows.append([str(case), condition, verdict])
         yield Table(("case", "condition", "verdict"), rows)
 
     def search(self) -> Iterator[Block]:
         """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
         answer = self.answer
+        if answer.status is Status.UNDECIDED:
+            return
         degree = 12 if answer.riccati is None else answer.riccati.degree
-        for m in () if answer.status is Status.UNDECIDED else (1, 2, 4, 6, 12):
+        for m in (1, 2, 4, 6, 12):
             case = min(m, 3)
             if m > degree or not _allowed(case, self.places):
                 continue
-            yield Heading(f"Case {case}{f', n = {m}' if case == 3 else ''}: Kovacic's steps")
+            which = f"Case 3, n = {m}" if case == 3 else f"Case {case}"
+            yield Heading(f"{which}: Kovacic's steps")
             found = search(self.problem, answer.variable, m)
             if found is None:
                 domain = "exponents that are square roots, constants of low degree, and poles of low order"
                 yield say(f"The steps are written out for {domain} only.")
-            else:
-                yield from self._search(found, case)
+                continue
+            yield self._sets(found, case)
+            yield self._counted(found, case)
+            if found.families is None:
+                they = "They are too many to be listed; the engine finds omega, or proves that there is none"
+                yield say(f"{they}, without them.")
+                continue
+            yield from self._families(found, found.families)
+            yield from self._trials(found, found.families, case)
 
-    def _search(self, search: Search, case: int) -> Iterator[Block]:
-        yield self._sets(search, case)
-        many = f"{search.total} famil{'y' if search.total == 1 else 'ies'} of exponents"
-        natural = "" if search.natural is None else f", d is a natural number in {search.natural or 'none'} of them"
-        parity = " (with an odd e)" if case == 2 and natural else ""
-        generic = " for generic parameters" if parameters_of(self.formulas.field) else ""
-        yield say("Step 2: ", DEGREE[case], f"; {many}{natural}{parity}{generic}.")
-        if search.families is None:
-            yield say(
-                "They are too many to be listed; the engine finds omega, or proves that there is none, without them."
-            )
-            return
+    def _sets(self, search: Search, case: int) -> Table:
+        """Step 1."""
+        return self._singular_parts(search) if case == 1 else self._exponents(search)
+
+    def _singular_parts(self, search: Search) -> Table:
+        """Of case 1: the singular part of sqrt(S) at each point, and the two exponents."""
+        rows: list[list[Sentence]] = []
+        for point, choices in zip(search.points, search.choices, strict=True):
+            t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
+            singular = Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular))
+            plus = self._shown(choices[0].value)
+            minus = self._shown(choices[-1].value)
+            rows.append([self._point(point), self._shown(singular), plus, minus])
+        head = ("place", Math("[sqrt S]", r"[\sqrt{S}]"), Math("alpha+", r"\alpha^+"), Math("alpha-", r"\alpha^-"))
+        return Table(head, rows)
+
+    def _exponents(self, search: Search) -> Table:
+        """Of the other cases: the set E of exponents at each point."""
+        rows: list[list[Sentence]] = []
+        for point, choices in zip(search.points, search.choices, strict=True):
+            inside = ", ".join(self._shown(choice.value).text for choice in choices)
+            rows.append([self._point(point), Math(f"{{{inside}}}", rf"\{{{inside}\}}")])
+        return Table(("place", Math("E", "E")), rows)
+
+    def _counted(self, search: Search, case: int) -> Block:
+        """Step 2: how many families of exponents there are, and in how many of them d is a natural number."""
+        said = f"{search.total} family of exponents" if search.total == 1 else f"{search.total} families of exponents"
+        if search.natural is not None:
+            said += f", d is a natural number in {search.natural or 'none'} of them"
+            if case == 2:
+                said += " (with an odd e)"
+        if parameters_of(self.formulas.field):
+            said += " for generic parameters"
+        return say("Step 2: ", DEGREE[case], f"; {said}.")
+
+    def _families(self, search: Search, families: Sequence[Family]) -> Iterator[Block]:
+        """The exponents of each, d, and P where there is one."""
         if not search.complete:
             yield say("Of conjugate poles, only families with equal exponents are listed.")
-        shown = search.families[:_MOST_SHOWN]
-        if shown:
+        rows: list[list[Sentence]] = []
+        for family in families[:_MOST_SHOWN]:
+            values = [self._shown(choice.value) for choice in family.choices]
+            rows.append([*values, self._shown(family.d), self._outcome(family)])
+        if rows:
             head = [*map(self._point, search.points), Math("d", "d"), Math("P", "P")]
-            rows: list[list[Sentence]] = []
-            for family in shown:
-                values = [self._shown(choice.value) for choice in family.choices]
-                rows.append([*values, self._shown(family.d), self._outcome(family)])
             yield Table(head, rows)
-        if len(search.families) > _MOST_SHOWN:
-            yield say(f"and {len(search.families) - _MOST_SHOWN} more.")
-        tried = [family for family in search.families if family.theta is not None]
+        if len(families) > _MOST_SHOWN:
+            yield say(f"and {len(families) - _MOST_SHOWN} more.")
+
+    def _trials(self, search: Search, families: Sequence[Family], case: int) -> Iterator[Block]:
+        """Step 3."""
+        tried = [family for family in families if family.theta is not None]
         if search.natural and not tried:
             yield say("Step 3 isn't written out: it would take too long, or too many square roots at once.")
         if tried:
@@ -161,23 +200,6 @@ class Steps:
             yield from map(Formula, _EQUATIONS[case])
         for family in tried[-_MOST_SHOWN:]:
             yield from self._trial(family)
-
-    def _sets(self, search: Search, case: int) -> Table:
-        """Step 1."""
-        rows: list[list[Sentence]] = []
-        for point, choices in zip(search.points, search.choices, strict=True):
-            values = [self._shown(choice.value) for choice in choices]
-            if case == 1:
-                t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
-                singular = self._shown(Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular)))
-                rows.append([self._point(point), singular, values[0], values[-1]])
-            else:
-                inside = ", ".join(value.text for value in values)
-                rows.append([self._point(point), Math(f"{{{inside}}}", rf"\{{{inside}\}}")])
-        alphas = (Math(f"alpha{sign}", rf"\alpha^{sign}") for sign in "+-")
-        return Table(
-            ("place", Math("[sqrt S]", r"[\sqrt{S}]"), *alphas) if case == 1 else ("place", Math("E", "E")), rows
-        )
 
     @property
     def x(self) -> Any:
@@ -209,9 +231,11 @@ class Steps:
         elif impossible is not None:
             yield say(f"d = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0.")
         elif conditions:
-            system = ", ".join(f"{c.text} = 0" for c in conditions), r",\; ".join(f"{c.latex} = 0" for c in conditions)
-            names = f"coefficient{'s' if d > 1 else ''} {', '.join(map(str, family.unknowns))}"
-            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", Math(*system), ".")
+            text = ", ".join(f"{c.text} = 0" for c in conditions)
+            latex = r",\; ".join(f"{c.latex} = 0" for c in conditions)
+            noun = "coefficients" if d > 1 else "coefficient"
+            names = f"{noun} {', '.join(map(str, family.unknowns))}"
+            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", Math(text, latex), ".")
         else:
             yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
 
@@ -221,5 +245,7 @@ def _allowed(case: int, places: Sequence[Place]) -> bool:
     if case == 1:
         return all(place.kind is not Kind.RAMIFIED for place in places)
     if case == 2:
-        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in places if not place.at_infinity)
-    return all(place.order == 0 or (place.order <= 2 and place.delta is not None) for place in places)
+        poles = [place for place in places if not place.at_infinity]
+        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in poles)
+    singular = [place for place in places if place.order != 0]
+    return all(place.order <= 2 and place.delta is not None for place in singular)
