@@ -30,7 +30,7 @@ from kovacic.views.sentences import (
     verdict_of,
 )
 from kovacic.views.steps import DEGREE, Steps
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, anchor, page, say
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Sentence, Table, anchor, page, say
 from kovacic.writing.formula import LARGEST_DEGREE, Math, latex_text, rational_functions, shortened
 from kovacic.writing.omega import constants_math, omega_math
 
@@ -178,8 +178,7 @@ class _ExplanationWriter:
         before, name, after = more.partition("omega = y'/y")
         omega = [Math(name, r"\omega = y'/y")] if name else []
         yield say(f"{found[0].upper()}{found[1:]}: {before}", *omega, f"{after}.")
-        semi = self.answer.semi_invariant
-        if not solutions or self.answer.status is Status.UNDECIDED or (semi and semi.P.degree > LARGEST_DEGREE):
+        if not solutions or self.answer.status is Status.UNDECIDED or self._is_too_long():
             return
         pair, _ = solutions_of(self.answer)
         if pair and max(len(y.text) for _, y in pair) <= _SHORT:
@@ -206,7 +205,9 @@ class _ExplanationWriter:
     def _exclusion(self, exclusion: Exclusion) -> Paragraph:
         sentence: list[str | Math] = [f"Not {_CASES[exclusion.structure]}: "]
         for k, evidence in enumerate(exclusion.evidence):
-            sentence += ["; " if k else "", *reason(evidence, self.formulas)]
+            if k:
+                sentence.append("; ")
+            sentence += reason(evidence, self.formulas)
             if not isinstance(evidence, NecessaryCondition) and evidence.prime is not None:
                 sentence.append(f", for polynomials of degree at most {evidence.degree}")
         return say(*sentence, ".")
@@ -241,19 +242,27 @@ class _ExplanationWriter:
 
     def closed_form(self) -> Iterator[Block]:
         semi = self.answer.semi_invariant
-        if semi is not None and semi.P.degree > LARGEST_DEGREE:
+        if semi is not None and self._is_too_long():
             yield say(f"The solutions aren't written out: P has the degree {semi.P.degree}.")
             return
         found, notes = solutions_of(self.answer)
         if found:
-            yield Heading("Solutions" if self.answer.case else "Solutions in special functions")
+            title = "Solutions" if self.answer.case else "Solutions in special functions"
+            yield Heading(title)
         for name, y in found:
-            long = shortened(y.text) != y.text
-            yield Formula(name.equals(Math(shortened(y.text), r"\text{(too long to print)}") if long else y))
-        if shorter := shorter_pair(self.answer, max((len(y.text) for _, y in found), default=0)):
+            text = shortened(y.text)
+            shown = y if text == y.text else Math(text, r"\text{(too long to print)}")
+            yield Formula(name.equals(shown))
+        shorter = shorter_pair(self.answer, max((len(y.text) for _, y in found), default=0))
+        if shorter:
             yield say(SHORTER.capitalize())
             yield from (Formula(name.equals(y)) for name, y in shorter)
         yield from (say(f"Note: {note}.") for note in notes)
+
+    def _is_too_long(self) -> bool:
+        """Has P so high a degree that solutions aren't written out?"""
+        semi = self.answer.semi_invariant
+        return semi is not None and semi.P.degree > LARGEST_DEGREE
 
     def group(self) -> Iterator[Block]:
         group = derived.group(self.answer)
@@ -275,10 +284,12 @@ class _ExplanationWriter:
             yield say("All solutions are algebraic functions.")
 
     def check(self) -> Iterator[Block]:
-        checks = derived.verification(self.answer).checks
-        if checks:
+        rows: list[list[Sentence]] = []
+        for check in derived.verification(self.answer).checks:
+            result = "passed" if check.passed else "FAILED"
+            rows.append([check.statement, result])
+        if rows:
             yield Heading("Checks by independent code")
-            rows = [[check.statement, "passed" if check.passed else "FAILED"] for check in checks]
             yield Table(("statement", "result"), rows)
 
     def bibliography(self) -> Iterator[Block]:

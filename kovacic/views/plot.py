@@ -86,12 +86,16 @@ class SampledCurve:
     x0: object
 
     @property
+    def parts(self) -> list[Arc | Envelope]:
+        return [part for run in self.runs for part in run]
+
+    @property
     def arcs(self) -> list[Arc]:
-        return [part for run in self.runs for part in run if isinstance(part, Arc)]
+        return [part for part in self.parts if isinstance(part, Arc)]
 
     @property
     def envelopes(self) -> list[Envelope]:
-        return [part for run in self.runs for part in run if isinstance(part, Envelope)]
+        return [part for part in self.parts if isinstance(part, Envelope)]
 
 
 @limited
@@ -281,9 +285,7 @@ def plot(
     colour = 0
     for label, curve in curves:
         colour = _draw(axes, curve, label, colour)
-    marked = [z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high]
-    for k, z in enumerate(marked):
-        axes.axvline(z, color="0.4", linestyle="--", linewidth=1, label=None if k else "singular point")
+    _mark([z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high], axes)
     axes.set(xlim=(low, high), xlabel=_variable(equation), title=title)
     _scale(axes, [curve for _, curve in curves])
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
@@ -292,6 +294,14 @@ def plot(
         figure.savefig(output, dpi=150)
     figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
     return figure
+
+
+def _mark(singular: list[float], axes: Axes) -> None:
+    """Lines at singular points, named once in the legend."""
+    label: str | None = "singular point"
+    for x in singular:
+        axes.axvline(x, color="0.4", linestyle="--", linewidth=1, label=label)
+        label = None
 
 
 def _title(equation: object) -> str:
@@ -340,14 +350,18 @@ def _curves(equation: object, start: object, stop: object, options: PlotOptions)
             return found
     curve = sample(equation, start, stop, **options)
     name = _name(options, curve.x0)
-    return [(name if len(name) <= _LONGEST_LABEL else "y", curve)]
+    if len(name) > _LONGEST_LABEL:
+        name = "y"
+    return [(name, curve)]
 
 
 def _name(options: PlotOptions, x0: object) -> str:
     """Which solution is drawn."""
     at = plain_text(x0)
-    value = plain_text(1 if options.get("y0") is None else options["y0"])
-    slope = plain_text(0 if options.get("dy0") is None else options["dy0"])
+    y0 = 1 if options.get("y0") is None else options["y0"]
+    dy0 = 0 if options.get("dy0") is None else options["dy0"]
+    value = plain_text(y0)
+    slope = plain_text(dy0)
     if options.get("which") == "decaying":
         return f"y, decaying, y({at}) = {value}"
     if options.get("which") is not None:
@@ -366,30 +380,46 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
     """
     import sympy
 
+    x = sympy.Symbol(answer.variable)
     form = derived.closed_form(answer)
-    expressions = tuple(derived.special(answer) if form is None else form)
-    if any(has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED for y in expressions):
-        return []
-    if any(y.has(sympy.Integral) or y.free_symbols - {sympy.Symbol(answer.variable)} for y in expressions):
+    pair = derived.special(answer) if form is None else form
+    expressions = tuple(pair)
+    if not all(_can_be_evaluated(y, x) for y in expressions):
         return []
     a, b = _ends(start, stop)
     chart = chart_of(answer, {}, options.get("params"))
     intervals = _regular_intervals(chart, a, b)
-    at = as_point(options.get("x0"), "x0").re if options.get("x0") is not None else _middle_of_the_longest(intervals)
+    x0 = options.get("x0")
+    at = _middle_of_the_longest(intervals) if x0 is None else as_point(x0, "x0").re
     digits = 30 + _digits_gained(chart, intervals)
-    x = sympy.Symbol(answer.variable)
     place = sympy.Rational(at.numerator, at.denominator)
     found = []
     for k, y in enumerate(expressions, start=1):
-        values = [sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))]
-        if not all(value.is_number and value.is_finite for value in values):
+        value = sympy.N(y.subs(x, place), digits)
+        slope = sympy.N(y.diff(x).subs(x, place), digits)
+        if not _is_finite(value) or not _is_finite(slope):
             return []
-        asked: PlotOptions = {**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])}
+        asked: PlotOptions = {**options, "x0": at, "y0": str(value), "dy0": str(slope)}
         curve = sample(answer, start, stop, **asked)
-        text = of_sympy(y).text
         name = f"y{k}"
-        found.append((f"{name} = {text}" if len(text) <= _LONGEST_LABEL else name, curve))
+        text = of_sympy(y).text
+        if len(text) <= _LONGEST_LABEL:
+            name += f" = {text}"
+        found.append((name, curve))
     return found
+
+
+def _can_be_evaluated(y: Any, x: Any) -> bool:
+    """Is a formula short, without an integral that is left, and without parameters?"""
+    import sympy
+
+    if has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED:
+        return False
+    return not y.has(sympy.Integral) and y.free_symbols <= {x}
+
+
+def _is_finite(value: Any) -> bool:
+    return bool(value.is_number and value.is_finite)
 
 
 def _is_a_double(point: ExactPoint) -> bool:

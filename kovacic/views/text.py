@@ -49,7 +49,8 @@ def one_line(answer: Answer) -> str:
     """The equation and the verdict."""
     equation = _given(answer)
     if answer.status is Status.UNDECIDED:
-        return f"{equation}: {'' if answer.assumed else 'undecided, '}{in_one_line(answer.reason or '')}"
+        said = in_one_line(answer.reason or "")
+        return f"{equation}: {said}" if answer.assumed else f"{equation}: undecided, {said}"
     if answer.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
     if answer.omega is not None:
@@ -144,18 +145,24 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     except LimitExceeded as limit:
         yield f"the solutions weren't written out: {limit}"
         return
-    if answer.case is None:
-        yield "in special functions, verified:" if pair else str(derived.special(answer))
-    name = unknown_of(answer)
-    for k, text in enumerate(pair, start=1):
-        yield f"{'  ' if answer.case is None else ''}{name}{k} = {shortened(text)}"
-    if shorter := shorter_pair(answer, max(map(len, pair), default=0)):
+    y = unknown_of(answer)
+    named = [f"{y}{k} = {shortened(text)}" for k, text in enumerate(pair, start=1)]
+    if answer.case is not None:
+        yield from named
+    elif named:
+        yield "in special functions, verified:"
+        yield from _indented(named)
+    else:
+        yield str(derived.special(answer))
+    shorter = shorter_pair(answer, max(map(len, pair), default=0))
+    if shorter:
         yield SHORTER
-        yield from _indented(name.equals(y).text for name, y in shorter)
+        yield from _indented(name.equals(value).text for name, value in shorter)
     yield from (f"note: {note}" for note in notes)
 
 
 def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Two solutions, and notes."""
     if answer.case is None:
         return tuple(caret(as_text(y)) for y in derived.special(answer)), ()
     from kovacic.closed_form.check import is_exact_solution
@@ -169,8 +176,9 @@ def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
         if pair is not None and not is_exact_solution(structure, answer.S, answer.gauge):
             raise VerificationFailed(f"a closed form for S = {answer.S} failed its check; please report the equation")
     if pair is not None:
-        primitive = structure.primitive if isinstance(structure, Triangular) else None
-        return pair, (f"integral left because {primitive.reason}",) if isinstance(primitive, OpenPrimitive) else ()
+        if isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive):
+            return pair, (f"integral left because {structure.primitive.reason}",)
+        return pair, ()
     form = derived.closed_form(answer)
     assert form is not None
     return tuple(caret(as_text(y)) for y in form), form.notes
@@ -181,14 +189,20 @@ def _exclusions(answer: Answer) -> list[str]:
     formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in answer.proof:
-        parts = (reason(evidence, formulas) for evidence in exclusion.evidence)
-        reasons = "; ".join("".join(p.text if isinstance(p, Math) else p for p in sentence) for sentence in parts)
+        reasons = "; ".join(_as_text(reason(evidence, formulas)) for evidence in exclusion.evidence)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     lines = []
     for (case, reasons), structures in grouped.items():
         which = f" ({', '.join(structures)})" if case == 3 else ""
         lines.append(f"not case {case}{which}: {reasons}")
     return lines
+
+
+def _as_text(sentence: Iterable[str | Math]) -> str:
+    found = ""
+    for part in sentence:
+        found += part.text if isinstance(part, Math) else part
+    return found
 
 
 def latex_view(answer: Answer) -> str:
@@ -211,26 +225,41 @@ def html_view(answer: Answer) -> str:
     rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(answer))]
     if answer.equation is not None and not answer.equation.is_normal_form:
         rows.append(("normal form", normal_form(answer)))
-    words = {
-        Status.LIOUVILLIAN: "Liouvillian solutions exist",
-        Status.NONE_EXISTS: "no Liouvillian solution exists",
-        Status.UNDECIDED: f"{'' if answer.assumed else 'undecided: '}{answer.reason}",
-    }
-    rows.append(("status", words[answer.status]))
+    rows.append(("status", _status(answer)))
     if answer.case is not None:
         rows.append(("case", str(answer.case)))
-    if (group := derived.group(answer)) is not None:
+    group = derived.group(answer)
+    if group is not None:
         rows.append(("Galois group", [Math(group.name, group.latex), f", {group.description}"]))
-    found, notes = _in_time(answer)
-    for name, value in found:
-        rows.append((name, value if len(value.latex) <= _LONGEST else Math(value.text[:_LONGEST], "")))
-    rows += [("note", note) for note in notes]
-    form = derived.closed_form(answer) if found else None
-    if form is not None:
-        rows.append(("solutions checked", form.checked))
-    rows.append(("verified", "yes, by independent code" if answer.verified else "no"))
+    rows += _rows_of_solutions(answer)
+    verified = "yes, by independent code" if answer.verified else "no"
+    rows.append(("verified", verified))
     rows += [("note", notice) for notice in answer.notices]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
+
+
+def _status(answer: Answer) -> str:
+    """The verdict; of an undecided equation the reason."""
+    if answer.status is Status.LIOUVILLIAN:
+        return "Liouvillian solutions exist"
+    if answer.status is Status.NONE_EXISTS:
+        return "no Liouvillian solution exists"
+    return f"{answer.reason}" if answer.assumed else f"undecided: {answer.reason}"
+
+
+def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
+    """Two solutions, notes, and how the closed form was checked."""
+    found, notes = _in_time(answer)
+    for name, value in found:
+        if len(value.latex) <= _LONGEST:
+            yield name, value
+        else:
+            yield name, Math(value.text[:_LONGEST], "")
+    for note in notes:
+        yield "note", note
+    form = derived.closed_form(answer) if found else None
+    if form is not None:
+        yield "solutions checked", form.checked
 
 
 def _in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:

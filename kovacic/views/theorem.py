@@ -82,8 +82,9 @@ class _TheoremWriter:
         yield Heading("Theorem", 1)
         yield from self._hypothesis()
         yield self._claim(cases)
-        for number, case in enumerate(cases, 1):
-            yield from self._case(case, f"({number}) " if len(cases) > 1 else "")
+        for k, case in enumerate(cases, 1):
+            number = f"({k}) " if len(cases) > 1 else ""
+            yield from self._case(case, number)
         if self.is_solvable:
             yield from self._otherwise(cases)
         yield from self._exceptions()
@@ -94,19 +95,8 @@ class _TheoremWriter:
     # The hypothesis
 
     def _hypothesis(self) -> Iterator[Block]:
-        answer = self.answer
         equation = self.answer.equation
-        names = [name for name in answer.parameters if name != PI]
-        sentence: list[str | Math] = []
-        if names:
-            several = len(names) > 1
-            sentence = ["Let ", *_listed([_name(name) for name in names])]
-            sentence.append(" be complex numbers" if several else " be a complex number")
-            sentence += [part for name in names for part in self._assumed(name)]
-            sentence += [
-                part for other in self.left_out if _is_unequal(other) for part in (", ", _unequal(other.statement))
-            ]
-            sentence.append(". ")
+        sentence = self._about_parameters()
         if equation is None or equation.is_normal_form:
             yield say(*sentence, "The equation")
             yield Formula(self._normal_form("y"))
@@ -118,16 +108,29 @@ class _TheoremWriter:
             yield Formula(self._normal_form(v))
             yield say("Each of the two")
 
+    def _about_parameters(self) -> list[str | Math]:
+        """`Let a and b be complex numbers, b > 0, a != 1. `; nothing where there are no parameters."""
+        names = [name for name in self.answer.parameters if name != PI]
+        if not names:
+            return []
+        kind = " be a complex number" if len(names) == 1 else " be complex numbers"
+        sentence: list[str | Math] = ["Let ", *_listed([_name(name) for name in names]), kind]
+        for name in names:
+            sentence += self._assumed(name)
+        for region in self.left_out:
+            if _is_unequal(region):
+                sentence += [", ", _unequal(region.statement)]
+        return [*sentence, ". "]
+
     def _exceptions(self) -> Iterator[Block]:
         """The values that are left out, but for those that the hypothesis excludes."""
         for region in self.left_out:
-            why = (
-                f"what holds there isn't known, {region.complete}"
-                if region.defined
-                else "the equation isn't defined there"
-            )
-            if not _is_unequal(region):
-                yield say("Values with ", *_said(region.statement), f" are left out: {why}.")
+            if _is_unequal(region):
+                continue
+            why = "the equation isn't defined there"
+            if region.defined:
+                why = f"what holds there isn't known, {region.complete}"
+            yield say("Values with ", *_said(region.statement), f" are left out: {why}.")
 
     def _field(self) -> Iterator[Block]:
         """Over which field the cases and groups are those, where that isn't C(x)."""
@@ -139,10 +142,8 @@ class _TheoremWriter:
         """`, n a nonnegative integer, E > 0`."""
         found: list[str | Math] = []
         words = self.answer.assumptions.of(name).words
-        adjectives = [word for word in words if word in WORDS and word not in _NOUNS]
-        nouns = [word for word in words if word in _NOUNS] or ["integer"] * bool({"even", "odd"} & {*words})
-        if adjectives or nouns:
-            said = " ".join([*adjectives, *(nouns or ["number"])])
+        if any(word in WORDS for word in words):
+            said = _kind_of_number([word for word in words if word in WORDS])
             article = "an" if said[0] in "aeio" else "a"
             found += [", ", _name(name), f" {article} {said}"]
         for bound in words:
@@ -163,10 +164,12 @@ class _TheoremWriter:
         equation = self.answer.equation
         x = self.answer.variable
         assert equation is not None
+        if not equation.gauge:
+            return [_name(equation.unknown).equals(_name(v))]
         gamma = Formulas(x, equation.gauge.field).math(equation.gauge)
         text = f"{equation.unknown} = {v} exp(int ({gamma.text}) d{x})"
         latex = rf"{equation.unknown} = {v} \exp \int {gamma.latex} \, d{latex_text(x)}"
-        return [Math(text, latex) if equation.gauge else _name(equation.unknown).equals(_name(v))]
+        return [Math(text, latex)]
 
     def _normal_form(self, y: str) -> Math:
         S = self.answer.S
@@ -295,9 +298,11 @@ class _TheoremWriter:
         others = []
         for sign, coefficient in by_sign.items():
             number, other = sympy.factor(coefficient).as_coeff_Mul()
-            is_negative = other.could_extract_minus_sign()
-            numbers.append(-number if is_negative else number)
-            others.append((-other if is_negative else other) * sign)
+            if other.could_extract_minus_sign():
+                number = -number
+                other = -other
+            numbers.append(number)
+            others.append(other * sign)
         if len(numbers) < 2:
             return expression
         below = sympy.ilcm(1, *(number.q for number in numbers))
@@ -310,26 +315,31 @@ class _TheoremWriter:
 
     def _delta(self, cases: list[Case]) -> Iterator[Block]:
         """What Delta_d is, and its first values."""
-        parts = [part for case in cases for region in case.regions for part in both(region.statement).parts]
-        natural = [part for part in parts if isinstance(part, Natural)]
-        for m in sorted({part.m for part in natural}):
-            d = next(part.letter for part in natural if part.m == m)
-            delta = Math(f"Delta_{d}", rf"\Delta_{{{d}}}")
+        #: The letter of the degree, by the degree m of the invariant.
+        letters: dict[int, str] = {}
+        for case in cases:
+            for region in case.regions:
+                for part in both(region.statement).parts:
+                    if isinstance(part, Natural):
+                        letters.setdefault(part.m, part.letter)
+        for m in sorted(letters):
             if m == 1:
-                P = Math(f"P_{d}", f"P_{{{d}}}")
-                text = f"P_{d}'' + 2 theta P_{d}' + (theta' + theta^2 - S) P_{d} = 0"
-                latex = rf"P_{{{d}}}'' + 2 \theta P_{{{d}}}' + (\theta' + \theta^2 - S) P_{{{d}}} = 0"
-                theta = Math("theta", r"\theta")
-                yield say(
-                    delta, " vanishes exactly where the linear system for the coefficients of ", P, ", of degree ",
-                    _name(d), ", has a solution", *_where_several_vanish(self.answer.regions), ":"
-                )  # fmt: skip
-                yield Formula(Math(text, latex))
-                yield say("with ", theta, " the logarithmic derivative of ", Math(f"y/P_{d}", f"y/P_{{{d}}}"), ".")
+                yield from self._delta_of_omega(letters[m])
             else:
-                what = f" for an invariant of degree {m} says that there is a rational function of x that is "
-                what += f"a form of degree {m} in two solutions and has "
-                yield say(Math(f"{delta.text} = 0", f"{delta.latex} = 0"), what, _name(d), " zeros.")
+                yield _delta_of_invariant(letters[m], m)
+
+    def _delta_of_omega(self, d: str) -> Iterator[Block]:
+        """Where omega is rational: the equation of the polynomial of degree d."""
+        P = Math(f"P_{d}", f"P_{{{d}}}")
+        text = f"P_{d}'' + 2 theta P_{d}' + (theta' + theta^2 - S) P_{d} = 0"
+        latex = rf"P_{{{d}}}'' + 2 \theta P_{{{d}}}' + (\theta' + \theta^2 - S) P_{{{d}}} = 0"
+        theta = Math("theta", r"\theta")
+        yield say(
+            _delta_named(d), " vanishes exactly where the linear system for the coefficients of ", P, ", of degree ",
+            _name(d), ", has a solution", *_where_several_vanish(self.answer.regions), ":"
+        )  # fmt: skip
+        yield Formula(Math(text, latex))
+        yield say("with ", theta, " the logarithmic derivative of ", Math(f"y/P_{d}", f"y/P_{{{d}}}"), ".")
 
     # The proof
 
@@ -340,14 +350,44 @@ class _TheoremWriter:
             yield say("The list is complete (", *_theory(answer), ").")
         else:
             yield say(f"The list is complete {answer.complete} (", *_theory(answer), ").")
-        notices = (notice for notice in answer.notices if not notice.startswith(f"in {answer.variable} = "))
-        for notice in notices:
-            yield say(f"Note: {notice}.")
-        keys = dict.fromkeys(key for name, keys in _SOURCES.items() if name in answer.theory for key in keys)
-        if any(part for case in self.cases for part in _schwarz(case.statement)):
-            keys["Kim69"] = None
+        for notice in answer.notices:
+            if not notice.startswith(f"in {answer.variable} = "):
+                yield say(f"Note: {notice}.")
         yield Heading("References")
-        yield from (say(literature()[key].text()) for key in (keys or {"Kov86": None}))
+        yield from (say(literature()[key].text()) for key in self._sources())
+
+    def _sources(self) -> list[str]:
+        """The keys of the publications on which the theory rests, each once."""
+        keys: list[str] = []
+        for name, of_name in _SOURCES.items():
+            if name in self.answer.theory:
+                keys += of_name
+        has_table = any(part for case in self.cases for part in _schwarz(case.statement))
+        if has_table:
+            keys.append("Kim69")
+        return [*dict.fromkeys(keys)] or ["Kov86"]
+
+
+def _delta_named(d: str) -> Math:
+    return Math(f"Delta_{d}", rf"\Delta_{{{d}}}")
+
+
+def _delta_of_invariant(d: str, m: int) -> Block:
+    """Where an invariant of degree m has d zeros."""
+    delta = _delta_named(d)
+    what = f" for an invariant of degree {m} says that there is a rational function of x that is "
+    what += f"a form of degree {m} in two solutions and has "
+    return say(Math(f"{delta.text} = 0", f"{delta.latex} = 0"), what, _name(d), " zeros.")
+
+
+def _kind_of_number(words: list[str]) -> str:
+    """`nonnegative integer`: the adjectives, and then the noun."""
+    adjectives = [word for word in words if word not in _NOUNS]
+    nouns = [word for word in words if word in _NOUNS]
+    if not nouns:
+        is_integer = "even" in words or "odd" in words
+        nouns = ["integer"] if is_integer else ["number"]
+    return " ".join([*adjectives, *nouns])
 
 
 def _where_several_vanish(regions: Iterable[ParameterRegion]) -> list[str]:
@@ -367,12 +407,13 @@ def _relation(name: str, sign: str, value: str) -> Math:
 
 def _listed(parts: list[Math]) -> list[str | Math]:
     """`a, b and c`."""
+    if len(parts) < 2:
+        return [*parts]
+    *first, last = parts
     found: list[str | Math] = []
-    for k, part in enumerate(parts):
-        if k:
-            found.append(" and " if k == len(parts) - 1 else ", ")
-        found.append(part)
-    return found
+    for part in first:
+        found += [part, ", "]
+    return [*found[:-1], " and ", last]
 
 
 def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
@@ -385,7 +426,9 @@ def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
 def _group(verdict: RegionVerdict) -> list[str | Math]:
     """The name of the group; what looks like a formula in it is one."""
     written = re.sub("^(reducible|imprimitive): ", "", verdict.group_written)
-    return sentence_of(written if "`" in written else _GROUP_NAME.sub(r"`\g<0>`", written))
+    if "`" not in written:
+        written = _GROUP_NAME.sub(r"`\g<0>`", written)
+    return sentence_of(written)
 
 
 def _theory(answer: ParametricAnswer) -> list[str | Math]:
@@ -439,7 +482,7 @@ def _letters(statement: Statement) -> list[str]:
 def _values(natural: Natural, number: int) -> Iterator[Block]:
     """The first determinants: d, where it is the degree, and Delta_d in factors; as far as they can be printed."""
     rows: list[list[Sentence]] = []
-    delta = Math(f"Delta_{natural.letter}", rf"\Delta_{{{natural.letter}}}")
+    delta = _delta_named(natural.letter)
     for d in range(number):
         found: dict[str, list[Determinant]] = defaultdict(list)
         for determinant in natural.determinants(d):
