@@ -72,12 +72,15 @@ def solve(
             return (answer.to_json(full=full),)
         if latex:
             return (answer._repr_latex_(),)
-        homogeneous = answer.equation is None or answer.equation.is_homogeneous
-        solutions = solution_lines(answer) if homogeneous else _inhomogeneous(answer)
-        return map(fitted, render(answer, style=options.styled, solutions=None if no_solutions else solutions))
+        solutions: Iterable[str] | None = None
+        if not no_solutions:
+            homogeneous = answer.equation is None or answer.equation.is_homogeneous
+            solutions = solution_lines(answer) if homogeneous else _inhomogeneous(answer)
+        return map(fitted, render(answer, style=options.styled, solutions=solutions))
 
     refuse = _print_refusal if as_json else None
-    return options.answer_each(equations, show, gap="" if as_json or latex else "\n", refuse=refuse, **given)
+    gap = "" if as_json or latex else "\n"
+    return options.answer_each(equations, show, gap=gap, refuse=refuse, **given)
 
 
 def _print_refusal(text: str, error: KovacicError) -> None:
@@ -93,8 +96,11 @@ def _with_values(context: click.Context, equations: tuple[str, ...], ics: str, *
     """What `kovacic dsolve --ics` says of each equation, S standing for y'' = S y; the largest of its exit statuses."""
     from kovacic.reading.lexer import is_equation
 
-    texts = [text if is_equation(text) else f"y'' = ({text.strip()})*y" for text in equations]
-    return max(int(context.invoke(dsolve, equation=text, ics=ics, **given)) for text in texts)
+    statuses: list[int] = []
+    for text in equations:
+        equation = text if is_equation(text) else f"y'' = ({text.strip()})*y"
+        statuses.append(int(context.invoke(dsolve, equation=equation, ics=ics, **given)))
+    return max(statuses)
 
 
 def _inhomogeneous(answer: Solution) -> Iterator[str]:
@@ -107,8 +113,10 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
     try:
         yield from map(shortened, _solution_lines(equation, limits=answer.limits))
     except NotImplementedError as reason:
-        nothing = answer.case is None and not answer.special
-        yield str(answer.special) if nothing else f"the solution wasn't written out: {reason}"
+        if answer.case is None and not answer.special:
+            yield str(answer.special)
+        else:
+            yield f"the solution wasn't written out: {reason}"
 
 
 @options.equation_command()
@@ -145,7 +153,8 @@ def dsolve(equation: str, as_json: bool, latex: bool, ics: str, **given: Any) ->
         with options.waiting("solving"):
             lines = list(_solution_lines(equation, latex=latex, ics=ics, **given))
         for line in lines:
-            print(line if latex else fitted(line))
+            shown = line if latex else fitted(line)
+            print(shown)
         return DECIDED
     except KovacicError as error:
         if as_json:
@@ -172,14 +181,23 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
 
     found = dsolve(equation, **given)
     shorter = in_special_functions(found, equation, **given)
-    for k, solution in enumerate([found] if shorter is None else [found, shorter]):
-        if latex:
-            yield from (r"\text{" + SHORTER + "}", as_latex(solution)) if k else (as_latex(solution),)
-        else:
-            yield from (SHORTER,) if k else ()
-            yield f"{'  ' if k else ''}{solution.lhs} = {caret(as_text(solution.rhs))}"
-            if needed := validity(solution):
-                yield f"  real and valid for {caret(as_text(needed))}"
+
+    def lines(solution: Any, indent: str = "") -> Iterator[str]:
+        yield f"{indent}{solution.lhs} = {caret(as_text(solution.rhs))}"
+        needed = validity(solution)
+        if needed:
+            yield f"  real and valid for {caret(as_text(needed))}"
+
+    if latex:
+        yield as_latex(found)
+        if shorter is not None:
+            yield r"\text{" + SHORTER + "}"
+            yield as_latex(shorter)
+        return
+    yield from lines(found)
+    if shorter is not None:
+        yield SHORTER
+        yield from lines(shorter, indent="  ")
 
 
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
@@ -190,6 +208,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
         found = dsolve(equation, ics=ics, **given)
         shorter = in_special_functions(found, equation, ics=ics, **given)
+        special = None if shorter is None else as_text(shorter.rhs)
         data = {
             "schema": 1,
             "input": equation,
@@ -198,7 +217,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
             "unknown": str(found.lhs),
             "solution": as_text(found.rhs),
             "latex": as_latex(found),
-            "special": None if shorter is None else as_text(shorter.rhs),
+            "special": special,
             "validity": str(validity(found)) or None,
             "notices": [str(warning.message) for warning in noticed],
         }
@@ -248,10 +267,12 @@ def explain(
         if cite:
             return (answer.citation(style="bibtex"),)
         text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
-        if output is None:
-            return (fitted(text) if form == "text" else text,)
-        output.write_text(f"{text}\n", encoding="utf-8")
-        return (f"wrote {output}",)
+        if output is not None:
+            output.write_text(f"{text}\n", encoding="utf-8")
+            return (f"wrote {output}",)
+        if form == "text":
+            text = fitted(text)
+        return (text,)
 
     return options.answer_each(equations, show, gap="\n", **given)
 

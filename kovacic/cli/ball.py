@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from click.core import ParameterSource
@@ -30,8 +30,28 @@ _PULLED = "from t = {:.6g} on it has to pull at times: a free ball leaves the su
 _DIFFERENCE = "omega_3 {0[omega_3]:.2e}, n {0[n]:.2e}: closed form against the integrated motion"
 _DETERMINED = "the digits of this motion last until t = {:.6g}"
 _LOST = "digits are lost: it comes as near as {:.1g} to an unstable steady motion"
-#: A key of the JSON and its value; then, where it is shown, its label, and as a template what is said (the value itself).
-Row: TypeAlias = tuple[Any, ...]
+#: D for a ball whose constants aren't given.
+_D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
+#: Options that say which force acts.
+_FORCE = ("gravity", "potential")
+
+
+class Row(NamedTuple):
+    """A key of the JSON and its value; where it is shown, its label, and as a template what is said: the value itself."""
+
+    key: str
+    value: Any
+    label: str | None = None
+    template: str = "{}"
+
+    def lines(self) -> Iterator[str]:
+        """What is shown; nothing without a label, or for an unknown value."""
+        if self.label is None or self.value is None:
+            return
+        title = f"{self.label}:" if self.label else ""
+        for line in self.template.format(self.value).splitlines():
+            yield f"{title:<20}{line}"
+            title = ""
 
 
 @click.command()
@@ -81,23 +101,27 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
         return
     place = _place(**given)
     rows = _answer(place, latex=latex)
-    data = {key: value for key, value, *_ in rows}
+    motion: list[Row] = []
     if given["simulate"] or given["plot"] is not None:
-        motion = _simulate(place, **{name: given[name] for name in ("start", "end", "plot", "gravity", "potential")})
-        data["motion"] = {key: value for key, value, *_ in motion}
-        rows += motion
-    if explain:
-        derivation = _derivation(latex=latex)
-        data = {**derivation, **data}
-        if not as_json:
-            _print_derivation(derivation)
-            click.echo()
+        force = {name: given[name] for name in _FORCE}
+        motion = _simulate(place, start=given["start"], end=given["end"], plot=given["plot"], **force)
+    derivation = _derivation(latex=latex) if explain else {}
     if as_json:
+        data = {**derivation, **_in_json(rows)}
+        if motion:
+            data["motion"] = _in_json(motion)
         click.echo(json_line(data, default=str))
-    for _, value, *shown in () if as_json else rows:
-        label, template = (*shown, "{}", "")[:2] if shown and value is not None else ("", "")
-        for k, line in enumerate(template.format(value).splitlines()):
-            click.echo(f"{f'{label}:' if label and not k else '':<20}{line}")
+        return
+    if derivation:
+        _print_derivation(derivation)
+        click.echo()
+    for row in (*rows, *motion):
+        for line in row.lines():
+            click.echo(line)
+
+
+def _in_json(rows: list[Row]) -> dict[str, Any]:
+    return {row.key: row.value for row in rows}
 
 
 def _names_a_ball() -> bool:
@@ -112,7 +136,8 @@ def _derivation(*, latex: bool) -> dict[str, Any]:
     from kovacic.ball.derivation import holds
     from kovacic.ball.paper import explained
 
-    text = explained(format="latex" if latex else "text")
+    form = "latex" if latex else "text"
+    text = explained(format=form)
     return {"derivation": text, "derived": all(holds().values())}
 
 
@@ -136,17 +161,23 @@ def _place(*, ratio: str | None, mass: str | None, radius: str | None, sphere: s
     from kovacic.ball.theorems import read_ratio
 
     if ratio is not None:
-        if {mass, radius, sphere, *(given[name] for name in ("a1", "a3", "plot"))} != {None} or given["simulate"]:
+        others = [mass, radius, sphere, given["a1"], given["a3"], given["plot"]]
+        if given["simulate"] or any(other is not None for other in others):
             raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
         return InRoots(read_ratio(ratio))
     if mass is None or radius is None or sphere is None:
         raise click.UsageError("either --ratio, or --mass, --radius and --sphere")
-    if None not in (given["gravity"], given["potential"]):
+    if all(given[name] is not None for name in _FORCE):
         raise click.UsageError("either --gravity or --potential")
-    if exact(given["offset"], "a") != 0 and None in (given["a1"], given["a3"]):
+    A1 = given["a1"]
+    A3 = given["a3"]
+    if exact(given["offset"], "a") != 0 and None in (A1, A3):
         raise click.UsageError("a ball with --offset isn't homogeneous: give its moments too, --A1 and --A3")
-    standard = exact(mass, "m") * exact(radius, "R") ** 2 * 2 / 5
-    A1, A3 = (standard if given[name] is None else given[name] for name in ("a1", "a3"))
+    of_homogeneous_ball = exact(mass, "m") * exact(radius, "R") ** 2 * 2 / 5
+    if A1 is None:
+        A1 = of_homogeneous_ball
+    if A3 is None:
+        A3 = of_homogeneous_ball
     ball = RollingBall(m=mass, R=radius, a=given["offset"], A1=A1, A3=A3)
     return ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
 
@@ -163,47 +194,62 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
     solution = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x")
     form = closed_form(place)
     equations = equations_of(place)
-    (said, case) = theorem(place)
+    said, case = theorem(place)
     generic = "{} for generic values" if place.ratio.free_symbols else "{}"
+    N = "{}, not an integer" if case == 2 else "{}"
 
     def short(value: Any) -> str:
+        """With E and D for the polynomials that were shown."""
         text = str(value)
         for name, whole in (("E", f"({form.E})"), ("D", f"({place.D})")):
             text = text.replace(f"{whole}**", f"{name}**").replace(whole, f"({name})")
         return text
 
-    N = "{}, not an integer" if case == 2 else "{}"
-    rows: list[Row] = [("ratio", place.ratio, "R/R1"), ("N", 2 * place.ratio, "N = 2R/R1", N)]
+    rows = [Row("ratio", place.ratio, "R/R1"), Row("N", 2 * place.ratio, "N = 2R/R1", N)]
+    note = f"x = cos u; x1, x2 are the roots of D(x) = {_D}, two different ones"
     if isinstance(place, BallOnSphere):
         note = "x = cos u; units are those of the input"
         roots = ", ".join(map(str, place.roots))
-        rows += [("ball", place.kind, "ball"), ("D", place.D, "D(x)"), ("roots", roots, "x1, x2")]
-    else:
-        D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
-        note = f"x = cos u; x1, x2 are the roots of D(x) = {D}, two different ones"
-    rows += [("theorem", said, "theorem")]
+        rows += [Row("ball", place.kind, "ball"), Row("D", place.D, "D(x)"), Row("roots", roots, "x1, x2")]
+    rows.append(Row("theorem", said, "theorem"))
     if place.ratio.free_symbols:
-        from kovacic.parameters import conditions
-
-        lines = [line.strip() for line in str(conditions(place.S, var="x")).splitlines()[1:]]
-        rows += [("conditions", lines, "by the engine", "\n".join(lines))]
+        lines = _conditions(place)
+        rows.append(Row("conditions", lines, "by the engine", _as_is("\n".join(lines))))
     rows += [
-        ("equation", equations["12"].text, "equation (12)"),
-        ("S", place.S, "(13) y'' = S y, S"),
-        ("status", solution.status.value),
-        ("case", solution.case, "case", generic),
-        ("omega", list(map(str, form.omega)), "omega(x) = y'/y", "\n".join(map(short, form.omega))),
-        *([("E", form.E, "E(x)")] if form.E else []),
-        *((name, getattr(form, name), name, short(getattr(form, name))) for name in ("y", "omega_3", "n")),
-        ("group", solution.group and solution.group.name, "group", generic),
-        ("verified", solution.verified and form.solves(place), "verified"),
-        ("note", note, ""),
+        Row("equation", equations["12"].text, "equation (12)"),
+        Row("S", place.S, "(13) y'' = S y, S"),
+        Row("status", solution.status.value),
+        Row("case", solution.case, "case", generic),
+        Row("omega", list(map(str, form.omega)), "omega(x) = y'/y", _as_is("\n".join(map(short, form.omega)))),
+    ]
+    if form.E:
+        rows.append(Row("E", form.E, "E(x)"))
+    for name in ("y", "omega_3", "n"):
+        found = getattr(form, name)
+        rows.append(Row(name, found, name, _as_is(short(found))))
+    rows += [
+        Row("group", solution.group and solution.group.name, "group", generic),
+        Row("verified", solution.verified and form.solves(place), "verified"),
+        Row("note", note, ""),
     ]
     if latex:
         formulas = {name: breakable(math.latex) for name, math in equations.items()}
         shown = "\n".join(f"({name}) {formula}" for name, formula in formulas.items())
-        rows += [("latex", formulas, "LaTeX", shown.replace("{", "{{").replace("}", "}}"))]
+        rows.append(Row("latex", formulas, "LaTeX", _as_is(shown)))
     return rows
+
+
+def _conditions(place: Rolling) -> list[str]:
+    """For which ratios there are solutions, line by line."""
+    from kovacic.parameters import conditions
+
+    _, *lines = str(conditions(place.S, var="x")).splitlines()
+    return [line.strip() for line in lines]
+
+
+def _as_is(text: str) -> str:
+    """A template for this text, braces and all."""
+    return text.replace("{", "{{").replace("}", "}}")
 
 
 def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None, **force: str | None) -> list[Row]:
@@ -217,31 +263,38 @@ def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None,
         from kovacic.ball.motion import State, solve_motion
         from kovacic.ball.picture import draw
 
-    if (time := as_float(end, "the time")) <= 0:
+    time = as_float(end, "the time")
+    if time <= 0:
         raise InputError(f"the time must be positive, not {time:g}")
     motion = solve_motion(sphere, State(*start), **force)
-    times = np.linspace(0.0, time, min(_MOST, _SAMPLES + int(_PER_OSCILLATION * time / (motion.period or np.inf))))
+    samples = _SAMPLES + int(_PER_OSCILLATION * time / (motion.period or np.inf))
+    times = np.linspace(0.0, time, min(_MOST, samples))
     if plot:
         with needs("plot", "a picture"):
             draw(motion, times, plot, title=f"R/R1 = {sphere.ratio}")
     reaction = motion.reaction(times)
     difference = {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()}
-    least = None if reaction is None else float(reaction.min())
-    pulled = None if reaction is None or reaction.min() >= 0 else float(times[reaction < 0][0])
+    least = None
+    pulled = None
+    if reaction is not None:
+        least = float(reaction.min())
+        if least < 0:
+            pulled = float(times[reaction < 0][0])
     low, high = motion.turning_points
     said = _STEADY if low == high else _TURNING
     determined = motion.determined if np.isfinite(motion.determined) else None
+    lost = _LOST if motion.approach < _SENSITIVE else ""
     return [
-        ("potential", motion.force.V, "potential", "V = {}"),
-        ("turning_points", motion.turning_points, *said),
-        ("period", motion.period, "period", "{:.15g}"),
-        ("time", time),
-        ("contact", (motion.contact(time) + 0.0).tolist(), "contact point", _CONTACT),
-        ("least_reaction", least, "normal reaction", f"at least {{:.6g}} (t <= {time:g})"),
-        ("pulled_from", pulled, "", _PULLED),
-        ("difference", difference, "difference", _DIFFERENCE),
-        ("energy_drift", float(np.ptp(motion.energy(times))), "energy drift", "{:.2e}"),
-        ("determined", determined, "asymptotic", _DETERMINED),
-        ("approach", motion.approach, "", _LOST if motion.approach < _SENSITIVE else ""),
-        ("plot", plot and str(plot), "picture"),
+        Row("potential", motion.force.V, "potential", "V = {}"),
+        Row("turning_points", motion.turning_points, *said),
+        Row("period", motion.period, "period", "{:.15g}"),
+        Row("time", time),
+        Row("contact", (motion.contact(time) + 0.0).tolist(), "contact point", _CONTACT),
+        Row("least_reaction", least, "normal reaction", f"at least {{:.6g}} (t <= {time:g})"),
+        Row("pulled_from", pulled, "", _PULLED),
+        Row("difference", difference, "difference", _DIFFERENCE),
+        Row("energy_drift", float(np.ptp(motion.energy(times))), "energy drift", "{:.2e}"),
+        Row("determined", determined, "asymptotic", _DETERMINED),
+        Row("approach", motion.approach, "", lost),
+        Row("plot", plot and str(plot), "picture"),
     ]

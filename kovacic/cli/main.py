@@ -97,7 +97,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     warnings.formatwarning = lambda message, *_, **__: f"kovacic: {message}\n"
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # files and pipes are UTF-8 on every system
-            stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="backslashreplace")
+            encoding = None if stream.isatty() else "utf-8"
+            stream.reconfigure(encoding=encoding, errors="backslashreplace")
     sys.exit(run(arguments))
 
 
@@ -128,9 +129,11 @@ def _occupy(descriptor: int, mode: int) -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """The exit status of a command line (by default that of the process)."""
+    if arguments is None:
+        arguments = sys.argv[1:]
     try:
         # Not cli.main(), which turns an interrupt and a closed pipe into exit statuses of its own.
-        with cli.make_context("kovacic", list(sys.argv[1:] if arguments is None else arguments)) as context:
+        with cli.make_context("kovacic", list(arguments)) as context:
             status = cli.invoke(context)
         sys.stdout.flush()
         return status if isinstance(status, int) else DECIDED

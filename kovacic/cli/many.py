@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from itertools import repeat
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, TextIO, TypeVar
 
 import click
 
@@ -83,7 +83,8 @@ def batch(
     done = _already_answered(output, resume)
     standard = file is sys.stdin.buffer
     stream = standard or not Path(file.name).is_file()  # a pipe has a name as well, and may be silent for long
-    form = form or (None if standard else guess_format(file.name))
+    if form is None and not standard:
+        form = guess_format(file.name)
     items = read_items(file, form=form, var=var, limits=limits)
     count = None if stream else partial(count_items, file.name, form=form)
     with answers(output) as write:
@@ -131,7 +132,8 @@ def scan(
     grids = [parse_grid(text) for text in ranges]
     if picture is not None and len(grids) != 2:
         raise click.UsageError("a map needs two parameters")
-    form = form or ("csv" if output is not None and output.suffix == ".csv" else "jsonl")
+    if form is None:
+        form = "csv" if output is not None and output.suffix == ".csv" else "jsonl"
     if resume and form == "csv":
         raise click.UsageError("--resume needs --output FILE.jsonl, the file of the interrupted scan")
     done = _already_answered(output, resume)
@@ -141,13 +143,7 @@ def scan(
         if form == "jsonl":
             write = stack.enter_context(answers(output))
         else:
-            stream = stack.enter_context(output.open("w", encoding="utf-8", newline="")) if output else sys.stdout
-            table = csv.writer(stream, lineterminator="\n")
-            table.writerow(columns(grids))
-
-            def write(record: Record) -> None:
-                table.writerow(row(record))
-                stream.flush()
+            write = stack.enter_context(_table(output, columns(grids), row))
 
         def noted(record: Record) -> None:
             write(record)
@@ -160,6 +156,25 @@ def scan(
         with options.waiting("drawing"):
             draw_map(expression, (grids[0], grids[1]), labels, picture)
     return status
+
+
+@contextmanager
+def _table(
+    output: Path | None, head: Sequence[str], row: Callable[[Record], Sequence[object]]
+) -> Iterator[Callable[[Record], None]]:
+    """What writes a record as a row of a table (CSV) to a file, or to standard output."""
+    with ExitStack() as stack:
+        stream: TextIO = sys.stdout
+        if output is not None:
+            stream = stack.enter_context(output.open("w", encoding="utf-8", newline=""))
+        table = csv.writer(stream, lineterminator="\n")
+        table.writerow(head)
+
+        def write(record: Record) -> None:
+            table.writerow(row(record))
+            stream.flush()
+
+        yield write
 
 
 def _already_answered(output: Path | None, resume: bool) -> Done:
@@ -204,7 +219,8 @@ def _answer_all(
         wanted = not on_screen if progress is None else progress
         refresh = None
         if wanted and sys.stderr.isatty():
-            refresh = stack.enter_context(_progress(summary, count() - len(done) if count else None))
+            total = None if count is None else count() - len(done)
+            refresh = stack.enter_context(_progress(summary, total))
         for record in run_items((item for item in items if item not in done), job):
             write(record)
             summary.add(record)

@@ -78,17 +78,18 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
 
     found: dict[str, str] = {}
     for setting in settings:
-        both = relations(setting)
-        if both is not None:
-            found[both[0]] = f"{found.get(both[0], '')} {both[1]}".strip()
+        chain = relations(setting)
+        if chain is not None:
+            name, what = chain
+            found[name] = f"{found.get(name, '')} {what}".strip()
             continue
         match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
         if match is None:
             raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3, n>=0 or 0<n<20")
         name = match[1]
-        relation = match[2]
+        relation = match[2].removeprefix("=")
         what = match[3].strip()
-        found[name] = f"{found.get(name, '')} {relation if relation != '=' else ''}{what}".strip()
+        found[name] = f"{found.get(name, '')} {relation}{what}".strip()
     return found or None
 
 
@@ -132,8 +133,10 @@ class EquationCommand(click.Command):
             if option is not None and not (option.is_flag or option.count):
                 found += [argument, *islice(rest, option.nargs)]
                 continue
-            found.append(f" {argument}" if _is_expression(argument, options) else argument)
-            if argument[:2] in options or (argument.startswith("--") and argument.partition("=")[0] not in options):
+            shown = f" {argument}" if _is_expression(argument, options) else argument
+            found.append(shown)
+            is_unknown_word = argument.startswith("--") and argument.partition("=")[0] not in options
+            if is_unknown_word or argument[:2] in options:
                 doubtful.append(argument)
         return found, doubtful
 
@@ -207,8 +210,9 @@ def _watch(context: click.Context, _: click.Parameter, given: int) -> None:
         logger.removeHandler(said)
         logger.setLevel(level)
 
+    wanted = logging.INFO if given == 1 else logging.DEBUG
     logger.addHandler(said)
-    logger.setLevel(logging.INFO if given == 1 else logging.DEBUG)
+    logger.setLevel(wanted)
     context.find_root().call_on_close(unwatch)  # a subcommand whose other arguments are wrong has no end of its own
 
 
@@ -293,7 +297,8 @@ def answer_each(
             with waiting("deciding"):
                 answer = solve(text, var=var, assume=assume, limits=limits)
             is_open = answer.status is Status.UNDECIDED and not answer.assumed
-            outcomes.append(UNDECIDED if is_open else DECIDED)
+            outcome = UNDECIDED if is_open else DECIDED
+            outcomes.append(outcome)
             for line in each_waited_for(show(answer), "writing"):
                 print(between + line, flush=True)
                 between = ""

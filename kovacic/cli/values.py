@@ -5,13 +5,16 @@ from __future__ import annotations
 import sys
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from kovacic.cli import options
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
 from kovacic.shown import json_line
+
+if TYPE_CHECKING:
+    from kovacic.parametric.check import CheckReport
 
 
 @options.equation_command()
@@ -149,19 +152,27 @@ def conditions(
             theorem = answer.theorem(format=form).rstrip("\n")
             shown = options.fitted(theorem) if form == "text" else theorem
         else:
-            shown = options.fitted(answer.explain() if explained else answer.text(all=everything))
+            text = answer.explain() if explained else answer.text(all=everything)
+            shown = options.fitted(text)
     print(shown)
     if report is not None:
-        agreement = "all agree" if report.inside + report.outside else "no point with these properties was found"
-        if not report:
-            agreement = f"{len(report.disagreements)} disagree"
-        print(
-            f"  checked at {report.inside} points inside and {report.outside} outside: {agreement}",
-            file=sys.stderr if as_json or as_latex or form else sys.stdout,
-        )
+        is_for_programs = as_json or as_latex or form is not None
+        stream = sys.stderr if is_for_programs else sys.stdout
+        print(f"  {_agreement(report)}", file=stream)
         if not report:
             return CHECK_FAILED
     return DECIDED if answer.within_limits else UNDECIDED
+
+
+def _agreement(report: CheckReport) -> str:
+    """How many points were compared, and whether they agree."""
+    if not report:
+        found = f"{len(report.disagreements)} disagree"
+    elif report.inside + report.outside:
+        found = "all agree"
+    else:
+        found = "no point with these properties was found"
+    return f"checked at {report.inside} points inside and {report.outside} outside: {found}"
 
 
 @options.equation_command()

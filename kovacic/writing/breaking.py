@@ -19,6 +19,7 @@ _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
 _BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)")
 _FRACTIONS = (r"\frac", r"\tfrac")
 _WITH_NAME = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_")
+_WITH_ARGUMENT = (*_WITH_NAME, "^")
 _WIDER = {"+": 2.4, "-": 2.4, "=": 2.4, r"\cos": 3, r"\sin": 3, r"\exp": 3}
 _NO_WIDTH = ("", "{", "}", "$", " ", r"\left", r"\right", r"\displaystyle", r"\,", r"\;")
 
@@ -49,10 +50,12 @@ def pieces(latex: str) -> list[str]:
         may_break = depth == 0 and found[-1] and before not in ("", "=", "(")
         if may_break and token in ("+", "-", r"\allowbreak"):
             found.append("")
-        found[-1] += token if token != r"\allowbreak" else ""
+        if token != r"\allowbreak":
+            found[-1] += token
         found[-1] = found[-1].lstrip()
         depth += {"{": 1, "}": -1, r"\left": 1, r"\right": -1}.get(token, 0)
-        before = token if token != " " else before
+        if token != " ":
+            before = token
     return [piece for piece in found if piece]
 
 
@@ -101,34 +104,37 @@ class _LineBreaker:
         written = ""
         k = 0
         while k < len(nodes):
-            node = nodes[k]
-            following = nodes[k + 1] if k + 1 < len(nodes) else ""
-            is_wide_power = node == "^" and isinstance(following, list) and _width(following) > self.most
-            if isinstance(node, list):
-                written += self.written(node) if _width(node) > self.most else _verbatim([node])
-                k += 1
-            elif node == r"\sqrt":
-                end = nodes.index("]", k) + 1 if following == "[" else k + 1
-                written += self._root(nodes[k : end + 1])
-                k = end + 1
-            elif node == r"\left":
-                end = _closing(nodes, k + 1) + 2
-                written += self._parentheses(nodes[k:end])
-                k = end
-            elif is_wide_power and written[-1:] == "e":
-                assert isinstance(following, list)
-                written = rf"{written[:-1]}\exp\bigl({self.written(following)}\bigr)"
-                k += 2
-            elif node in _FRACTIONS:
-                written += self._fraction(nodes[k : k + 3])
-                k += 3
-            elif node in (*_WITH_NAME, "^"):
-                written += _verbatim(nodes[k : k + 2])
-                k += 2
+            end = _end(nodes, k)
+            construct = nodes[k:end]
+            if written.endswith("e") and self._is_wide_power(construct):
+                exponent = self.written(_argument(construct, 1))
+                written = rf"{written[:-1]}\exp\bigl({exponent}\bigr)"
             else:
-                written += self._token(node)
-                k += 1
+                written += self._construct(construct)
+            k = end
         return written
+
+    def _construct(self, nodes: list[Node]) -> str:
+        """What belongs together: a command with its arguments, a group, or a token."""
+        first = nodes[0]
+        if isinstance(first, list):
+            return self.written(first) if _width(first) > self.most else _verbatim(nodes)
+        if first == r"\sqrt":
+            return self._root(nodes)
+        if first == r"\left":
+            return self._parentheses(nodes)
+        if first in _FRACTIONS:
+            return self._fraction(nodes)
+        if first in _WITH_ARGUMENT:
+            return _verbatim(nodes)
+        return self._token(first)
+
+    def _is_wide_power(self, nodes: list[Node]) -> bool:
+        """Is it ^{...}, with an exponent that has to be broken?"""
+        if nodes[0] != "^" or len(nodes) < 2:
+            return False
+        exponent = nodes[1]
+        return isinstance(exponent, list) and _width(exponent) > self.most
 
     def _root(self, nodes: list[Node]) -> str:
         r"""\sqrt, maybe its index in brackets, and what is under it."""
@@ -155,7 +161,9 @@ class _LineBreaker:
         """Long numbers in pieces of ten digits; a comma ends a line."""
         if token.isdigit() and len(token) > self.most / 2:
             return r"\allowbreak ".join(re.findall(r"\d{1,10}", token))
-        return _verbatim([token]) + (r"\allowbreak " if token == "," else "")
+        if token == ",":
+            return r",\allowbreak "
+        return _verbatim([token])
 
     def _inside(self, nodes: list[Node]) -> str:
         """Between parentheses; parameters and argument of a hypergeometric function in one line, with semicolons."""
@@ -172,8 +180,24 @@ class _LineBreaker:
         end = 2 if parts[0] == r"\sqrt" else 1
         if parts[0] == r"\left":
             end = _closing(parts, 1) + 2
-        single = len(parts) == end or (len(parts) == end + 2 and parts[end] == "^")
-        return self.written(nodes) if single else rf"\bigl({self.written(nodes)}\bigr)"
+        is_power = len(parts) == end + 2 and parts[end] == "^"
+        written = self.written(nodes)
+        return written if is_power or len(parts) == end else rf"\bigl({written}\bigr)"
+
+
+def _end(nodes: list[Node], k: int) -> int:
+    """Behind what belongs together from k on."""
+    node = nodes[k]
+    if node == r"\sqrt":
+        has_index = nodes[k + 1 : k + 2] == ["["]
+        return nodes.index("]", k) + 2 if has_index else k + 2
+    if node == r"\left":
+        return _closing(nodes, k + 1) + 2
+    if node in _FRACTIONS:
+        return k + 3
+    if node in _WITH_ARGUMENT:
+        return k + 2
+    return k + 1
 
 
 def _closing(nodes: list[Node], k: int) -> int:
@@ -186,7 +210,13 @@ def _closing(nodes: list[Node], k: int) -> int:
 
 
 def _verbatim(nodes: list[Node]) -> str:
-    return "".join(
-        f"{{{_verbatim(node)}}}" if isinstance(node, list) else node + " " * (node[0] == "\\" and node[-1].isalpha())
-        for node in nodes
-    )
+    """As it was, with a space behind each command."""
+    written = ""
+    for node in nodes:
+        if isinstance(node, list):
+            written += f"{{{_verbatim(node)}}}"
+        elif node[0] == "\\" and node[-1].isalpha():
+            written += f"{node} "
+        else:
+            written += node
+    return written

@@ -89,7 +89,20 @@ class Format:
     def sentence(self, sentence: Sentence) -> str:
         """The parts of a sentence, one after the other."""
         parts = (sentence,) if isinstance(sentence, str | Math) else sentence
-        return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in parts)
+        return "".join(map(self._part, parts))
+
+    def _part(self, part: str | Math) -> str:
+        return self.math(part) if isinstance(part, Math) else self.plain(part)
+
+
+def _text_heading(text: str, level: int) -> str:
+    line = "=" if level == 1 else "-"
+    return f"{text}\n{line * len(text)}"
+
+
+def _latex_heading(text: str, level: int) -> str:
+    command = r"\section" if level == 1 else r"\subsection"
+    return rf"\raggedright{command}*{{{text}}}"
 
 
 def _text_table(rows: list[list[str]]) -> str:
@@ -106,21 +119,31 @@ def _markdown_table(rows: list[list[str]]) -> str:
 def _latex_table(rows: list[list[str]]) -> str:
     """Columns as wide as they are, or with lines that are broken where they would be wider than the page together."""
     widths = [min(max(map(width, column)), _COLUMN) for column in zip(*rows, strict=True)]
-    broken = [w if sum(widths) > _PAGE and w > _PAGE / 6 else 0 for w in widths]
+    #: Those of the columns in which lines are broken; 0 for the others.
+    broken = [0.0] * len(widths)
+    for k, w in enumerate(widths):
+        if sum(widths) > _PAGE and w > _PAGE / 6:
+            broken[k] = w
     share = max(0.3, 0.9 - (sum(widths) - sum(broken)) / _PAGE) / max(1, sum(broken))  # of the line
-    columns = "".join(rf"p{{{share * w:.2f}\linewidth}}" if w else "l" for w in broken)
-    cells = [
-        [
-            rf"\raggedright {breakable(cell, share * w * _PAGE)}" if w else cell
-            for cell, w in zip(row, broken, strict=True)
-        ]
-        for row in rows
-    ]
-    lines = [" & ".join(row) + r" \tabularnewline" for row in cells]
+    shares = [share * w for w in broken]
+    columns = "".join(map(_latex_column, shares))
+    lines = []
+    for row in rows:
+        cells = map(_latex_cell, row, shares)
+        lines.append(" & ".join(cells) + r" \tabularnewline")
     body = "\n".join([lines[0], r"\hline", *lines[1:]])
     box = f"\\sbox0{{\\def\\arraystretch{{1.3}}\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}}}"
     fitted = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"  # graphicx
     return rf"\medskip{box}\par\noindent{fitted}\par\medskip"
+
+
+def _latex_column(share: float) -> str:
+    """As wide as it is, or the share of a line."""
+    return rf"p{{{share:.2f}\linewidth}}" if share else "l"
+
+
+def _latex_cell(cell: str, share: float) -> str:
+    return rf"\raggedright {breakable(cell, share * _PAGE)}" if share else cell
 
 
 def _rows(math: Math) -> list[str]:
@@ -181,8 +204,14 @@ def _html_line(latex: str) -> str:
     """In a line; of a formula that is wider than a page many small ones, between which browsers break the line."""
     if width(latex) <= 1.5 * LINE:
         return _mathml(Math("", latex))
-    parts = [_mathml(Math("", piece if piece[0] not in "+-" else f"{{}} {piece}")) for piece in pieces(latex)]
-    return "<wbr/>".join(parts)
+    return "<wbr/>".join(map(_mathml_piece, pieces(latex)))
+
+
+def _mathml_piece(latex: str) -> str:
+    """A part of a sum; empty braces make a sign with which it begins that of the sum."""
+    if latex[0] in "+-":
+        latex = f"{{}} {latex}"
+    return _mathml(Math("", latex))
 
 
 def _html_formula(math: Math) -> str:
@@ -202,7 +231,7 @@ def _html_block(math: Math) -> str:
 
 FORMATS = {
     "text": Format(
-        heading=lambda text, level: f"{text}\n{('=' if level == 1 else '-') * len(text)}",
+        heading=_text_heading,
         math=lambda math: math.text,
         formula=lambda math: "    " + math.text.replace("\n", "\n    "),
         table=_text_table,
@@ -216,7 +245,7 @@ FORMATS = {
         plain=shown.markdown,
     ),
     "latex": Format(  # the body of a document with amsmath, amssymb and graphicx
-        heading=lambda text, level: rf"\raggedright\{'section' if level == 1 else 'subsection'}*{{{text}}}",
+        heading=_latex_heading,
         math=lambda math: f"${breakable(math.latex)}$",
         formula=_latex_formula,
         table=_latex_table,

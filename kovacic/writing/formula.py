@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, count
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
@@ -110,9 +110,10 @@ class Formulas:
     def factor(self, function: RatFunc | Poly) -> Math:
         """The first factor of a product: sums are in parentheses, in text quotients too."""
         value = self.math(function)
-        single = value.latex.removeprefix("-").startswith((r"\frac", r"\text")) or " " not in value.text
         text = f"({value.text})" if set(value.text) & set(" /") else value.text.replace("*", " ")
-        return Math(text, value.latex if single else rf"\left({value.latex}\right)")
+        is_single = value.latex.removeprefix("-").startswith((r"\frac", r"\text")) or " " not in value.text
+        latex = value.latex if is_single else rf"\left({value.latex}\right)"
+        return Math(text, latex)
 
     def times(self, function: RatFunc | Poly, text: str, latex: str) -> Math:
         """`function * name`: 0, -y, 2 x y, (1/x) y, (x + 1) y."""
@@ -150,14 +151,17 @@ def shortened(text: str) -> str:
 
 def _is_long(function: RatFunc) -> bool:
     """Has it more terms, or longer coefficients, than anybody reads?"""
-    return any(
-        terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE
-        for part in (function.num, function.den)
-        for terms in [part.degree + 1 if part.degree < LARGEST_DEGREE else _number_of_terms(part)]
-    )
+    for part in (function.num, function.den):
+        terms = _number_of_terms(part)
+        if terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE:
+            return True
+    return False
 
 
 def _number_of_terms(polynomial: Poly) -> int:
+    """Of a low degree the most that there can be, of a high one those that aren't 0."""
+    if polynomial.degree < LARGEST_DEGREE:
+        return polynomial.degree + 1
     if isinstance(polynomial, RationalPoly):
         return sum(map(bool, polynomial.rep.numer().coeffs()))
     return sum(map(bool, polynomial))
@@ -166,7 +170,8 @@ def _number_of_terms(polynomial: Poly) -> int:
 def _degrees(function: RatFunc) -> str:
     above = function.num.degree
     below = function.den.degree
-    return f"(too long to print: degree {above}" + (f" over degree {below})" if below > 0 else ")")
+    degrees = f"degree {above} over degree {below}" if below > 0 else f"degree {above}"
+    return f"(too long to print: {degrees})"
 
 
 def of_sympy(expression: Any, first: Any = None) -> Math:
@@ -190,42 +195,71 @@ def latex_text(text: str) -> str:
     >>> print(latex_text("-n*(n + 3)/(2*sqrt(mu)) - b**2"))
     -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
     """
-    parts: list[tuple[str, str]] = []  # what is ready, from the inside, as it stands in a product, and alone
-
-    def ready(product: str, alone: str) -> str:
-        parts.append((product, alone))
-        return chr(_PART + len(parts) - 1)
-
-    def alone(product: str) -> str:
-        return ready(*[parts[ord(product) - _PART][1]] * 2) if _READY.fullmatch(product) else product
-
-    def complete(text: str) -> str:  # without parentheses
-        text = _QUOTIENT.sub(lambda match: rf"\frac{{{alone(match[1])}}}{{{alone(match[2])}}}", text)
-        for pattern, replacement in _REPLACEMENTS:
-            text = pattern.sub(replacement, text)
-        return _READY.sub(lambda match: parts[ord(match[0]) - _PART][0], text)
-
-    def parenthesised(match: re.Match[str]) -> str:
-        if match[1]:
-            radicand, _, n = match[2].partition(", ")
-            n = "3" if match[1] == "cbrt" else n
-            degree = f"[{n}]" if n else ""
-            return ready(*[rf"\sqrt{degree}{{{complete(radicand)}}}"] * 2)
-        inside = complete(match[2])
-        return ready(rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})", inside)
-
+    writer = _LatexWriter()
     found = 1
     while found:
-        text, found = _INNERMOST.subn(parenthesised, text)
-    return complete(text)
+        text, found = _INNERMOST.subn(writer.parenthesised, text)
+    return writer.complete(text)
+
+
+class _Part(NamedTuple):
+    """What is ready, as it stands in a product, and alone."""
+
+    product: str
+    alone: str
+
+
+class _LatexWriter:
+    """The parts of a formula that are ready, from the inside; in the text a character of its own stands for each."""
+
+    def __init__(self) -> None:
+        self.parts: list[_Part] = []
+
+    def ready(self, product: str, alone: str) -> str:
+        self.parts.append(_Part(product, alone))
+        return chr(_PART + len(self.parts) - 1)
+
+    def alone(self, text: str) -> str:
+        """Above or below a line, where a part needs no parentheses."""
+        if _READY.fullmatch(text) is None:
+            return text
+        written = self.parts[ord(text) - _PART].alone
+        return self.ready(written, written)
+
+    def fraction(self, match: re.Match[str]) -> str:
+        return rf"\frac{{{self.alone(match[1])}}}{{{self.alone(match[2])}}}"
+
+    def complete(self, text: str) -> str:
+        """What has no parentheses, or characters for them."""
+        text = _QUOTIENT.sub(self.fraction, text)
+        for pattern, replacement in _REPLACEMENTS:
+            text = pattern.sub(replacement, text)
+        return _READY.sub(lambda match: self.parts[ord(match[0]) - _PART].product, text)
+
+    def parenthesised(self, match: re.Match[str]) -> str:
+        """A root, or a sum in parentheses."""
+        if match[1]:
+            radicand, _, n = match[2].partition(", ")
+            if match[1] == "cbrt":
+                n = "3"
+            degree = f"[{n}]" if n else ""
+            root = rf"\sqrt{degree}{{{self.complete(radicand)}}}"
+            return self.ready(root, root)
+        inside = self.complete(match[2])
+        product = rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})"
+        return self.ready(product, inside)
 
 
 def symbol(name: str) -> str:
     """A name as LaTeX: Greek letters, digits at the end and what follows _ as an index; the constant I."""
     if name == "I":
         return r"\mathrm{i}"
+    base = name
+    index = ""
     match = re.fullmatch(r"([^\W\d_]+)_*(\w*)", name)
-    base, index = (match[1], match[2].replace("_", r"\_")) if match else (name, "")
+    if match is not None:
+        base = match[1]
+        index = match[2].replace("_", r"\_")
     letter = base if len(base) == 1 else rf"\mathrm{{{base}}}"
     if base in _GREEK.split():
         letter = rf"\{base}"

@@ -48,9 +48,10 @@ def draw_cells(
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
 
+    rows = [0.0, 1.0] if upwards is None else edges(upwards)
     axes.pcolormesh(
         edges(rightwards),
-        [0.0, 1.0] if upwards is None else edges(upwards),
+        rows,
         cells,
         cmap=ListedColormap([kind.colour for kind in kinds]),
         norm=BoundaryNorm(range(len(kinds) + 1), len(kinds)),

@@ -47,7 +47,9 @@ def constants_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math | Non
 def simple_roots(riccati: RiccatiPolynomial, formulas: Formulas) -> str | None:
     """The values of omega's constant where it is a square root of a rational number: "i or -i", "sqrt(2) or -sqrt(2)"."""
     field = riccati.P.field
-    if not isinstance(field, AlgebraicField) or field == formulas.field or not isinstance(field.modulus, RationalPoly):
+    if not isinstance(field, AlgebraicField) or field == formulas.field:
+        return None
+    if not isinstance(field.modulus, RationalPoly):
         return None
     constant, *middle = field.modulus.coefficients()[:-1]
     if middle != [0]:
