@@ -25,7 +25,9 @@ Expr = Any  # SymPy publishes no types
 
 def discriminant(p: Poly) -> Fraction | None:
     """That of a monic quadratic polynomial if it is rational; None for any other."""
-    return p.field.rational_value(p[1] * p[1] - 4 * p[0]) if p.degree == 2 else None
+    if p.degree != 2:
+        return None
+    return p.field.rational_value(p[1] * p[1] - 4 * p[0])
 
 
 class RootSum(sympy.RootSum):  # type: ignore[misc]
@@ -74,8 +76,8 @@ class Atoms:
         if isinstance(value, FunctionPoly):
             return value.to_sympy(self.x)
         generator = self.generator(value.field)
-        parts = value.parts
-        return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
+        terms = [Mul(self.constant(part), generator**i) for i, part in enumerate(value.parts) if part]
+        return sympy.expand_mul(Add(*terms))
 
     def sqrt(self, value: Poly) -> Expr:
         """A square root of a constant; squares of parameters come out of the root once and for all, sqrt(w^2) = w."""
@@ -107,11 +109,12 @@ class Atoms:
             middle = modulus[1] * Fraction(1, 2)
             half = self.constant(middle)
             root = self.sqrt(middle * middle - modulus[0])
-            return -half - root if _is_the_smaller_root(field) else -half + root
-        pure = modulus.field.rational_value(-modulus[0])
-        principal = field.approximation is None or (field.approximation[0] > 0 and not field.approximation[1])
-        if principal and pure is not None and pure > 0 and not any(modulus[k] for k in range(1, modulus.degree)):
-            return radical(rational(pure), modulus.degree)
+            if _is_the_smaller_root(field):
+                return -half - root
+            return -half + root
+        radicand = _positive_radicand(modulus)
+        if radicand is not None and _is_principal(field):
+            return radical(rational(radicand), modulus.degree)
         return chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
@@ -136,12 +139,17 @@ class Atoms:
         """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""
         if polynomial.field != QQ or not polynomial:
             return Fraction(1), self.poly(polynomial)
-        content = Fraction(*polynomial.content()) * (1 if polynomial.rational_coefficients()[-1] > 0 else -1)
-        return content, self.poly(polynomial if content == 1 else polynomial * (1 / content))
+        content = Fraction(*polynomial.content())
+        if polynomial.rational_coefficients()[-1] < 0:
+            content = -content
+        if content != 1:
+            polynomial = polynomial * (1 / content)
+        return content, self.poly(polynomial)
 
     def ratio(self, r: RatFunc) -> Expr:
         """A rational function as one fraction."""
-        (c, num), (d, den) = self.primitive(r.num), self.primitive(r.den)
+        c, num = self.primitive(r.num)
+        d, den = self.primitive(r.den)
         return rational(c / d) * num / den
 
     def sum(self, r: RatFunc) -> Expr:
@@ -153,14 +161,15 @@ class Atoms:
 
     def factored(self, r: RatFunc) -> Expr:
         """A rational function as a product of powers of irreducible polynomials."""
-        factors: list[Expr] = [self.constant(r.num.lc)] if r.num else [Integer(0)]
+        leading: Expr = self.constant(r.num.lc) if r.num else Integer(0)
+        powers = [(p, k) for p, k in _factors(r.num)] + [(p, -k) for p, k in _factors(r.den)]
         content = Fraction(1)
-        for polynomial, sign in ((r.num, 1), (r.den, -1)):
-            for p, k in r.field.factor(polynomial) if polynomial.degree > 0 else []:
-                c, base = self.primitive(p)
-                content *= c ** (sign * k)
-                factors.append(base ** (sign * k))
-        return Mul(rational(content), *factors)
+        factors: list[Expr] = []
+        for p, k in powers:
+            c, base = self.primitive(p)
+            content *= c**k
+            factors.append(base**k)
+        return Mul(rational(content), leading, *factors)
 
     # ---------------------------------------------------------------------------------------------- roots
 
@@ -179,19 +188,27 @@ class Atoms:
         value = residue.value
         if residue.is_constant:
             return self.constant(value) * log(self.primitive(p)[1], evaluate=False)
-        if roots := self.real_roots(p):
+        roots = self.real_roots(p)
+        if roots:
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
-        if p.degree == 2 and discriminant(p) is not None:
-            centre = -self.constant(p[1]) / 2
-            slope = self.constant(value[1])
-            root = radical(-rational(discriminant(p) or 0))
-            mean = self.constant(value[0]) + slope * centre
-            angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
-            return angle + (mean * log(self.primitive(p)[1]) if mean else 0)
+        square = discriminant(p)
+        if square is not None:
+            return self._log_sum_of_conjugates(p, value, -square)
         if p.degree == 2:
             return self._log_sum_of_quadratic(p, value)
         a = self.root
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
+
+    def _log_sum_of_conjugates(self, p: Poly, value: Poly, square: Fraction) -> Expr:
+        """The same for roots h +- i w/2, w^2 = `square`: m log(p) - k w atan(2 (x - h)/w)."""
+        centre = -self.constant(p[1]) / 2
+        slope = self.constant(value[1])
+        root = radical(rational(square))
+        mean = self.constant(value[0]) + slope * centre
+        angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
+        if not mean:
+            return angle
+        return angle + mean * log(self.primitive(p)[1])
 
     def _log_sum_of_quadratic(self, p: Poly, value: Poly) -> Expr:
         """The same for x^2 + b x + c with parameters: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
@@ -212,7 +229,8 @@ class Atoms:
 
     def is_real_beyond_zero(self, base: Poly) -> bool:
         """Is it x^2 - a, a > 0, whose roots aren't real around 0, and is that wanted?"""
-        return not self.beyond_zeros and base.degree == 2 and not base[1] and bool(self.constant(base[0]).is_negative)
+        is_pure_square = base.degree == 2 and not base[1]
+        return not self.beyond_zeros and is_pure_square and bool(self.constant(base[0]).is_negative)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
@@ -228,6 +246,29 @@ def _has_symbols_under_roots(e: Expr) -> bool:
     return any(power.free_symbols and not power.exp.is_Integer for power in e.atoms(sympy.Pow))
 
 
+def _factors(polynomial: Poly) -> list[tuple[Poly, int]]:
+    """The irreducible factors with their multiplicities; none of a constant."""
+    if polynomial.degree <= 0:
+        return []
+    return list(polynomial.field.factor(polynomial))
+
+
+def _positive_radicand(modulus: Poly) -> Fraction | None:
+    """a > 0 for x^n - a, None for another polynomial."""
+    a = modulus.field.rational_value(-modulus[0])
+    if a is None or a <= 0 or any(modulus[k] for k in range(1, modulus.degree)):
+        return None
+    return a
+
+
+def _is_principal(field: AlgebraicField) -> bool:
+    """Is the root that is meant positive, or is none in particular?"""
+    if field.approximation is None:
+        return True
+    real, imaginary = field.approximation
+    return real > 0 and not imaginary
+
+
 def _quadratic_roots(a: Expr, b: Expr, c: Expr) -> tuple[Expr, Expr]:
     """The roots of a t^2 + b t + c."""
     half = sympy.sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
@@ -240,8 +281,10 @@ def _is_the_smaller_root(field: AlgebraicField) -> bool:
     if field.approximation is None:
         return False
     real, imaginary = field.approximation
+    if imaginary != 0:
+        return imaginary < 0
     middle = field.base.rational_value(field.modulus[1])
-    return imaginary < 0 or (imaginary == 0 and middle is not None and real < -middle / 2)
+    return middle is not None and real < -middle / 2
 
 
 def display(y: Product, atoms: Atoms, *, around_zero: bool = False) -> Expr:

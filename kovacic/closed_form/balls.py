@@ -75,25 +75,17 @@ class BallEvaluator:
         return found
 
     def _evaluated(self, e: Any) -> BallValue:
-        if e.is_Rational:
-            return acb(arb(fmpq(int(e.p), int(e.q))))
-        if e.is_Float:
-            return _exact(e)
-        if e is sympy.I:
-            return acb(0, 1)
-        if e in _CONSTANTS:
-            return acb(_CONSTANTS[e]())
         if e.is_Add:
             return reduce(add, map(self, e.args))
         if e.is_Mul:
             return reduce(mul, map(self, e.args))
         if e.is_Pow:
             return self._power(*e.args)
+        number = _number(e)
+        if number is not None:
+            return number
         if e.func is sympy.log and len(e.args) == 1:
             return self._cut(e.args[0], "log")
-        if isinstance(e, sympy.CRootOf):
-            integers = e.poly.clear_denoms()[1].all_coeffs()[::-1]
-            return root_near(fmpz_poly([int(c) for c in integers]), acb(_coarse_value(e)))
         if e.func in _NAMES and len(e.args) == 1:
             return self._applied(e)
         if e.func is sympy.acot:
@@ -113,7 +105,10 @@ class BallEvaluator:
     def _cut(self, argument: Any, name: str) -> BallValue:
         """A root or a logarithm."""
         value = self(argument)
-        return getattr(value, name)(analytic=self.analytic) if isinstance(value, acb) else getattr(value, name)()
+        function = getattr(value, name)
+        if isinstance(value, acb):
+            return function(analytic=self.analytic)
+        return function()
 
     def _applied(self, e: Any) -> BallValue:
         if self.analytic and e.func in _CUT:
@@ -134,6 +129,22 @@ class BallEvaluator:
         raise InputError(f"{e} isn't known in balls", hint=f"the functions are log, sqrt, {known}")
 
 
+def _number(e: Any) -> acb | None:
+    """A rational number, a float, a constant or a root of a polynomial over Q; None for another expression."""
+    if e.is_Rational:
+        return acb(arb(fmpq(int(e.p), int(e.q))))
+    if e.is_Float:
+        return _exact(e)
+    if e is sympy.I:
+        return acb(0, 1)
+    if e in _CONSTANTS:
+        return acb(_CONSTANTS[e]())
+    if isinstance(e, sympy.CRootOf):
+        integers = e.poly.clear_denoms()[1].all_coeffs()[::-1]
+        return root_near(fmpz_poly([int(c) for c in integers]), acb(_coarse_value(e)))
+    return None
+
+
 @lru_cache(maxsize=256)
 def _coarse_value(root: Any) -> complex:
     """A root of a polynomial to a few digits: which one it is."""
@@ -143,7 +154,8 @@ def _coarse_value(root: Any) -> complex:
 def _exact(number: Any) -> acb:
     """The dyadic number that a float of SymPy is."""
     sign, mantissa, exponent, _ = number._mpf_
-    return acb(arb((-int(mantissa) if sign else int(mantissa), int(exponent))))
+    signed = -int(mantissa) if sign else int(mantissa)
+    return acb(arb((signed, int(exponent))))
 
 
 def _check_series() -> None:

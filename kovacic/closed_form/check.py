@@ -45,7 +45,9 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
         u, square = _mean_and_square(form)
         u = u - gauge
         solves = u.derivative() + u * u + square == S and not square.derivative() + 4 * u * square
-        return bool(square) and solves and (isinstance(form, Conjugate) or _is_complete(form.integral))
+        if not square or not solves:
+            return False
+        return isinstance(form, Conjugate) or _is_complete(form.integral)
     raise TypeError("solutions of case 3 are checked numerically")
 
 

@@ -112,42 +112,70 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     >>> print(done.exact, len(done.residues), done.rest)
     -1/x 0 0
     """
-    field = r.field
-    g = g.over(field)
-    slope = g.derivative()
-    exact = RatFunc(field.poly([]))
-    residues = []
+    reduction = _Reduction(r, g.over(r.field))
+    factors = r.field.factor(r.den) if r.den.degree > 0 else []
+    for p, multiplicity in factors:
+        if reduction.g % p:
+            reduction.at_a_pole(p, multiplicity)
+        else:
+            reduction.at_a_branch_point(p, multiplicity)
+    reduction.at_infinity()
+    return CurveIntegral(reduction.g, reduction.exact, tuple(reduction.residues), reduction.r.num)
 
-    def reduce(r: RatFunc, C: RatFunc) -> RatFunc:
-        return r - C.derivative() * g - C * slope * Fraction(1, 2)
 
-    for p, multiplicity in field.factor(r.den) if r.den.degree > 0 else []:
-        branch = not g % p
-        # ((B/p^j) s)' s has the leading term (1/2 - j) B p' u/p^j for g = p u, and -j B p' g/p^(j+1) for p prime to g.
-        unit = (g // p if branch else g) % p
-        inverse = (p.derivative() * unit).inverse_modulo(p)
-        for k in range(multiplicity, 0 if branch else 1, -1):
-            j = k if branch else k - 1
-            cofactor, count = r.den.remove(p)
-            if count < k:
-                continue
-            leading = r.num * cofactor.inverse_modulo(p) % p
-            scale = Fraction(1, 2) - j if branch else Fraction(-j)
-            C = RatFunc(leading * inverse % p * (1 / scale), p**j)
-            exact = exact + C
-            r = reduce(r, C)
-        if not branch and not r.den % p:
-            residues.append(Residue(p, residue(r, p)))
-            r = r - residues[-1].logarithmic
-    rest = r.num
-    x = field.poly([0, 1])
-    d = g.degree
-    while rest.degree >= d - 1 and rest:
-        j = rest.degree - d + 1
-        C = RatFunc(x**j * rest.lc * (1 / (j + Fraction(d, 2))))
-        exact = exact + C
-        rest = reduce(RatFunc(rest), C).num
-    return CurveIntegral(g, exact, tuple(residues), rest)
+class _Reduction:
+    """Hermite's reduction (1) on its way: r is what is left of r, less the derivatives of `exact` and the simple poles.
+
+    ((B/p^j) s)' s has the leading term (1/2 - j) B p' u/p^j for g = p u, and -j B p' g/p^(j+1) for p prime to g.
+    """
+
+    def __init__(self, r: RatFunc, g: Poly) -> None:
+        self.r = r
+        self.g = g
+        self.exact = RatFunc(g.field.poly([]))
+        self.residues: list[Residue] = []
+
+    def at_a_branch_point(self, p: Poly, multiplicity: int) -> None:
+        """Nothing is left of poles at zeros of g."""
+        inverse = _inverse_slope(p, self.g // p)
+        for j in range(multiplicity, 0, -1):
+            B = self._leading(p, order=j) * inverse % p
+            self._take(RatFunc(B * (1 / (Fraction(1, 2) - j)), p**j))
+
+    def at_a_pole(self, p: Poly, multiplicity: int) -> None:
+        """A simple pole is left of other poles."""
+        inverse = _inverse_slope(p, self.g)
+        for j in range(multiplicity - 1, 0, -1):
+            B = self._leading(p, order=j + 1) * inverse % p
+            self._take(RatFunc(B * Fraction(-1, j), p**j))
+        if not self.r.den % p:
+            self.residues.append(Residue(p, residue(self.r, p)))
+            self.r = self.r - self.residues[-1].logarithmic
+
+    def at_infinity(self) -> None:
+        """Of the polynomial the degree falls below d - 1; the leading term of ((B x^j) s)' s is (j + d/2) B x^(j+d-1)."""
+        x = self.g.field.poly([0, 1])
+        d = self.g.degree
+        while self.r.num.degree >= d - 1 and self.r:
+            j = self.r.num.degree - d + 1
+            self._take(RatFunc(x**j * self.r.num.lc * (1 / (j + Fraction(d, 2)))))
+
+    def _leading(self, p: Poly, *, order: int) -> Poly:
+        """The coefficient of p^-order, modulo p, where r has no pole of a higher order at the roots of p."""
+        cofactor, count = self.r.den.remove(p)
+        if count < order:
+            return p * 0
+        return self.r.num * cofactor.inverse_modulo(p) % p
+
+    def _take(self, C: RatFunc) -> None:
+        """r less the derivative of C s, times s."""
+        self.exact = self.exact + C
+        self.r = self.r - C.derivative() * self.g - C * self.g.derivative() * Fraction(1, 2)
+
+
+def _inverse_slope(p: Poly, unit: Poly) -> Poly:
+    """1/(p' unit) modulo p."""
+    return (p.derivative() * (unit % p)).inverse_modulo(p)
 
 
 def unit(g: Poly, residue: Residue) -> Unit | None:
@@ -173,29 +201,32 @@ def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | 
     """
     if P.degree <= 0 or g.degree > 2 or r.den % P:
         return None
-    branch = [p for p, _ in g.field.factor(g) if p.degree == 1] if P.degree % 2 and g.degree == 2 else []
-    if P.degree % 2 and g.degree == 2 and not branch:
-        return None
     T = r.num * kappa_squared * 2 * (r.den // P * P.derivative()).inverse_modulo(P) % P
     p = P
-    if branch:
-        T = T * branch[0].inverse_modulo(P) % P * branch[0]
-        p = P * branch[0]
+    if P.degree % 2 and g.degree == 2:
+        branch = next((line for line, _ in g.field.factor(g) if line.degree == 1), None)
+        if branch is None:
+            return None
+        T = T * branch.inverse_modulo(P) % P * branch
+        p = P * branch
     found = Unit(*_euclid(T, p), p, kappa_squared, Fraction(1))
-    return found if found.norm(g).monic() == p.monic() else None
+    if found.norm(g).monic() != p.monic():
+        return None
+    return found
 
 
 def _euclid(T: Poly, p: Poly) -> tuple[Poly, Poly]:
     """A and B of (3)."""
-    field = p.field
     A = T % p
-    rest = p
-    B = field.poly([-1])
-    other = field.poly([])
+    B = p.field.poly([-1])
+    before = (p, p.field.poly([]))  # the pair (A, B) of the step before
     while 2 * A.degree > p.degree:
         scale = A.lc.inverse()  # else the coefficients become long
         A = A * scale
         B = B * scale
-        quotient, remainder = divmod(rest, A)
-        A, rest, B, other = remainder, A, other - quotient * B, B
+        quotient, remainder = divmod(before[0], A)
+        next_B = before[1] - quotient * B
+        before = (A, B)
+        A = remainder
+        B = next_B
     return -A, -B

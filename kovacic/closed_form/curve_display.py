@@ -7,7 +7,7 @@ kappa int r dx/sqrt(g) is a sum of kappa C sqrt(g) and of kappa c log(Q) or kapp
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import sympy
@@ -20,8 +20,14 @@ from kovacic.closed_form.curve import CurveIntegral, Unit, unit
 from kovacic.closed_form.structure import OnCurve
 from kovacic.exact import radical as sqrt
 
-#: int r dx/sqrt(g) = sum of coefficient * log(base) for the first + sum of the second; notes on what was left as an integral.
-_Terms = tuple[list[tuple[Expr, Expr]], list[Expr], tuple[str, ...]]
+
+@dataclass
+class _Terms:
+    """int r dx/sqrt(g) = sum of c log(base) over `logarithms` (c, base) + sum of `others`; `notes` on what was left."""
+
+    logarithms: list[tuple[Expr, Expr]] = field(default_factory=list)
+    others: list[Expr] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
 
 
 def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
@@ -33,8 +39,8 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
     if atoms.is_real_beyond_zero(integral.g):
         integral = _turned(integral)
         scale = -sympy.I
-    logarithms, others, notes = _terms(integral, atoms, alone=False, exponents=False)
-    return scale, Add(*others, *(c * log(base) for c, base in logarithms)), notes
+    terms = _terms(integral, atoms, alone=False, exponents=False)
+    return scale, Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
 
 
 def _turned(integral: CurveIntegral) -> CurveIntegral:
@@ -45,41 +51,47 @@ def _turned(integral: CurveIntegral) -> CurveIntegral:
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """The two solutions, with cos and sin where kappa is imaginary, and notes."""
     form = _oriented(form)
-    zeros = form.zeros
     oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
-    logarithms, others, notes = _terms(form.integral, atoms, alone=zeros is None, exponents=True)
+    terms = _terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
     common = display(form.common, atoms)
-    A = Integer(1)
-    B = Integer(0)
-    if zeros is not None:  # up to a common factor, without denominators
-        (a, A), (b, B) = atoms.primitive(zeros.A), atoms.primitive(zeros.B)
-        numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
-        A = numbers.q * A
-        B = numbers.p * B * roots
-    if not others and not logarithms:
-        return common * A, common * B, notes
+    A, B = _zero_factors(form, kappa, atoms)
+    if not terms.others and not terms.logarithms:
+        return common * A, common * B, terms.notes
+    inner = [_times(kappa, term) for term in terms.others]
+    powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
     if oscillates:
-        angle = Add(*(_times(kappa, t) for t in others), *(_times(kappa, c) * log(b) for c, b in logarithms))
+        angle = Add(*inner, *(e * log(base) for base, e in powers))
         c = cos(angle)
         s = sin(angle)
-        return common * (A * c - B * s), common * (A * s + B * c), notes
-    powers = [(base, _times(kappa, c)) for c, base in logarithms]
-    inner = Add(*(_times(kappa, t) for t in others))
-    first, second = (
-        Mul(common, A + sign * B, *(b ** (sign * e) for b, e in powers), exp(sign * inner)) for sign in (1, -1)
-    )
-    return first, second, notes
+        return common * (A * c - B * s), common * (A * s + B * c), terms.notes
+    first = Mul(common, A + B, *(base**e for base, e in powers), exp(Add(*inner)))
+    second = Mul(common, A - B, *(base**-e for base, e in powers), exp(-Add(*inner)))
+    return first, second, terms.notes
+
+
+def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
+    """A and B kappa s of the gathered zeros A +- B kappa s, up to a common factor, without denominators; 1 and 0 without."""
+    if form.zeros is None:
+        return Integer(1), Integer(0)
+    a, A = atoms.primitive(form.zeros.A)
+    b, B = atoms.primitive(form.zeros.B)
+    numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
+    return numbers.q * A, numbers.p * B * roots
 
 
 def _times(factor: Expr, term: Expr) -> Expr:
     """factor * term with the square roots of rational numbers multiplied out."""
-    a = factor
-    b, rest = term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, Integer(1))
-    square = sympy.expand_mul(a**2 * b**2)
-    if square.is_Rational and a.is_real and b.is_real:
-        return (-sqrt(square) if bool(a.is_negative) != bool(b.is_negative) else sqrt(square)) * rest
-    return sympy.sqrtdenest(sympy.expand_mul(a * b)) * rest
+    number = term
+    rest: Expr = Integer(1)
+    if term.free_symbols:
+        number, rest = term.as_independent(*term.free_symbols, as_Add=False)
+    square = sympy.expand_mul(factor**2 * number**2)
+    if not (square.is_Rational and factor.is_real and number.is_real):
+        return sympy.sqrtdenest(sympy.expand_mul(factor * number)) * rest
+    if bool(factor.is_negative) != bool(number.is_negative):
+        return -sqrt(square) * rest
+    return sqrt(square) * rest
 
 
 def _oriented(form: OnCurve) -> OnCurve:
@@ -88,49 +100,66 @@ def _oriented(form: OnCurve) -> OnCurve:
     Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
     """
     integral = form.integral
-    if integral.rest or not integral.residues or not (discriminant(integral.g) or 0) > 0:
+    if integral.rest or not integral.residues:
         return form
-    units = [unit(integral.g, residue) for residue in integral.residues]
-    values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
-    if any(value is None or value > 0 for value in values):
+    square = discriminant(integral.g)
+    if square is None or square <= 0:
+        return form
+    if not all(_is_real_below_zero(unit(integral.g, residue)) for residue in integral.residues):
         return form
     zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
     return OnCurve(form.common, -form.kappa_squared, _turned(integral), zeros)
 
 
+def _is_real_below_zero(u: Unit | None) -> bool:
+    """Is tau^2 known to be rational and not positive?"""
+    if u is None:
+        return False
+    value = u.tau_squared.field.rational_value(u.tau_squared)
+    return value is not None and value <= 0
+
+
 def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:
     """With `exponents` the terms will be exponents, and int dx/sqrt(g) is a logarithm, which becomes a power."""
-    g = integral.g
-    root = sqrt(atoms.poly(g))
-    logarithms: list[tuple[Expr, Expr]] = []
-    others: list[Expr] = []
+    root = sqrt(atoms.poly(integral.g))
+    terms = _Terms()
     if integral.exact:
-        others.append(atoms.ratio(integral.exact) * root)
+        terms.others.append(atoms.ratio(integral.exact) * root)
     if not integral.is_elementary:
         if integral.unit is None:
-            others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
-            return [], others, (f"integral left because {integral.reason}",)
-        _append_unit(integral.unit, root, atoms, logarithms, others)
-        return logarithms, others, ()
-    inverse = None if exponents or not integral.rest else _inverse_sine(g, atoms)
-    if inverse is not None:
-        others.append(atoms.constant(integral.rest) * inverse)
-    elif integral.rest:
-        # x - (x1 + x2)/2 + sqrt(g); alone, for real roots that aren't symmetric to 0, its square root, which has another sign
-        # of sqrt(g) in some regions.
-        c = atoms.constant(integral.rest)
-        base = atoms.poly(g.derivative() * Fraction(1, 2)) + root
-        if alone and not integral.exact and not integral.residues and g[1] and (roots := atoms.real_roots(g)):
-            c = 2 * c
-            base = Add(*(sqrt(atoms.x - a) for a in roots))
-        logarithms.append((c, base))
+            terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
+            terms.notes = (f"integral left because {integral.reason}",)
+        else:
+            _append_unit(integral.unit, root, atoms, terms)
+        return terms
+    if integral.rest:
+        _append_rest(integral, root, atoms, terms, alone=alone, exponents=exponents)
     for residue in integral.residues:
         found = unit(integral.g, residue)
         if found is not None:
-            _append_unit(found, root, atoms, logarithms, others)
+            _append_unit(found, root, atoms, terms)
         else:
-            others.append(_root_sum(integral, residue, root, atoms))
-    return logarithms, others, ()
+            terms.others.append(_root_sum(integral, residue, root, atoms))
+    return terms
+
+
+def _append_rest(
+    integral: CurveIntegral, root: Expr, atoms: Atoms, terms: _Terms, *, alone: bool, exponents: bool
+) -> None:
+    """c int dx/sqrt(g) = c log(x - (x1 + x2)/2 + sqrt(g)), or an inverse sine."""
+    g = integral.g
+    inverse = None if exponents else _inverse_sine(g, atoms)
+    c = atoms.constant(integral.rest)
+    if inverse is not None:
+        terms.others.append(c * inverse)
+        return
+    roots = atoms.real_roots(g)
+    is_alone = alone and not integral.exact and not integral.residues
+    if is_alone and g[1] and roots:
+        # The square root of the base: its square has another sign of sqrt(g) in some regions, which is of no account alone.
+        terms.logarithms.append((2 * c, Add(*(sqrt(atoms.x - a) for a in roots))))
+        return
+    terms.logarithms.append((c, atoms.poly(g.derivative() * Fraction(1, 2)) + root))
 
 
 def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
@@ -140,27 +169,31 @@ def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
     if not atoms.constant(d).is_positive:
         return None
     z = (atoms.x - atoms.constant(h)) / atoms.sqrt(d)
-    return asin(z) if g.lc == -1 else asinh(z)
+    if g.lc == -1:
+        return asin(z)
+    return asinh(z)
 
 
-def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms) -> None:
     """factor * log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
     factor = rational(u.factor)
     A = u.A
     B = u.B
-    p = u.p
     content, _ = atoms.primitive(A)
     if content:
         A = A * (1 / content)
         B = B * (1 / content)
     if atoms.is_negative(u.tau_squared):
         eta = atoms.sqrt(-u.tau_squared)
-        (a, top), (b, bottom) = atoms.primitive(A), atoms.primitive(B)
-        others.append(atan(Mul(rational(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
+        a, top = atoms.primitive(A)
+        b, bottom = atoms.primitive(B)
+        terms.others.append(atan(Mul(rational(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
     tau = atoms.sqrt(u.tau_squared)
-    top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
-    logarithms.append((factor / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
+    argument = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
+    if u.p.degree > 0:
+        argument = argument / atoms.primitive(u.p)[1]
+    terms.logarithms.append((factor / tau, argument))
 
 
 def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:

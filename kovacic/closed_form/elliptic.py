@@ -48,22 +48,27 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
 
     None if the genus isn't 1, or for what the module doesn't cover.
     """
-    r = integral.integrand
-    g = integral.g
-    if g.degree not in (3, 4):
+    if integral.g.degree not in (3, 4):
         return None
-    r, g, inner = _in_square(r, g)
-    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2]
-    quadratic = [p for p in quadratic if atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive]
-    if len(quadratic) == 1:  # two real roots
-        r, branch, inner = _over(AlgebraicField(g.field, quadratic[0]), r, RatFunc(g), inner)
+    r, g, inner = _in_square(integral.integrand, integral.g)
+    real = [p for p, _ in g.field.factor(g) if _has_real_roots(p, atoms)]
+    if len(real) == 1:
+        r, branch, inner = _over(AlgebraicField(g.field, real[0]), r, RatFunc(g), inner)
         g = branch.num
-    terms = (_by_sine if len(_roots(g)) == g.degree else _by_tangent)(r, g, inner, atoms)
+    by_roots = _by_sine if len(_roots(g)) == g.degree else _by_tangent
+    terms = by_roots(r, g, inner, atoms)
     if not terms:
         return None
     terms = [(c, e) for c, e in terms if c]
     last = terms[-1][0].inverse()
     return [(atoms.constant(c * last), e) for c, e in terms]
+
+
+def _has_real_roots(p: Poly, atoms: Atoms) -> bool:
+    """Is it quadratic, with two real roots?"""
+    if p.degree != 2:
+        return False
+    return bool(atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive)
 
 
 def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
@@ -210,28 +215,36 @@ class _Angle:
 
     def terms_of_pole(self, tau: Poly, rho: Poly, atoms: Atoms) -> list[tuple[Poly, Expr]]:
         """Pi and the logarithm for it."""
-        x = RatFunc(self.quadratic.field.poly([0, 1]))
-        below = atoms.is_negative(tau)
         above = 1 + tau
         n = above * above / (4 * tau)
-        if below:
+        of_pi = rho / (2 * tau) * (tau - 1)
+        of_logarithm = -rho
+        if atoms.is_negative(tau):
             z = atoms.factored(self.s / (self.s + 1) / tau) / self.w
         else:
             n = self.m / n
-            Q = above * tau * (1 - x.num) * self.quadratic
-            Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
-            z = atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
-        square = tau * self.quadratic(tau)  # w(tau)^2
-        turned = atoms.is_negative(square)
-        factor = atoms.sqrt(-square if turned else square)
-        inverse = atan if turned else atanh
+            of_pi = -of_pi
+            of_logarithm = rho
+            z = self._second_argument(tau, atoms)
         terms: list[tuple[Poly, Expr]] = []
         if above and tau != 1:
-            of_pi = rho / (2 * tau) * (tau - 1) / above
             Pi = elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
-            terms.append((of_pi if below else -of_pi, Pi))
-        terms.append((-rho if below else rho, inverse(factor * z) / factor))
+            terms.append((of_pi / above, Pi))
+        square = tau * self.quadratic(tau)  # w(tau)^2
+        if atoms.is_negative(square):
+            factor = atoms.sqrt(-square)
+            terms.append((of_logarithm, atan(factor * z) / factor))
+        else:
+            factor = atoms.sqrt(square)
+            terms.append((of_logarithm, atanh(factor * z) / factor))
         return terms
+
+    def _second_argument(self, tau: Poly, atoms: Atoms) -> Expr:
+        """2 w/Q of (2), where w(tau) isn't a factor yet."""
+        x = RatFunc(self.quadratic.field.poly([0, 1]))
+        Q = (1 + tau) * tau * (1 - x.num) * self.quadratic
+        Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
+        return atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
 
 
 def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFunc, Expr]:
@@ -258,11 +271,7 @@ def _halved(p: Poly) -> Poly:
 
 def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
     """What becomes 0, 1, and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
-    values: dict[Poly, float] = {}
-    for a in roots:
-        shown = atoms.constant(a)
-        if shown.is_number and shown.is_real:
-            values[a] = float(shown)
+    values = _real_values(roots, atoms)
     points = [*sorted(values, key=lambda a: values[a]), *(a for a in roots if a not in values)]
     if even:
         zero = next(a for a in points if not a)
@@ -271,3 +280,9 @@ def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | 
     if len(points) == 3:
         return points[0], points[1], None
     return points[1], points[2], points[0]
+
+
+def _real_values(constants: list[Poly], atoms: Atoms) -> dict[Poly, float]:
+    """Those of the ones that are real numbers."""
+    shown = {a: atoms.constant(a) for a in constants}
+    return {a: float(value) for a, value in shown.items() if value.is_number and value.is_real}

@@ -17,7 +17,7 @@ J. Symb. Comp. 1 (1985), here for constants e in K only.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -75,16 +75,31 @@ class ExponentialPrimitive:
 
 def _rate(E: RatFunc, alpha: Fraction) -> RatFunc:
     """dk/dt over k, for k = t^alpha exp(E)."""
-    return E.derivative() + alpha / RatFunc(E.field.poly([0, 1])) if alpha else E.derivative()
+    if not alpha:
+        return E.derivative()
+    return E.derivative() + alpha / RatFunc(E.field.poly([0, 1]))
 
 
 def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
     """(beta, n, c) with E = beta x^n + c, None if it isn't so."""
     c = E.num[0] if E.is_polynomial else E.num // E.den
+    if c.degree > 0:
+        return None
     rest = E - c
     n = rest.num.degree - rest.den.degree
     x = RatFunc(E.field.poly([0, 1]))
-    return (rest.num.lc, n, c) if c.degree <= 0 and rest == x**n * rest.num.lc else None
+    if rest != x**n * rest.num.lc:
+        return None
+    return rest.num.lc, n, c
+
+
+@dataclass(frozen=True)
+class _AtPoles:
+    """What simple poles of r outside those of E give, and what is left of r; `terms` have Ei, `poles` are roots a."""
+
+    rest: RatFunc
+    terms: tuple[GammaTerm, ...]
+    poles: tuple[Residue, ...]
 
 
 def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0)) -> ExponentialPrimitive | str:
@@ -97,42 +112,62 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
     0 [('1', '(x**2 - 1)/x', -1)]
     """
     x = RatFunc(r.field.poly([0, 1]))
-    one = r.field.poly([1])
-    rate = _rate(E, alpha)
     apart = E.den * x.num if alpha else E.den
-    W, rest, residues = reduce_poles(r, rate, apart)
-    terms = []
-    poles = []
-    for found in residues:
-        p = found.factor
-        rho = found.value
-        if rest.den % p:  # dealt with at another zero of E - e
-            continue
-        e = E.num * E.den.inverse_modulo(p) % p
-        multiplicity = 0 if alpha or e.degree > 0 else (E - e).num.remove(p)[1]
-        if multiplicity and rho.degree <= 0:
-            terms.append(GammaTerm(rho * Fraction(1, multiplicity), E - e, one, e, 1, -1))
-            rest = rest - terms[-1].derivative
-        elif E.is_polynomial and E.num.degree < (1 if alpha else 2):
-            poles.append(found)
-            rest = rest - found.logarithmic
-        else:
-            return "a pole with a residue remains beside the exponential"
-    if prime_part(rest.den, apart).degree > 0:
+    W, reduced, residues = reduce_poles(r, _rate(E, alpha), apart)
+    found = _at_poles(reduced, residues, E, alpha)
+    if found is None or prime_part(found.rest.den, apart).degree > 0:
         return "a pole with a residue remains beside the exponential"
-    levels = [term.e for term in terms]
+    levels = [term.e for term in found.terms]
     candidates = [term for term in _candidates(E, alpha) if term.power != -1 or term.e not in levels]
-    solved = _with_rational_part(rest, E, alpha, [term.derivative for term in candidates])
+    solved = _with_rational_part(found.rest, E, alpha, [term.derivative for term in candidates])
     if solved is None:
         return "it isn't a rational function times the exponential, with Ei and erf of rational functions"
     more, constants = solved
-    terms += [replace(term, coefficient=c) for term, c in zip(candidates, constants, strict=True) if c]
-    return ExponentialPrimitive(x, E, W + more, alpha, tuple(terms), tuple(poles))
+    others = [replace(term, coefficient=c) for term, c in zip(candidates, constants, strict=True) if c]
+    return ExponentialPrimitive(x, E, W + more, alpha, (*found.terms, *others), found.poles)
+
+
+def _at_poles(r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fraction) -> _AtPoles | None:
+    """The terms that the residues tell of; None where one belongs to no such term."""
+    rest = r
+    terms: list[GammaTerm] = []
+    poles: list[Residue] = []
+    for found in residues:
+        if rest.den % found.factor:  # dealt with at another zero of E - e
+            continue
+        term = None if alpha else _exponential_integral(found, E)
+        if term is not None:
+            terms.append(term)
+            rest = rest - term.derivative
+        elif _is_line(E, alpha):
+            poles.append(found)
+            rest = rest - found.logarithmic
+        else:
+            return None
+    return _AtPoles(rest, tuple(terms), tuple(poles))
+
+
+def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
+    """exp(e) Ei(E - e) with the residue, e the value of E at the pole; None where e or the residue isn't in K."""
+    p = found.factor
+    e = E.num * E.den.inverse_modulo(p) % p
+    if e.degree > 0 or found.value.degree > 0:
+        return None
+    multiplicity = (E - e).num.remove(p)[1]
+    if not multiplicity:
+        return None
+    one = E.field.poly([1])
+    return GammaTerm(found.value * Fraction(1, multiplicity), E - e, one, e, 1, -1)
+
+
+def _is_line(E: RatFunc, alpha: Fraction) -> bool:
+    """Is E beta x + constant, or constant beside a power of x, so that conjugate poles have terms of their own?"""
+    largest = 0 if alpha else 1
+    return E.is_polynomial and E.num.degree <= largest
 
 
 def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
     """The terms (1) that no pole tells of, with the coefficient 1."""
-    x = RatFunc(E.field.poly([0, 1]))
     one = E.field.poly([1])
     if not alpha:
         for e in _limit(E):
@@ -140,19 +175,29 @@ def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
                 yield GammaTerm(one, E - e, one, e, 1, -1)
         for q, b, e in _squares(E):
             yield GammaTerm(one, q, b, e, 2, 0)
-    if E and (shape := monomial(E)) is not None:
-        beta, n, e = shape
-        for m in range(-abs(n) - 2 - int(alpha), abs(n) + 2 - int(alpha)):
-            s = (m + alpha + 1) / n
-            if 0 <= s < 1 and (alpha or s not in (0, Fraction(1, 2))):
-                yield GammaTerm(one, x, beta, e, n, m)
+    shape = monomial(E) if E else None
+    if shape is not None:
+        yield from _gamma_terms(*shape, alpha)
+
+
+def _gamma_terms(beta: Poly, n: int, e: Poly, alpha: Fraction) -> Iterator[GammaTerm]:
+    """Those with 0 <= s < 1 for E = beta x^n + e; without alpha, s = 0 and s = 1/2 are Ei and error functions."""
+    x = RatFunc(beta.field.poly([0, 1]))
+    one = beta.field.poly([1])
+    known = () if alpha else (0, Fraction(1, 2))
+    for m in range(-abs(n) - 2 - int(alpha), abs(n) + 2 - int(alpha)):
+        s = (m + alpha + 1) / n
+        if 0 <= s < 1 and s not in known:
+            yield GammaTerm(one, x, beta, e, n, m)
 
 
 def _limit(E: RatFunc) -> list[Poly]:
     """The value at infinity, if E is finite there."""
     if E.num.degree > E.den.degree:
         return []
-    return [E.num.lc / E.den.lc if E.num.degree == E.den.degree else E.num * 0]
+    if E.num.degree < E.den.degree:
+        return [E.num * 0]
+    return [E.num.lc / E.den.lc]
 
 
 def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
@@ -164,7 +209,8 @@ def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
         level = E - e
         if e.degree > 0 or not level:
             continue
-        top, bottom = (part.monic().root(2) for part in (level.num, level.den))
+        top = level.num.monic().root(2)
+        bottom = level.den.monic().root(2)
         if top is not None and bottom is not None:
             yield RatFunc(top, bottom), level.num.lc / level.den.lc, e
 
@@ -173,26 +219,46 @@ def _with_rational_part(
     r: RatFunc, E: RatFunc, alpha: Fraction, candidates: list[RatFunc]
 ) -> tuple[RatFunc, list[Poly]] | None:
     """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates; None where there are none."""
-    field = r.field
+    x = r.field.poly([0, 1])
     rate = _rate(E, alpha)
     functions = [f for f in (r, *candidates) if f]
-    den = field.poly([1])
-    x = field.poly([0, 1])
-    poles = field.factor(E.den) if E.den.degree > 0 else []
-    for p, m in [*poles, (x, 0)] if alpha and E.den[0] else poles:
-        order = max((f.den.remove(p)[1] for f in functions), default=0)
-        den = den * p ** max(order - m - 1, 0)
-    growth = max((f.num.degree - f.den.degree for f in functions), default=0)
-    at_infinity = E.num.degree - E.den.degree
-    degree = growth - at_infinity + 1 if at_infinity > 0 else max(growth + 1, 0)
-    basis = [RatFunc(x**j, den) for j in range(degree + den.degree + 1)]
+    den = _denominator(functions, E, alpha)
+    basis = [RatFunc(x**j, den) for j in range(_degree(functions, E) + den.degree + 1)]
     images = [w.derivative() + w * rate for w in basis] + candidates
-    common = field.poly([1])
-    for f in (r, *images):
-        common = common * (f.den // common.gcd(f.den))
-    polynomials = [f.num * (common // f.den) for f in (r, *images)]
-    found = combination(polynomials[0], polynomials[1:])
+    wanted, *numerators = _over_one_denominator([r, *images])
+    found = combination(wanted, numerators)
     if found is None:
         return None
-    W = sum((w * c for w, c in zip(basis, found, strict=False)), RatFunc(field.poly([])))
+    W = sum((w * c for w, c in zip(basis, found, strict=False)), RatFunc(r.field.poly([])))
     return W, found[len(basis) :]
+
+
+def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
+    """Of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
+    field = E.field
+    x = field.poly([0, 1])
+    poles = field.factor(E.den) if E.den.degree > 0 else []
+    if alpha and E.den[0]:
+        poles = [*poles, (x, 0)]
+    den = field.poly([1])
+    for p, m in poles:
+        order = max((f.den.remove(p)[1] for f in functions), default=0)
+        den = den * p ** max(order - m - 1, 0)
+    return den
+
+
+def _degree(functions: list[RatFunc], E: RatFunc) -> int:
+    """A bound of the degree of W as a function, deg num - deg den, from what it gives."""
+    growth = max((f.num.degree - f.den.degree for f in functions), default=0)
+    at_infinity = E.num.degree - E.den.degree
+    if at_infinity > 0:
+        return growth - at_infinity + 1
+    return max(growth + 1, 0)
+
+
+def _over_one_denominator(functions: list[RatFunc]) -> list[Poly]:
+    """The numerators."""
+    common = functions[0].field.poly([1])
+    for f in functions:
+        common = common * (f.den // common.gcd(f.den))
+    return [f.num * (common // f.den) for f in functions]

@@ -99,7 +99,8 @@ def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x
     passed = not exact or is_exact_solution(structure, S, gauge)
     if not passed or not all(is_numerical_solution(y, x, S, gauge) for y in (y1, y2)):
         raise VerificationFailed(f"a closed form for S = {S} failed its check; please report the equation")
-    return ClosedForm(y1, y2, x, structure, gauge, EXACT if exact else NUMERICAL, (*notes, *atoms.notes))
+    checked = EXACT if exact else NUMERICAL
+    return ClosedForm(y1, y2, x, structure, gauge, checked, (*notes, *atoms.notes))
 
 
 def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
@@ -107,7 +108,8 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
     if isinstance(form, Diagonal):
         return display(form.first, atoms, around_zero=True), display(form.second, atoms, around_zero=True), ()
     if isinstance(form, Conjugate):
-        return *(real_pair if is_real_pair(form, atoms) else conjugate_roots)(form, atoms), ()
+        written = real_pair if is_real_pair(form, atoms) else conjugate_roots
+        return *written(form, atoms), ()
     if isinstance(form, Triangular):
         return triangular(form, atoms)
     if isinstance(form, OnCurve):
@@ -124,7 +126,9 @@ def one_exponential(y: Expr) -> Expr:
             return product
         return Mul(*(factor for factor in product.args if not isinstance(factor, exp)), exp(Add(*inner)))
 
-    return y.replace(lambda e: e.is_Mul, merged) if len(y.atoms(exp)) > 1 else y
+    if len(y.atoms(exp)) < 2:
+        return y
+    return y.replace(lambda e: e.is_Mul, merged)
 
 
 def _hypergeometric(pair: tuple[Hypergeometric, Hypergeometric], J: RatFunc, atoms: Atoms) -> tuple[Expr, Expr]:

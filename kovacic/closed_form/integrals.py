@@ -39,26 +39,28 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     if isinstance(primitive, OpenPrimitive):
         integral = sympy.Integral(display(form.bare.to_power(-2), atoms, around_zero=True), atoms.x)
         return first, first * integral, (f"integral left because {primitive.reason}",)
-    if isinstance(primitive, CurveIntegral):
-        if primitive.reason is not None and (named := elliptic(primitive, atoms)) is not None:
-            note = f"elliptic integrals because {primitive.reason}"
-            return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
-        _, value, notes = curve_integral(primitive, atoms)
-        shown = value.as_content_primitive()[1]
-        shown = -shown if shown.could_extract_minus_sign() else shown
-        return first, Add(*(first * term for term in Add.make_args(shown))), notes
-    return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
+    if not isinstance(primitive, CurveIntegral):
+        return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
+    named = elliptic(primitive, atoms) if primitive.reason is not None else None
+    if named is not None:
+        note = f"elliptic integrals because {primitive.reason}"
+        return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
+    _, value, notes = curve_integral(primitive, atoms)
+    shown = value.as_content_primitive()[1]
+    if shown.could_extract_minus_sign():
+        shown = -shown
+    return first, Add(*(first * term for term in Add.make_args(shown))), notes
 
 
 def integral(h: Product, atoms: Atoms) -> Expr | None:
     """int h dx with its constant factor, None where it would be left.  The branches of roots may not agree."""
     primitive = integrate(h)
-    one = Product((), (), h.exponential * 0)
     if isinstance(primitive, OpenPrimitive):
         return None
     if isinstance(primitive, CurveIntegral):
         scale, value, notes = curve_integral(primitive, atoms)
         return None if notes else scale * value
+    one = Product((), (), h.exponential * 0)
     return Add(*(c * e for c, e in _terms(one, primitive, (Integer(1), []), atoms)))
 
 
@@ -107,46 +109,75 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
     terms = []
     while pending:
         first = pending.pop()
-        partner = None
-        if first.is_constant and first.factor.degree == 1:
-            candidates = (r for r in pending if r.is_constant and r.factor.degree == 1 and r.value == -first.value)
-            partner = next(candidates, None)
+        partner = _partner(first, pending)
         if partner is None:
             terms.append(atoms.log_sum(first))
-            continue
-        pending.remove(partner)
-        top = atoms.primitive(first.factor)[1]
-        bottom = atoms.primitive(partner.factor)[1]
-        at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
-        if at_zero is not None and at_zero < 0:
-            bottom = -bottom
-        terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
+        else:
+            pending.remove(partner)
+            terms.append(_logarithm_of_quotient(first, partner, atoms))
     return terms[::-1]
+
+
+def _partner(residue: Residue, others: Iterable[Residue]) -> Residue | None:
+    """The first of the others with the opposite residue at a single point, if that is one at a single point."""
+    if not _is_at_a_point(residue):
+        return None
+    opposite = (other for other in others if _is_at_a_point(other) and other.value == -residue.value)
+    return next(opposite, None)
+
+
+def _is_at_a_point(residue: Residue) -> bool:
+    return residue.is_constant and residue.factor.degree == 1
+
+
+def _logarithm_of_quotient(first: Residue, second: Residue, atoms: Atoms) -> Expr:
+    """rho log((x - a)/(x - b)), or of (x - a)/(b - x) where 0 lies between a and b."""
+    top = atoms.primitive(first.factor)[1]
+    bottom = atoms.primitive(second.factor)[1]
+    at_zero = first.factor.field.rational_value(first.factor[0] * second.factor[0])
+    if at_zero is not None and at_zero < 0:
+        bottom = -bottom
+    return atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False)
 
 
 def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W k + the terms with Ei, error and gamma functions, and logarithms of t^(1/n) - z)."""
-    terms, (scale, parts), t, alpha, E = [], first, primitive.t, primitive.alpha, primitive.E(primitive.t)
+    scale, parts = first
+    terms = []
     if primitive.W:
-        more = (Power(p, y.field.poly([e])) for p, e in ((t.num, alpha), (t.den, -alpha)) if p.degree > 0)
-        powers = gathered((*y.powers, *more))
-        shown = factors(Product(powers, y.roots, y.exponential + E), atoms, primitive.W(t), like=y)
-        terms.append(_scaled(*shown))
+        terms.append(_kernel_term(y, primitive, atoms))
     for term in primitive.terms:
-        c, function = _gamma(term.b, term.n, atoms.sum(term.q(t)), alpha + term.power, atoms)
+        q = atoms.sum(term.q(primitive.t))
+        c, function = _gamma(term.b, term.n, q, primitive.alpha + term.power, atoms)
         shift = exp(atoms.constant(term.e))
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
-    n = alpha.denominator
+    at_poles = [_sum_at_poles(residue, primitive, atoms) for residue in primitive.poles]
+    return terms + [_scaled(scale, [*parts, found]) for found in at_poles]
+
+
+def _kernel_term(y: Product, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
+    """y W t^alpha exp(E)."""
+    t = primitive.t
+    quotient = [(t.num, primitive.alpha), (t.den, -primitive.alpha)]
+    more = [Power(p, y.field.poly([e])) for p, e in quotient if p.degree > 0]
+    powers = gathered((*y.powers, *more))
+    exponential = y.exponential + primitive.E(t)
+    return _scaled(*factors(Product(powers, y.roots, exponential), atoms, primitive.W(t), like=y))
+
+
+def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
+    """The sum over conjugate poles as at `ExponentialPrimitive`, with a^n for the pole, so that z is a."""
+    t = primitive.t
+    E = primitive.E(t)
+    n = primitive.alpha.denominator
     a = atoms.root
-    v = Mul(*(atoms.poly(p) ** rational(Fraction(k, n)) for p, k in ((t.num, 1), (t.den, -1))))
-    for residue in primitive.poles:
-        body = atoms.poly(residue.value, a**n)
-        if E:
-            body *= exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
-        else:
-            body *= a ** int(alpha * n) * sympy.log(v - a)
-        terms.append(_scaled(scale, [*parts, atoms.root_sum(atoms.poly(residue.factor, a**n), body)]))
-    return terms
+    body = atoms.poly(residue.value, a**n)
+    if E:
+        body *= exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
+    else:
+        root = atoms.poly(t.num) ** rational(Fraction(1, n)) * atoms.poly(t.den) ** rational(Fraction(-1, n))
+        body *= a ** int(primitive.alpha * n) * sympy.log(root - a)
+    return atoms.root_sum(atoms.poly(residue.factor, a**n), body)
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:
@@ -156,13 +187,18 @@ def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scal
     if s == 0:
         return sympy.Rational(1, n), Ei(beta * t**n)
     if s == Fraction(1, 2):
-        positive = beta.is_real is not False and not atoms.is_negative(factor)
-        root = atoms.sqrt(factor if positive else -factor)
-        u = root * t ** sympy.Rational(n, 2)
-        return 1 / (root * n), sqrt(pi) * (erfi if positive else erf)(u)
+        return _error_function(factor, n, t, atoms)
     order = rational(s)
     z = -beta * t**n
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
     return sympy.Rational(1, n), t ** rational(power + 1) * z**-order * sympy.lowergamma(order, z)
+
+
+def _error_function(factor: Poly, n: int, t: Expr, atoms: Atoms) -> Scaled:
+    """int t^(n/2 - 1) exp(beta t^n) dt, by erfi for beta > 0 and by erf else."""
+    is_positive = atoms.constant(factor).is_real is not False and not atoms.is_negative(factor)
+    root = atoms.sqrt(factor if is_positive else -factor)
+    function = erfi if is_positive else erf
+    return 1 / (root * n), sqrt(pi) * function(root * t ** sympy.Rational(n, 2))

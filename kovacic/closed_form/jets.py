@@ -68,15 +68,20 @@ class _Evaluator(BallEvaluator):
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.values, a: root})(e.fun.expr) for root in self._roots(e.poly)))
-        if isinstance(e, ANTIDERIVATIVES) and not (isinstance(e, sympy.elliptic_e) and len(e.args) == 1):
+        if _is_antiderivative(e):
             slope = _lifted(self(e.diff(next(iter(self.values)))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, sympy.Abs | sympy.sign):
             return self._of_sign(e)
-        is_unit = e.is_Atom and not e.is_number
-        if is_unit or (isinstance(e, AppliedUndef) and not e.has(*self.values)):
+        if self._is_unknown(e):
             return parameter_value(str(e))
         return self._special(e)
+
+    def _is_unknown(self, e: Any) -> bool:
+        """Is it a parameter, or a given function without the variable?"""
+        if isinstance(e, AppliedUndef):
+            return not e.has(*self.values)
+        return bool(e.is_Atom and not e.is_number)
 
     def _special(self, e: Any) -> BallValue:
         """A special function; a constant that is none of these by SymPy's numbers."""
@@ -104,19 +109,13 @@ class _Evaluator(BallEvaluator):
         """c, c', s or s' for an even and an odd solution of w'' = f w, f = 2 q cos(2 z) - a; c s' - c' s is constant."""
         a, q, last = map(self, e.args)
         z = _lifted(last)
-        c, dc, s, ds = (parameter_value(str(function(*e.args))) for function in MATHIEU)
-        at_zero = (*e.args[:2], sympy.S.Zero)
-        if e.args == at_zero:
-            dc = acb(0)
-            s = acb(0)
-        else:
-            W = parameter_value(str(sympy.mathieuc(*at_zero))) * parameter_value(str(sympy.mathieusprime(*at_zero)))
-            ds = (W + dc * s) / c
+        c, dc, s, ds = _mathieu_values(e.args)
         value, slope = (c, dc) if isinstance(e, sympy.mathieuc | sympy.mathieucprime) else (s, ds)
         f = 2 * q * (2 * z[0]).cos() - a
         values = [value, slope, f * value, f * slope - 4 * q * (2 * z[0]).sin() * value]
-        is_slope = isinstance(e, sympy.mathieucprime | sympy.mathieusprime)
-        return _taylor(z, values[1:] if is_slope else values[:3])
+        if isinstance(e, sympy.mathieucprime | sympy.mathieusprime):
+            return _taylor(z, values[1:])
+        return _taylor(z, values[:3])
 
     def _of_sign(self, e: Any) -> BallValue:
         """|f| or the sign of f: for a function of the variable, near a point where it isn't zero, and real."""
@@ -127,7 +126,9 @@ class _Evaluator(BallEvaluator):
         if middle.imag != 0 or middle.contains(0):
             raise NotImplementedError(f"{e} isn't evaluated here")
         sign = 1 if middle.real > 0 else -1
-        return value * sign if isinstance(e, sympy.Abs) else acb(sign)
+        if isinstance(e, sympy.Abs):
+            return value * sign
+        return acb(sign)
 
     def _roots(self, polynomial: Any) -> list[Acb]:
         """The complex roots, which are simple."""
@@ -141,9 +142,27 @@ class _Evaluator(BallEvaluator):
         return [root for root, _ in complex_zeros(fmpz_poly([int(c) for c in integers]))]
 
 
+def _is_antiderivative(e: Any) -> bool:
+    """Is it an integral, up to a constant?  E(m), which is complete, isn't."""
+    is_complete = isinstance(e, sympy.elliptic_e) and len(e.args) == 1
+    return isinstance(e, ANTIDERIVATIVES) and not is_complete
+
+
+def _mathieu_values(arguments: Sequence[Any]) -> tuple[Acb, Acb, Acb, Acb]:
+    """c, c', s and s' at the last argument: the first three by names, c' = s = 0 at 0, and s' by the Wronskian elsewhere."""
+    c, dc, s, ds = (parameter_value(str(function(*arguments))) for function in MATHIEU)
+    at_zero = (*arguments[:2], sympy.S.Zero)
+    if tuple(arguments) == at_zero:
+        return c, acb(0), acb(0), ds
+    W = parameter_value(str(sympy.mathieuc(*at_zero))) * parameter_value(str(sympy.mathieusprime(*at_zero)))
+    return c, dc, s, (W + dc * s) / c
+
+
 def _lifted(value: BallValue) -> BallValue:
     """As a series."""
-    return acb_series([value], prec=3) if isinstance(value, acb) else value
+    if isinstance(value, acb):
+        return acb_series([value], prec=3)
+    return value
 
 
 def _taylor(z: BallValue, values: list[Acb]) -> BallValue:
@@ -154,15 +173,16 @@ def _taylor(z: BallValue, values: list[Acb]) -> BallValue:
 
 def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Acb]:
     """The roots, those of a real polynomial that are certainly real as real balls."""
-    roots = polynomial.roots(tol=tolerance)
+    roots = list(polynomial.roots(tol=tolerance))
     if not all(c.imag == 0 for c in polynomial.coeffs()):
-        return list(roots)
-    # The conjugate of a root is a root: itself if no other ball meets the mirror image of its own.
-    mirrored = [root.conjugate() for root in roots]
-    return [
-        acb(root.real) if [other for other in roots if other.overlaps(mirror)] == [root] else root
-        for root, mirror in zip(roots, mirrored, strict=True)
-    ]
+        return roots
+    return [acb(root.real) if _is_its_conjugate(root, roots) else root for root in roots]
+
+
+def _is_its_conjugate(root: Acb, roots: Sequence[Acb]) -> bool:
+    """The conjugate of a root is a root: itself if no other ball meets the mirror image of its own."""
+    mirror = root.conjugate()
+    return [other for other in roots if other.overlaps(mirror)] == [root]
 
 
 def _number(e: Any) -> Acb:
@@ -172,7 +192,15 @@ def _number(e: Any) -> Acb:
     except ValueError:  # mpmath doesn't have the function
         raise NotImplementedError(f"the function {e.func} can't be evaluated") from None
     parts = number._mpc_ if hasattr(number, "_mpc_") else (number._mpf_,)
-    return acb(*(arb((-mantissa if sign else mantissa, exponent)) for sign, mantissa, exponent, _ in parts))
+    return acb(*map(_dyadic, parts))
+
+
+def _dyadic(part: tuple[int, int, int, int]) -> arb:
+    """The number that mpmath writes as (sign, mantissa, exponent, bits)."""
+    sign, mantissa, exponent, _ = part
+    if sign:
+        mantissa = -mantissa
+    return arb((mantissa, exponent))
 
 
 # ------------------------------------------------------------------------------------------ special functions
@@ -184,7 +212,9 @@ def _bessel(name: str, parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     function = getattr(acb, name)
     C = function(z, nu)
     below = function(z, nu - 1)
-    slope = (-below if name == "bessel_k" else below) - nu / z * C
+    if name == "bessel_k":
+        below = -below
+    slope = below - nu / z * C
     sign = 1 if name in ("bessel_i", "bessel_k") else -1
     return [C, slope, (sign + (nu / z) ** 2) * C - slope / z]
 
@@ -225,53 +255,80 @@ _REWRITTEN: dict[Any, Any] = {
 
 def rewritten(e: Any) -> Any:
     """By functions that are known here: those above, spherical Bessel functions, and polynomials by 2F1, 1F1; or None."""
-    half = sympy.S.Half
-    gamma = sympy.gamma
-    if e.func in _REWRITTEN and (e.func is not sympy.elliptic_e or len(e.args) == 1):
+    is_incomplete = isinstance(e, sympy.elliptic_e) and len(e.args) > 1
+    if e.func in _REWRITTEN and not is_incomplete:
         return e.rewrite(_REWRITTEN[e.func])
-    if isinstance(e, sympy.jn | sympy.yn):
-        n, z = e.args
-        return sympy.sqrt(sympy.pi / (2 * z)) * (sympy.besselj if isinstance(e, sympy.jn) else sympy.bessely)(
-            n + half, z
-        )
-    if isinstance(e, sympy.laguerre | sympy.assoc_laguerre):
-        n, a, z = e.args if len(e.args) == 3 else (e.args[0], sympy.S.Zero, e.args[1])
-        return gamma(n + a + 1) / gamma(n + 1) / gamma(a + 1) * sympy.hyper((-n,), (a + 1,), z)
-    if isinstance(e, sympy.legendre | sympy.gegenbauer):
-        n, a, z = e.args if len(e.args) == 3 else (e.args[0], half, e.args[1])
-        return gamma(n + 2 * a) / gamma(n + 1) / gamma(2 * a) * sympy.hyper((-n, n + 2 * a), (a + half,), (1 - z) / 2)
-    if isinstance(e, sympy.assoc_legendre):
-        n, m, z = e.args
-        factor = sympy.gamma(n + m + 1) / sympy.gamma(n - m + 1) / gamma(m + 1) / (-2) ** m
-        return factor * (1 - z**2) ** (m / 2) * sympy.hyper((m - n, n + m + 1), (m + 1,), (1 - z) / 2)
-    if isinstance(e, sympy.jacobi):
-        n, a, b, z = e.args
-        factor = gamma(n + a + 1) / gamma(n + 1) / gamma(a + 1)
-        return factor * sympy.hyper((-n, n + a + b + 1), (a + 1,), (1 - z) / 2)
-    return None
+    rule = _BY_SERIES.get(e.func)
+    if rule is None:
+        return None
+    return rule(*e.args)
+
+
+def _spherical(function: Any) -> Callable[..., Any]:
+    """sqrt(pi/(2 z)) C_(n + 1/2)(z)."""
+    return lambda n, z: sympy.sqrt(sympy.pi / (2 * z)) * function(n + sympy.S.Half, z)
+
+
+def _laguerre(n: Any, a: Any, z: Any) -> Any:
+    factor = sympy.gamma(n + a + 1) / sympy.gamma(n + 1) / sympy.gamma(a + 1)
+    return factor * sympy.hyper((-n,), (a + 1,), z)
+
+
+def _gegenbauer(n: Any, a: Any, z: Any) -> Any:
+    factor = sympy.gamma(n + 2 * a) / sympy.gamma(n + 1) / sympy.gamma(2 * a)
+    return factor * sympy.hyper((-n, n + 2 * a), (a + sympy.S.Half,), (1 - z) / 2)
+
+
+def _associated_legendre(n: Any, m: Any, z: Any) -> Any:
+    factor = sympy.gamma(n + m + 1) / sympy.gamma(n - m + 1) / sympy.gamma(m + 1) / (-2) ** m
+    return factor * (1 - z**2) ** (m / 2) * sympy.hyper((m - n, n + m + 1), (m + 1,), (1 - z) / 2)
+
+
+def _jacobi(n: Any, a: Any, b: Any, z: Any) -> Any:
+    factor = sympy.gamma(n + a + 1) / sympy.gamma(n + 1) / sympy.gamma(a + 1)
+    return factor * sympy.hyper((-n, n + a + b + 1), (a + 1,), (1 - z) / 2)
+
+
+#: By Bessel's functions, and by hypergeometric series.
+_BY_SERIES: dict[Any, Callable[..., Any]] = {
+    sympy.jn: _spherical(sympy.besselj),
+    sympy.yn: _spherical(sympy.bessely),
+    sympy.laguerre: lambda n, z: _laguerre(n, sympy.S.Zero, z),
+    sympy.assoc_laguerre: _laguerre,
+    sympy.legendre: lambda n, z: _gegenbauer(n, sympy.S.Half, z),
+    sympy.gegenbauer: _gegenbauer,
+    sympy.assoc_legendre: _associated_legendre,
+    sympy.jacobi: _jacobi,
+}
 
 
 def _hypergeometric(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
-    """The values of SymPy's `hyper` and its first two derivatives; 2F0(a, b; z) = (-1/z)^a U(a, a - b + 1, -1/z).
-
-    Differences of parameters that are integers are taken from the expression, for balls don't show that they are.
-    """
+    """The values of SymPy's `hyper` and its first two derivatives."""
     top = [value(a) for a in e.ap]
     bottom = [value(b) for b in e.bq]
-    gauss = len(top) == 2 and len(bottom) == 1
-    (a, b, c) = (*e.ap, *e.bq) if gauss else (0, 0, 0)
-    exact = [sympy.expand(d).is_integer is True for d in (a - b, a - c, b - c, a + b - c)] if gauss else []
+    series = _series_of(e, value)
     found = []
     factor = acb(1)
     for k in range(3):
         above = [a + k for a in top]
         below = [b + k for b in bottom]
-        if gauss:
-            found.append(factor * z.hypgeom_2f1(*above, *below, False, *exact))
-        elif len(above) == 2 and not below:
-            w = -1 / z
-            found.append(factor * w ** above[0] * w.hypgeom_u(above[0], value(sympy.expand(e.ap[0] - e.ap[1] + 1))))
-        else:
-            found.append(factor * z.hypgeom(above, below))
+        found.append(factor * series(above, below, z))
         factor *= prod(above, start=acb(1)) / prod(below, start=acb(1))
     return found
+
+
+def _series_of(e: Any, value: Callable[[Any], Acb]) -> Callable[[list[Acb], list[Acb], Acb], Acb]:
+    """(parameters above, below, z) -> the value; 2F0(a, b; z) = (-1/z)^a U(a, a - b + 1, -1/z).
+
+    Differences of parameters that are integers are taken from the expression, for balls don't show that they are.
+    """
+    counts = (len(e.ap), len(e.bq))
+    if counts == (2, 1):
+        a, b = e.ap
+        (c,) = e.bq
+        exact = [sympy.expand(d).is_integer is True for d in (a - b, a - c, b - c, a + b - c)]
+        return lambda above, below, z: z.hypgeom_2f1(*above, *below, False, *exact)
+    if counts == (2, 0):
+        difference = value(sympy.expand(e.ap[0] - e.ap[1] + 1))
+        return lambda above, below, z: (-1 / z) ** above[0] * (-1 / z).hypgeom_u(above[0], difference)
+    return lambda above, below, z: z.hypgeom(above, below)

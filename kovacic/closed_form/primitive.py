@@ -70,11 +70,10 @@ def integrate(h: Product) -> Primitive:
 
 def _integrated(h: Product) -> Primitive | str:
     """The integral, or why it is left."""
-    field = h.field
     if h.roots:
         return f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers"
-    rational = RatFunc(field.poly([1]))
-    fractional: list[tuple[Poly, Fraction]] = []
+    rational = RatFunc(h.field.poly([1]))
+    fractional: list[_Root] = []
     for power in h.powers:
         exponent = power.rational_exponent
         if exponent is None:
@@ -84,68 +83,106 @@ def _integrated(h: Product) -> Primitive | str:
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
         else:
-            fractional.append((power.base, exponent))
+            fractional.append(_Root(power.base, exponent))
     E = h.exponential
     if E.is_polynomial and E.num.degree <= 0:
         return _without_exponential(rational, fractional)
     return _with_exponential(rational, fractional, E)
 
 
-def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]]) -> Primitive | str:
+@dataclass(frozen=True)
+class _Root:
+    """p^alpha for a polynomial p and a fraction alpha."""
+
+    p: Poly
+    alpha: Fraction
+
+
+def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitive | str:
+    """int r k dx for a product k of roots, or why it is left."""
     if not fractional:
         return RationalPrimitive(decompose(rational))
-    if all(exponent.denominator == 2 for _, exponent in fractional):
-        g = rational.field.poly([1])
-        for p, exponent in fractional:
-            g = g * p
-            rational = rational * RatFunc(p) ** int(exponent + Fraction(1, 2))
-        return completed(integrate_on_curve(rational, g))
-    linear = all(p.degree == 1 for p, _ in fractional)
-    if linear and len(fractional) == 1:
-        (p, alpha), t = fractional[0], RatFunc(fractional[0][0])
-        return _with_power(rational(rational.field.poly([-p[0], 1])), alpha, t)
-    if linear and len(fractional) == 2 and sum(exponent for _, exponent in fractional).denominator == 1:
-        (p, alpha), (q, beta) = fractional
-        # x = (d t - c)/(t - 1), x - d = (d - c)/(t - 1), dx = (c - d) dt/(t - 1)^2.
-        c = -p[0]
-        d = -q[0]
-        below = RatFunc(p.field.poly([-1, 1]))
-        x = RatFunc(p.field.poly([-c, d])) / below
-        r = rational(x) * (RatFunc(d - c) / below) ** int(alpha + beta) * (c - d) / (below * below)
-        return _with_power(r, alpha, RatFunc(p, q))
+    if all(root.alpha.denominator == 2 for root in fractional):
+        return _on_a_curve(rational, fractional)
+    are_lines = all(root.p.degree == 1 for root in fractional)
+    if are_lines and len(fractional) == 1:
+        (root,) = fractional
+        centre = -root.p[0]
+        return _with_power(rational(RatFunc(root.p.field.poly([centre, 1]))), root.alpha, RatFunc(root.p))
+    if are_lines and len(fractional) == 2:
+        first, second = fractional
+        if (first.alpha + second.alpha).denominator == 1:
+            return _with_a_quotient(rational, first, second)
     return "it is an incomplete beta integral, with fractional powers of several factors"
+
+
+def _on_a_curve(rational: RatFunc, roots: list[_Root]) -> Primitive:
+    """int r dx/sqrt(g) for square roots of polynomials, g their product."""
+    g = rational.field.poly([1])
+    for root in roots:
+        g = g * root.p
+        rational = rational * RatFunc(root.p) ** int(root.alpha + Fraction(1, 2))
+    return completed(integrate_on_curve(rational, g))
+
+
+def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitive | str:
+    """int r (x - c)^alpha (x - d)^beta dx for an integer alpha + beta, by t = (x - c)/(x - d).
+
+    x = (d t - c)/(t - 1), x - d = (d - c)/(t - 1), dx = (c - d) dt/(t - 1)^2.
+    """
+    c = -first.p[0]
+    d = -second.p[0]
+    below = RatFunc(first.p.field.poly([-1, 1]))
+    x = RatFunc(first.p.field.poly([-c, d])) / below
+    r = rational(x) * (RatFunc(d - c) / below) ** int(first.alpha + second.alpha) * (c - d) / (below * below)
+    return _with_power(r, first.alpha, RatFunc(first.p, second.p))
 
 
 def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> Primitive | str:
     """int r(t) t^alpha dt."""
     shift = alpha.numerator // alpha.denominator + 1
     found = integrate_exponential(r * RatFunc(r.field.poly([0, 1])) ** shift, r * 0, alpha - shift)
-    return found if isinstance(found, str) else replace(found, t=t)
+    if isinstance(found, str):
+        return found
+    return replace(found, t=t)
 
 
-def _with_exponential(r: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive | str:
-    if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
+def _with_exponential(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive | str:
+    """int r k exp(E) dx for at most one root k of a linear polynomial, or why it is left: in x less a centre."""
+    if len(fractional) > 1 or any(root.p.degree > 1 for root in fractional):
         return "the integrand has an exponential and fractional powers of several factors"
-    alpha = Fraction(0)
-    below = E.num if E.is_polynomial else E.den
-    if fractional:
-        below, alpha = fractional[0]
-    n = below.degree
-    centre = -below[n - 1] / (below.lc * n) if fractional or n > 1 or not E.is_polynomial else below * 0
+    alpha = fractional[0].alpha if fractional else Fraction(0)
+    centre = _centre(fractional, E)
     moved = RatFunc(r.field.poly([centre[0], 1]))
     if not fractional and monomial(E(moved)) is None:
         return integrate_exponential(r, E)
     found = integrate_exponential(r(moved), E(moved), alpha)
-    return found if isinstance(found, str) else replace(found, t=RatFunc(r.field.poly([-centre[0], 1])))
+    if isinstance(found, str):
+        return found
+    return replace(found, t=RatFunc(r.field.poly([-centre[0], 1])))
+
+
+def _centre(fractional: list[_Root], E: RatFunc) -> Poly:
+    """The zero of the root, else the mean of the poles, or of the zeros of a polynomial; 0 for a linear one."""
+    below = E.den
+    if fractional:
+        below = fractional[0].p
+    elif E.is_polynomial:
+        below = E.num
+        if below.degree == 1:
+            return below * 0
+    n = below.degree
+    return -below[n - 1] / (below.lc * n)
 
 
 def normalised_constant(exact: RatFunc) -> RatFunc:
     """The antiderivative that vanishes at a multiple zero of the integrand, or has the least degree in the numerator."""
     slope = exact.derivative()
     zeros = exact.field.factor(slope.num) if slope.num.degree > 1 else []
-    at_zeros = [(k, exact.num * exact.den.inverse_modulo(p) % p) for p, k in zeros if p.degree == 1 and k > 1]
-    if at_zeros:
-        return exact - max(at_zeros, key=lambda pair: pair[0])[1]
+    multiple = [(p, k) for p, k in zeros if p.degree == 1 and k > 1]
+    if multiple:
+        p, _ = max(multiple, key=lambda pair: pair[1])
+        return exact - exact.num * exact.den.inverse_modulo(p) % p
     if exact.num.degree != exact.den.degree or exact.den.degree <= 0:
         return exact
     return exact - exact.num.lc

@@ -62,7 +62,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     if form.phase.exact:
         phase.append(s * atoms.sum(form.phase.exact))
     for residue in form.phase.residues:
-        turned = _half_turns(pair, form.delta, residue, phase, atoms, s)
+        turned = _half_turns(pair, form.delta, residue, phase=phase, atoms=atoms, s=s)
         if turned is None:
             phase.append(s * atoms.log_sum(residue))
         else:
@@ -102,7 +102,7 @@ def _without_content(expression: Expr) -> Expr:
 
 
 def _half_turns(
-    pair: _SurdPair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr
+    pair: _SurdPair, delta: Poly, residue: Residue, *, phase: list[Expr], atoms: Atoms, s: Expr
 ) -> _SurdPair | None:
     """The pair turned by exp(i q phi) of equation (1) if 2q is an integer; the logarithm, if any, joins the phase."""
     p = residue.factor

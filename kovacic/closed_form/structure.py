@@ -110,7 +110,8 @@ def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
         low, high = polynomial.parts
         return low - high * half, high
 
-    (a, b), (c, d) = split(semi.theta.num), split(semi.theta.den)
+    a, b = split(semi.theta.num)
+    c, d = split(semi.theta.den)
     norm = c * c - d * d * delta
     u = RatFunc(a * c - b * d * delta, norm)
     v = RatFunc(b * c - a * d, norm)

@@ -151,7 +151,8 @@ def _product(first: tuple[Poly, Poly], second: tuple[Poly, Poly], h: Poly) -> tu
 def _square_root(square: Poly) -> Poly | None:
     """The monic root of a polynomial that is a constant times a square; None for others."""
     root = square.field.poly([1])
-    for factor, multiplicity in square.field.factor(square) if square.degree else []:
+    factors = square.field.factor(square) if square.degree else []
+    for factor, multiplicity in factors:
         if multiplicity % 2:
             return None
         root = root * factor ** (multiplicity // 2)
