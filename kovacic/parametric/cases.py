@@ -7,9 +7,8 @@ be said where the two exclude one another, or meet in values of an earlier case.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import chain, groupby
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -61,16 +60,26 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
     for region in filter(_is_known, regions):
         if region.case is None:
             unsolvable.append(region.statement)
-            continue
-        before = [case.statement for case in found if not case.without]
-        charts = _within(region.statement, _everything(regions))
-        left = []
-        for other in [] if _proves_a_solution(region) else unsolvable:
-            common = _within(region.statement, _within(other, charts))
-            if not _covered(common, before):
-                left.append(_left_to_say(other, region.statement, charts))
-        found.append(Case(region.statement, (region,), _shortest(left)))
+        elif _proves_a_solution(region):
+            found.append(Case(region.statement, (region,)))
+        else:
+            before = [case.statement for case in found if not case.without]
+            charts = _within(region.statement, _everything(regions))
+            without = _exceptions(region.statement, unsolvable, before, charts)
+            found.append(Case(region.statement, (region,), without))
     return _joined(_mirrored(found))
+
+
+def _exceptions(
+    statement: Statement, unsolvable: Iterable[Statement], before: Sequence[Statement], charts: list[ParameterPoint]
+) -> tuple[Statement, ...]:
+    """The unsolvable ones that a statement, which is about the charts, meets outside of the cases before."""
+    left = []
+    for other in unsolvable:
+        common = _within(statement, _within(other, charts))
+        if not _covered(common, before):
+            left.append(_left_to_say(other, charts))
+    return _shortest(left)
 
 
 def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> list[ParameterRegion]:
@@ -95,27 +104,43 @@ def _is_redundant(
     after: list[ParameterRegion],
     generic: RegionVerdict | None,
 ) -> bool:
-    """Do the later regions say the same at each value of this one that is in none before?"""
+    """Do the later regions say the same at each value of this one that is in none before?
+
+    One that says the same of all of its values is enough.  Without one, those that say another thing may have no value in
+    common with this one, but for values that are in one before, and the generic verdict has to be the same.
+    """
     if not _is_known(region) or region.complete is not True:
         return False
     is_generic = generic is not None and _is_same(generic, region.verdict)
-    is_variety = all(isinstance(part, Vanishes) for part in both(region.statement).parts)
+    if not is_generic and not _is_variety(region.statement):
+        return False
     everything = _everything([region])
-    if not everything or not (is_generic or is_variety):
+    if not everything:
         return False
     charts = _within(region.statement, everything)
     known = [one.statement for one in before]
     for other in after:
-        if region.case is None and _proves_a_solution(other):
-            continue  # they have no value in common
         if _says_the_same(other, region):
             if _covered(charts, [other.statement]):
                 return True
-            continue
-        common = _within(other.statement, charts)
-        if not all(_is_said(known, other.statement, chart) for chart in common):
+        elif not _is_apart(other, region) and not _is_said_within(known, other.statement, charts):
             return False
     return is_generic
+
+
+def _is_variety(statement: Statement) -> bool:
+    """Is it that functions vanish, and nothing else?"""
+    return all(isinstance(part, Vanishes) for part in both(statement).parts)
+
+
+def _is_apart(other: ParameterRegion, region: ParameterRegion) -> bool:
+    """Has the other region a solution at all of its values, where this one has none?"""
+    return region.case is None and _proves_a_solution(other)
+
+
+def _is_said_within(known: Sequence[Statement], statement: Statement, charts: list[ParameterPoint]) -> bool:
+    """Does one of the known statements hold at all values of each chart at which this one does?"""
+    return all(_is_said(known, statement, chart) for chart in _within(statement, charts))
 
 
 def _says_the_same(other: ParameterRegion, region: ParameterRegion) -> bool:
@@ -156,24 +181,33 @@ def _field(statement: Statement) -> FunctionField | None:
     return found[0] if found else None
 
 
-def _left_to_say(other: Statement, statement: Statement, charts: list[ParameterPoint]) -> Statement:
-    """What the other statement says beside this one, where the values of this one are those of one chart."""
+def _left_to_say(other: Statement, charts: list[ParameterPoint]) -> Statement:
+    """What the other statement says of the values of a single chart: its parts that don't hold there anyway."""
     field = _field(other)
     if len(charts) != 1 or field is None:
         return other
     (chart,) = charts
     left: list[Statement] = []
     for part in both(other).parts:
-        value = chart.at(part.function) if isinstance(part, Vanishes) else None
-        if isinstance(value, FunctionPoly):
-            factors = irreducible_factors(value) if value else []
-            if factors:
-                left.append(over_all(either(*map(Vanishes, factors)), field))
-        elif value is None or value:
-            left.append(part)
+        left += _left_of_part(part, chart, field)
     if not left:
         return other
     return both(*left) if len(left) > 1 else left[0]
+
+
+def _left_of_part(part: Statement, chart: ParameterPoint, field: FunctionField) -> list[Statement]:
+    """One statement about all parameters; none where the part holds at all values of the chart, or at none."""
+    if not isinstance(part, Vanishes):
+        return [part]
+    value = chart.at(part.function)
+    if not value:
+        return []
+    if not isinstance(value, FunctionPoly):
+        return [part]
+    factors = irreducible_factors(value)
+    if not factors:
+        return []
+    return [over_all(either(*map(Vanishes, factors)), field)]
 
 
 def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
@@ -186,41 +220,66 @@ def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
     return tuple(found)
 
 
+@dataclass
+class _Block:
+    """Cases in a row that begin with one of the `firsts`, which exclude one another; `cases` are without this beginning."""
+
+    firsts: list[Vanishes]
+    cases: list[Case]
+
+    def takes(self, first: Vanishes, cases: list[Case]) -> bool:
+        """Can another block be added: does it say the same, of no value of this one?"""
+        return _exclude_each_other(first, self.firsts[-1]) and _say_the_same(self.cases, cases)
+
+    def add(self, first: Vanishes, cases: list[Case]) -> None:
+        self.firsts.append(first)
+        pairs = zip(self.cases, cases, strict=True)
+        self.cases = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
+
+    def complete(self) -> list[Case]:
+        """The cases with their beginning."""
+        beginning = either(*self.firsts)
+        return [replace(case, statement=both(beginning, case.statement)) for case in self.cases]
+
+
 def _mirrored(cases: Iterable[Case]) -> list[Case]:
     """The cases, those of l = 0 and of l = -1 in one where the same is said in them but for the solutions.
 
     Cases in a row that begin with the same vanishing function are a block.  Two blocks in a row that say the same are one:
     no value belongs to both, because their functions differ by a number.
     """
-    merged: list[tuple[list[Vanishes], list[Case]]] = []
     found: list[Case] = []
-    for first, group in groupby(cases, key=lambda case: next(iter(both(case.statement).parts), ALWAYS)):
-        block = [*group]
-        if not isinstance(first, Vanishes) or any(len(both(case.statement).parts) < 2 for case in block):
-            found += _with_firsts(merged)
-            merged = []
-            found += block
+    blocks: list[_Block] = []
+    for first, group in groupby(cases, key=_first_part):
+        members = [*group]
+        if not isinstance(first, Vanishes) or not all(map(_has_more, members)):
+            found += [*_completed(blocks), *members]
+            blocks = []
             continue
-        inner = _mirrored(_without_first(case) for case in block)
-        last = merged[-1] if merged else None
-        if last is not None and _exclude_each_other(first, last[0][-1]) and _say_the_same(last[1], inner):
-            last[0].append(first)
-            pairs = zip(last[1], inner, strict=True)
-            last[1][:] = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
+        inner = _mirrored(map(_without_first, members))
+        if blocks and blocks[-1].takes(first, inner):
+            blocks[-1].add(first, inner)
         else:
-            merged.append(([first], inner))
-    return found + _with_firsts(merged)
+            blocks.append(_Block([first], inner))
+    return [*found, *_completed(blocks)]
+
+
+def _completed(blocks: Iterable[_Block]) -> list[Case]:
+    """All of their cases, with the beginnings."""
+    return list(chain.from_iterable(block.complete() for block in blocks))
+
+
+def _first_part(case: Case) -> Statement:
+    return next(iter(both(case.statement).parts), ALWAYS)
+
+
+def _has_more(case: Case) -> bool:
+    """Than a first part?"""
+    return len(both(case.statement).parts) > 1
 
 
 def _without_first(case: Case) -> Case:
     return replace(case, statement=Both(both(case.statement).parts[1:]))
-
-
-def _with_firsts(blocks: Iterable[tuple[list[Vanishes], list[Case]]]) -> list[Case]:
-    found: list[Case] = []
-    for firsts, block in blocks:
-        found += [replace(case, statement=both(either(*firsts), case.statement)) for case in block]
-    return found
 
 
 def _exclude_each_other(first: Vanishes, second: Vanishes) -> bool:
@@ -254,12 +313,12 @@ def _can_be_joined(last: Case, case: Case) -> bool:
 
 def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:
     """Can the two be said in one sentence?  Both have simple statements of the same kind, and the same group."""
+    if not first.plain or not second.plain:
+        return False
     statements = [*_alternatives(first.statement), *_alternatives(second.statement)]
     kinds = {type(statement) for statement in statements}
-    if len(kinds) > 1 or not kinds <= {Vanishes, Congruence}:
-        return False
-    is_same = first.verdict == second.verdict and first.group == second.group
-    return is_same and first.plain and second.plain
+    is_of_one_kind = len(kinds) <= 1 and kinds <= {Vanishes, Congruence}
+    return is_of_one_kind and _is_same(first.verdict, second.verdict)
 
 
 def _alternatives(statement: Statement) -> Sequence[Statement]:
@@ -278,14 +337,13 @@ def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterP
         return False
     if _covered([chart], known):
         return True
-    try:
-        parts = {*_restricted(statement, chart)}
-    except (TypeError, ValueError, ZeroDivisionError):  # not about functions of the parameters of the chart
+    said = _parts_on(statement, chart)
+    if said is None:
         return False
     for one in known:
-        with suppress(TypeError, ValueError, ZeroDivisionError):
-            if all(part in parts for part in _restricted(one, chart)):
-                return True
+        parts = _parts_on(one, chart)
+        if parts is not None and parts <= said:
+            return True
     return False
 
 
@@ -305,12 +363,17 @@ def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[St
     return found
 
 
-def _restricted(statement: Statement, chart: ParameterPoint) -> Iterator[Statement]:
-    """What it says on the chart: all of these statements."""
-    for part in both(statement).parts:
-        on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
-        if not _is_true(on_chart):
-            yield on_chart
+def _parts_on(statement: Statement, chart: ParameterPoint) -> set[Statement] | None:
+    """What it says on the chart: all of these statements.  None where it isn't about functions of the chart's parameters."""
+    parts = set()
+    try:
+        for part in both(statement).parts:
+            on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
+            if not _is_true(on_chart):
+                parts.add(on_chart)
+    except (TypeError, ValueError, ZeroDivisionError):
+        return None
+    return parts
 
 
 def _is_true(statement: Statement) -> bool:
@@ -321,16 +384,6 @@ def _covers(statement: Statement, chart: ParameterPoint) -> bool:
     """Does it provably hold at all values of the chart?"""
     is_point = chart.field.ground == QQ
     return statement.holds(chart) if is_point else holds_on(statement, chart, NOTHING_ASSUMED)
-
-
-def _together(parts: Iterable[list[ParameterPoint] | None]) -> list[ParameterPoint] | None:
-    """All points of lists; None where one of them isn't known."""
-    found: list[ParameterPoint] = []
-    for part in parts:
-        if part is None:
-            return None
-        found += part
-    return found
 
 
 def _within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:
@@ -349,22 +402,25 @@ def _within(statement: Statement, charts: list[ParameterPoint]) -> list[Paramete
 
 
 def _on_chart(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
+    """The same for a statement that isn't made of others; the chart where nothing is known."""
     try:
-        if isinstance(statement, Vanishes):
-            return _where_zero(chart.at(statement.function), chart)
-        if isinstance(statement, Congruence):
-            equation = chart.at(statement.equation)
-            return [] if statement.holds_for(equation) is False else _without_unknown(equation, chart)
-        if isinstance(statement, Schwarz):
-            chart.at(statement.cubic)
-            return [chart]
-        if isinstance(statement, Natural):
-            parts = (_without_unknown(chart.at(factor), chart) for factor in statement.factors or ())
-            return [chart] if statement.factors is None else _union(parts, chart)
+        return _where_possible(statement, chart)
     except ZeroDivisionError:  # a statement doesn't hold where it isn't defined
         return []
     except (TypeError, ValueError):  # no function of parameters
-        pass
+        return [chart]
+
+
+def _where_possible(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
+    if isinstance(statement, Vanishes):
+        return _where_zero(chart.at(statement.function), chart)
+    if isinstance(statement, Congruence):
+        equation = chart.at(statement.equation)
+        return [] if statement.holds_for(equation) is False else _without_unknown(equation, chart)
+    if isinstance(statement, Schwarz):
+        chart.at(statement.cubic)
+    if isinstance(statement, Natural) and statement.factors is not None:
+        return _union((_without_unknown(chart.at(factor), chart) for factor in statement.factors), chart)
     return [chart]
 
 
@@ -380,9 +436,9 @@ def _union(parts: Iterable[list[ParameterPoint]], chart: ParameterPoint) -> list
 
 def _without_unknown(equation: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
     """Where an equation for a number can have a root: everywhere, if the number occurs in it on the chart."""
-    if equation.degree > 0:
+    if equation.degree > 0 or not equation:
         return [chart]
-    return _where_zero(equation[0] if equation else equation, chart)
+    return _where_zero(equation[0], chart)
 
 
 def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:

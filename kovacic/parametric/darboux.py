@@ -18,12 +18,18 @@ from typing import Any
 import sympy
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
-from kovacic.parametric.functions import ParameterPoint, degrees, irreducible_factors, over_parameters, powers_of, union
+from kovacic.parametric.functions import (
+    ParameterPoint,
+    degrees,
+    irreducible_factors,
+    over_parameters,
+    powers_of,
+    union,
+    without_parameter,
+)
 from kovacic.parametric.restriction import undefined
 from kovacic.parametric.search import degree_equation
 from kovacic.parametric.solutions import Origin, PolynomialSolution, derivative, general
@@ -61,8 +67,8 @@ class Back:
     def carried(self, v: Any) -> Any:
         """v' + W v."""
         x = sympy.Symbol(self.variable)
-        above, below = (part.to_sympy(x) for part in (self.W.num, self.W.den))
-        return derivative(v, x) + sympy.factor(above / below) * v
+        W = self.W.num.to_sympy(x) / self.W.den.to_sympy(x)
+        return derivative(v, x) + sympy.factor(W) * v
 
 
 def transformation(problem: Problem) -> Transformation | None:
@@ -84,11 +90,12 @@ def _apparent(problem: Problem) -> int:
     """The sum of m (m + 1) over the poles with constant exponents -m, m + 1."""
     total = 0
     for place in problem.finite_places:
-        delta = place.delta  # 2 m + 1
-        if place.kind is not Kind.REGULAR or delta is None:
+        difference = place.delta  # 2 m + 1
+        if place.kind is not Kind.REGULAR or difference is None:
             continue
-        if delta.denominator == 1 and delta % 2:
-            total += int(delta**2 - 1) // 4 * place.degree
+        is_odd = difference.denominator == 1 and difference % 2 == 1
+        if is_odd:
+            total += int(difference**2 - 1) // 4 * place.degree
     return total
 
 
@@ -97,50 +104,71 @@ def _energies(S: RatFunc) -> list[int]:
     field = S.field
     assert isinstance(field, FunctionField)
     above, below = map(over_parameters, S.cleared())
-    found = []
-    for i, name in enumerate(field.names):
-        if degrees(above)[i] != 1 or degrees(below)[i]:
-            continue
-        values = [field.generator(other) + (1 if other == name else 0) for other in field.names]
-        change = RatFunc(above.value_at(values, field), below) - RatFunc(above, below)
-        if change.is_polynomial and change.num.degree == 0 and field.rational_value(change.num) is not None:
-            found.append(i)
-    return found
+    candidates = [i for i in range(len(field.names)) if degrees(above)[i] == 1 and not degrees(below)[i]]
+    return [i for i in candidates if _is_number(_slope(above, field, i) / RatFunc(below))]
+
+
+def _slope(function: FunctionPoly, field: FunctionField, i: int) -> RatFunc:
+    """f(E + 1) - f(E) for parameter number i, in which f is linear."""
+    values = [field.generator(name) for name in field.names]
+    values[i] = values[i] + 1
+    return RatFunc(function.value_at(values, field) - function)
+
+
+def _is_number(function: RatFunc) -> bool:
+    """Does it depend neither on the variable nor on the parameters, without being 0?"""
+    if not function.is_polynomial or function.num.degree != 0:
+        return False
+    return function.field.rational_value(function.num) is not None
 
 
 def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
     """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree."""
-    field = problem.field
-    assert isinstance(field, FunctionField)
     equation = degree_equation(problem)
-    for d in range(_DEGREE + 1 if equation is not None else 0):
-        for special in irreducible_factors(equation(Fraction(d))):  # type: ignore[misc]
-            solved = (_solved_for(special, i) for i in energies)
-            surface = next((point for point in solved if point is not None), None)
+    if equation is None:
+        return
+    for d in range(_DEGREE + 1):
+        for special in irreducible_factors(equation(Fraction(d))):
+            surface = _first_solved(special, energies)
             if surface is None:
                 continue
-            riccati = decide(surface.restricted(problem.S), problem.budget).riccati
-            if riccati is None or riccati.degree > 1:
-                continue
-            W = -riccati.coefficients[0]
-            if W.field != surface.field:
-                continue
-            yield special, _over(W, field)
+            W = _logarithmic_derivative(problem, surface)
+            if W is not None:
+                yield special, W
+
+
+def _first_solved(function: FunctionPoly, energies: list[int]) -> ParameterPoint | None:
+    """Its zeros by the first of these parameters for which it can be solved."""
+    for i in energies:
+        surface = _solved_for(function, i)
+        if surface is not None:
+            return surface
+    return None
+
+
+def _logarithmic_derivative(problem: Problem, surface: ParameterPoint) -> RatFunc | None:
+    """The rational one of a solution on a surface, with all parameters in its field; None where there is none."""
+    riccati = decide(surface.restricted(problem.S), problem.budget).riccati
+    if riccati is None or riccati.degree > 1:
+        return None
+    W = -riccati.coefficients[0]
+    if W.field != surface.field:
+        return None
+    field = problem.field
+    assert isinstance(field, FunctionField)
+    return _over(W, field)
 
 
 def _solved_for(function: FunctionPoly, i: int) -> ParameterPoint | None:
     """The values of the parameters where a function vanishes, if it is linear in parameter i with a constant coefficient."""
     powers = powers_of(function, i)
-    if {*powers} != {0, 1} and {*powers} != {1}:
-        return None
-    if not powers[1].num.is_constant():
+    is_linear = 1 in powers and powers.keys() <= {0, 1}
+    if not is_linear or not powers[1].num.is_constant():
         return None
     names = function.field.names
-    field = FunctionField(tuple(name for name in names if name != names[i]))
-    below: Field = field if field.names else QQ
-    values = [field.generator(name) if name in field.names else below.poly([0]) for name in names]
-    constant = powers.get(0, 0 * powers[1]).value_at(values, below)
-    values[i] = -constant / powers[1].value_at(values, below)
+    below, values = without_parameter(i, names)
+    rest = powers.get(0, 0 * powers[1]).value_at(values, below)
+    values[i] = -rest / powers[1].value_at(values, below)
     return ParameterPoint(names, tuple(values), below)
 
 
@@ -149,4 +177,5 @@ def _over(W: RatFunc, field: FunctionField) -> RatFunc:
     if not isinstance(W.num, FunctionPoly):
         return RatFunc(field.poly(W.num.rational_coefficients()), field.poly(W.den.rational_coefficients()))
     values = [field.generator(name) for name in W.num.field.names]
-    return RatFunc(*(over_parameters(part).value_at(values, field) for part in W.cleared()))
+    above, below = map(over_parameters, W.cleared())
+    return RatFunc(above.value_at(values, field), below.value_at(values, field))

@@ -79,6 +79,17 @@ def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], fiel
     return [parts[k].value_at(values, field) if k in parts else field.poly([]) for k in range(max(parts) + 1)]
 
 
+def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
+    """The field of the other parameters, Q if there are none, and all of them as its elements: 0 for number i."""
+    others = tuple(name for name in names if name != names[i])
+    if not others:
+        return QQ, [QQ.poly([0])]
+    field = FunctionField(others)
+    values: list[Poly] = [field.generator(name) for name in others]
+    values.insert(i, field.poly([0]))
+    return field, values
+
+
 def constant_term(function: Poly) -> Fraction:
     """That of the Laurent series at 0 of a function of the parameters."""
     return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)

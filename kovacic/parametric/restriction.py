@@ -12,15 +12,17 @@ larger space that is right at all of its points is right on the slice, and if it
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, combinations, count
 from math import gcd
+from typing import NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.factors import product
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
@@ -90,21 +92,37 @@ def generic_conditions(answer: Answer) -> GenericConditions:
     >>> print(generic_conditions(kovacic.solve("(m^2*x^4 + (2*n + 1)*m*x^2 + n^2 - n)/x^2")))
     m != 0, n != 0, n - 1 != 0, sqrt(4*n^2 - 4*n + 1) isn't rational
     """
-    field = answer.S.field
-    if field.ground == QQ or answer.assumed:
+    if answer.S.field.ground == QQ or answer.assumed:
         return GenericConditions((), ())
     problem = analyse(answer.S, Budget())
-    changes = [structure_changes(problem)]
-    riccati = answer.decision.riccati
+    changes = [structure_changes(problem), *_changes_of_riccati(answer)]
     constants = answer.constants
-    if riccati is not None:
-        for polynomial in (riccati.P, riccati.D, *riccati.numerators):
-            changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))
-    squares = [p.delta_squared for p in problem.places if p.kind is Kind.REGULAR and p.delta_squared is not None]
-    irrational = [_down(square) for square in squares if field.rational_value(square) is None]
-    return GenericConditions(tuple(union(changes)), tuple(union([irrational])))
+    return GenericConditions(tuple(union(changes)), tuple(union([_irrational_squares(problem)])))
+
+
+def _changes_of_riccati(answer: Answer) -> list[list[FunctionPoly]]:
+    """Where a polynomial in omega's equation isn't defined."""
+    riccati = answer.decision.riccati
+    if riccati is None:
+        return []
+    found = []
+    for polynomial in (riccati.P, riccati.D, *riccati.numerators):
+        found += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
+    return found
+
+
+def _irrational_squares(problem: Problem) -> list[FunctionPoly]:
+    """Of the exponent differences at regular places, those that depend on the parameters."""
+    found = []
+    for place in problem.places:
+        square = place.delta_squared
+        if place.kind is not Kind.REGULAR or square is None:
+            continue
+        if problem.field.rational_value(square) is None:
+            found.append(_down(square))
+    return found
 
 
 def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:
@@ -113,13 +131,18 @@ def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:
         return []
     if isinstance(first, FunctionPoly) and isinstance(second, FunctionPoly):
         return irreducible_factors(element(first.field, first.num.resultant(second.num, 0)))
+    return irreducible_factors(_down(_resultant(first, second)))
+
+
+def _resultant(first: Poly, second: Poly) -> Poly:
+    """By Euclid's algorithm, up to a factor in Q."""
     total: Poly = first.field.poly([1])
-    while second.degree > 0:  # Euclid's algorithm, up to a factor in Q
+    while second.degree > 0:
         rest = first % second
         total = total * second.lc ** max(first.degree - rest.degree, 0)
         first = second
         second = rest
-    return irreducible_factors(_down(total * second ** max(first.degree, 0)))
+    return total * second ** max(first.degree, 0)
 
 
 def _down(constant: Poly) -> FunctionPoly:
@@ -134,24 +157,34 @@ NO_CONSTANT = ParameterPoint((), ())
 
 
 @dataclass(frozen=True)
+class Curve:
+    """The parameter of a curve: its name, and its value as a function of the original parameters."""
+
+    name: str
+    value: FunctionPoly
+
+
+@dataclass(frozen=True)
 class Hypersurface(ParameterPoint):
     """Where an irreducible polynomial in the parameters vanishes: their values over a field of fewer ones, or an extension.
 
     The zeros of the `leading` functions (of fewer parameters) aren't covered, and `missed` are functions of which one vanishes
-    at each zero that isn't covered.  On a curve with two terms `curve` is its parameter: its name, and itself.
+    at each zero that isn't covered.  On a curve with two terms `curve` is its parameter.
     """
 
     leading: tuple[FunctionPoly, ...] = ()
     missed: tuple[FunctionPoly, ...] = ()
-    curve: tuple[str, FunctionPoly] | None = None
+    curve: Curve | None = None
 
     def back(self, function: FunctionPoly) -> FunctionPoly:
         """A function of the parameter of the curve, and of others, in the original parameters."""
         if self.curve is None:
             return function
-        (T, parameter), names = self.curve, function.field.names
-        values = [parameter if name == T else parameter.field.generator(name) for name in names]
-        return over_parameters(function.value_at(values, parameter.field))
+        field = self.curve.value.field
+        values = {name: field.generator(name) for name in field.names}
+        values[self.curve.name] = self.curve.value
+        chosen = [values[name] for name in function.field.names]
+        return over_parameters(function.value_at(chosen, field))
 
 
 def hypersurface(function: FunctionPoly) -> Hypersurface:
@@ -167,23 +200,38 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
     names = function.field.names
     powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
-    i = min(leading, key=lambda i: (powers[i], _complexity(leading[i]) if powers[i] == 1 else ()))
-    rest = FunctionField(tuple(name for name in names if name != names[i]))
-    smaller: Field = rest if rest.names else QQ
-    values = [rest.generator(name) if name in rest.names else smaller.poly([0]) for name in names]
+    i = _to_be_eliminated(powers, leading)
+    smaller, values = functions.without_parameter(i, names)
     coefficients = functions.coefficients_in(function, i, values, smaller)
     if powers[i] == 1:
         values[i] = -coefficients[0] / coefficients[1]
-        factors = tuple(irreducible_factors(leading[i]))
-        return Hypersurface(names, tuple(values), smaller, factors, factors if len(leading) > 2 else ())
+        uncovered = tuple(irreducible_factors(leading[i]))
+        missed = uncovered if len(leading) > 2 else ()
+        return Hypersurface(names, tuple(values), smaller, uncovered, missed)
     extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), names[i])
     values[i] = extension.generator
     return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
 
 
+def _to_be_eliminated(powers: Sequence[int], leading: Mapping[int, FunctionPoly]) -> int:
+    """The number of the parameter with the lowest power; among linear ones, the one with the simplest coefficient."""
+    linear = [i for i in leading if powers[i] == 1]
+    if linear:
+        return min(linear, key=lambda i: _complexity(leading[i]))
+    return min(leading, key=lambda i: powers[i])
+
+
 def _complexity(coefficient: FunctionPoly) -> tuple[bool, int]:
     """Constants come first, then the shortest."""
     return not coefficient.num.is_constant(), len(coefficient.num)
+
+
+class _PowerTerm(NamedTuple):
+    """coefficient * t_i^power, i the number of a parameter."""
+
+    i: int
+    power: int
+    coefficient: int
 
 
 def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
@@ -192,38 +240,48 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
     T is a monomial in u and v, which isn't defined at u = v = 0.
     """
     names = function.field.names
-    powers = _powers_of_parameters(function)
-    if powers is None or len(powers) != 2:
+    terms = _powers_of_parameters(function)
+    if terms is None or len(terms) != 2:
         return None
-    (i, p, A), (j, q, B) = powers
+    (i, p, A), (j, q, B) = terms
     if i == j or min(p, q) < 2 or gcd(p, q) > 1:
         return None
-    letters = chain(["T"], map("T{}".format, count(1)))
-    name = next(letter for letter in letters if letter not in names)
-    field = FunctionField((*(n for k, n in enumerate(names) if k not in (i, j)), name))
-    T = field.generator(name)
+    others = tuple(name for name in names if name not in (names[i], names[j]))
+    letter = _unused_letter(names)
+    field = FunctionField((*others, letter))
+    T = field.generator(letter)
     s = pow(p, -1, q)
     r = -s % q
     # A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q).
     alpha = Fraction(A) ** r * Fraction(-B) ** s
     beta = Fraction(A) ** ((1 + r * p) // q) * Fraction(-B) ** ((s * p - 1) // q)
-    values: list[Poly] = [field.generator(n) if n in field.names else T for n in names]
-    values[i] = T**q * alpha
-    values[j] = T**p * beta
-    u, v = (function.field.generator(names[k]) for k in (i, j))
+    values: dict[str, Poly] = {name: field.generator(name) for name in others}
+    values[names[i]] = T**q * alpha
+    values[names[j]] = T**p * beta
+    u = function.field.generator(names[i])
+    v = function.field.generator(names[j])
     a = pow(q, -1, p)
     parameter = (u / alpha) ** a / (v / beta) ** ((a * q - 1) // p)
-    return Hypersurface(names, tuple(values), field, (T,), (u if i < j else v,), (name, parameter))
+    first = u if i < j else v
+    ordered = tuple(values[name] for name in names)
+    return Hypersurface(names, ordered, field, (T,), (first,), Curve(letter, parameter))
 
 
-def _powers_of_parameters(function: FunctionPoly) -> list[tuple[int, int, int]] | None:
-    """(k, n, c) for each term c t_k^n; None where a term isn't a power of one parameter."""
+def _unused_letter(names: Collection[str]) -> str:
+    """T, or the first of T1, T2, ... that isn't one of the names."""
+    letters = chain(["T"], map("T{}".format, count(1)))
+    return next(letter for letter in letters if letter not in names)
+
+
+def _powers_of_parameters(function: FunctionPoly) -> list[_PowerTerm] | None:
+    """The terms; None where one of them isn't a power of one parameter."""
     found = []
     for exponents, coefficient in function.num.to_dict().items():
-        powers = [(k, int(n)) for k, n in enumerate(exponents[1:]) if n]
+        powers = [(i, int(n)) for i, n in enumerate(exponents[1:]) if n]
         if exponents[0] or len(powers) != 1:
             return None
-        found.append((*powers[0], int(coefficient)))
+        ((i, power),) = powers
+        found.append(_PowerTerm(i, power, int(coefficient)))
     return found
 
 
