@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import islice
@@ -28,7 +28,7 @@ from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line, said_of
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
@@ -295,7 +295,9 @@ class ParametricAnswer:
         region = self.region_of(point)
         if region is not None:
             return region.verdict if region.defined else None
-        return self.generic if self.complete is True else RegionVerdict(self.generic.structure, known=False)
+        if self.complete is True:
+            return self.generic
+        return RegionVerdict(self.generic.structure, known=False)
 
     def point(self, values: Mapping[Any, Any]) -> ParameterPoint:
         """The values of the parameters as constants of one field.
@@ -323,11 +325,7 @@ class ParametricAnswer:
         n = 3/2
         """
         given = {str(name): value for name, value in values.items()}
-        missing = ", ".join(name for name in self.parameters if name not in given)
-        unknown = ", ".join(name for name in given if name not in self.parameters)
-        if missing or unknown:
-            hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
-            raise InputError(f"values are needed for {', '.join(self.parameters)}", hint=hint)
+        _check_names(given, self.parameters)
         point = _point(self.parameters, [given[name] for name in self.parameters], self.constant, self.limits)
         for name, value in zip(point.names, point.values, strict=True):
             if not self.assumptions.of(name).admits(value):
@@ -359,25 +357,39 @@ class ParametricAnswer:
         samples = whole(samples, "samples")
         seed = whole(seed, "seed", least=None)
         budget = Budget(self.limits)
-        statements = [region.statement for region in self.regions]
         counts = Counter[str](inside=0, outside=0, open=0)
         disagreements = list[Disagreement]()
-        sampler = Sampler(self.constant, self.parameters, self.assumptions, Random(seed))
-        points = (point for point in islice(sampler.points(statements), 20 * samples) if point is not None)
         with budget.watched(), suppress(LimitExceeded):
-            while counts.total() < samples and (point := next(points, None)) is not None:
+            for point in self._sampled(20 * samples, Random(seed)):
                 predicted = self.predicted(point)
                 if predicted is None:
                     continue
-                if not predicted.known:
-                    counts["open"] += 1
-                    continue
-                is_inside = self.region_of(point) is not None
-                counts["inside" if is_inside else "outside"] += 1
-                decision = decide(point.restricted(self.S), budget, certify=False)
-                if decision.status is not Status.UNDECIDED and decision.case != predicted.case:
-                    disagreements.append(Disagreement(str(point), predicted.case, decision.case))
+                counts[self._where(point, predicted)] += 1
+                if predicted.known:
+                    disagreements += self._disagreements(point, predicted, budget)
+                if counts.total() == samples:
+                    break
         return CheckReport(**counts, disagreements=tuple(disagreements))
+
+    def _sampled(self, attempts: int, random: Random) -> Iterator[ParameterPoint]:
+        """The points that so many attempts give."""
+        sampler = Sampler(self.constant, self.parameters, self.assumptions, random)
+        for point in islice(sampler.points([region.statement for region in self.regions]), attempts):
+            if point is not None:
+                yield point
+
+    def _where(self, point: ParameterPoint, predicted: RegionVerdict) -> str:
+        """Inside of a region, outside of them, or open where nothing is claimed."""
+        if not predicted.known:
+            return "open"
+        return "outside" if self.region_of(point) is None else "inside"
+
+    def _disagreements(self, point: ParameterPoint, predicted: RegionVerdict, budget: Budget) -> list[Disagreement]:
+        """None where the engine finds the case that is predicted, or can't decide."""
+        decision = decide(point.restricted(self.S), budget, certify=False)
+        if decision.status is Status.UNDECIDED or decision.case == predicted.case:
+            return []
+        return [Disagreement(str(point), predicted.case, decision.case)]
 
     def to_json(self) -> str:
         """One line of JSON: parameters, generic, regions.
@@ -462,21 +474,19 @@ class ParametricAnswer:
             if not all(name.isidentifier() for name in (*names, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
             reader = StatementReader(FunctionField((*names, *constant.names)))
-            regions = tuple(
-                ParameterRegion(
-                    reader.statement(region["statement"]),
-                    RegionVerdict.from_dict(region["verdict"]),
-                    **{name: region[name] for name in ("complete", "defined")},
-                    determinants=tuple(region.get("determinants", ())),
-                )
-                for region in data["regions"]
+            return cls(
+                variable=variable,
+                parameters=names,
+                regions=tuple([_region_from(region, reader) for region in data["regions"]]),
+                generic=RegionVerdict.from_dict(data["generic"]["verdict"]),
+                complete=data["complete"],
+                theory=data["theory"],
+                assumptions=read_assumptions(data["assumptions"] or None, None, names),
+                S=reader.function(data["S"], variable),
+                notices=tuple(data["notices"]),
+                constant=constant,
+                equation=equation_from(data.get("equation"), variable, names),
             )
-            claim = (RegionVerdict.from_dict(data["generic"]["verdict"]), regions, data["complete"], data["theory"])
-            known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
-            S = reader.function(data["S"], variable)
-            notices = tuple(data["notices"])
-            equation = equation_from(data.get("equation"), variable, names)
-            return cls(S, variable, names, *claim, DEFAULT_LIMITS, notices, known, constant, equation)
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None
 
@@ -506,7 +516,11 @@ class ParametricAnswer:
 
     @property
     def _where_generic(self) -> str:
-        words = ["otherwise"] * bool(self.regions) + ["for generic values"] * (self.complete is not True)
+        words = []
+        if self.regions:
+            words.append("otherwise")
+        if self.complete is not True:
+            words.append("for generic values")
         return ", ".join(words) or "always"
 
     def _repr_latex_(self) -> str:
@@ -597,10 +611,12 @@ class ParametricAnswer:
         if self.equation is not None and self.equation.change is not None:
             lines.append(f"  cases and groups over {self.equation.change.field}")
         regions = in_one_line(self.regions)
-        number = len(regions) if all or len(regions) <= _SCREEN + 1 else _SCREEN
-        lines += [f"  {region}" for region in regions[:number]]
-        if number < len(regions):
-            lines.append(f"  ... and {len(regions) - number} more regions: text(all=True), or --all")
+        shown = regions
+        if not all and len(regions) > _SCREEN + 1:
+            shown = regions[:_SCREEN]
+        lines += [f"  {region}" for region in shown]
+        if len(shown) < len(regions):
+            lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
         lines.append(f"  {self._where_generic}: {self.generic}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
         lines.append(f"  ({complete}; {self.theory})")
@@ -624,7 +640,7 @@ class ParametricAnswer:
         """
         lines = [self.text(all=True)]
         for region in self.regions:
-            lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]
+            lines += ["", f"{region.statement.text()}: {said_of(region)}"]
             lines += [f"  {line}" for line in _solutions_of(region)]
         return visible("\n".join(lines))
 
@@ -639,26 +655,50 @@ class ParametricAnswer:
 
 def _solutions_of(region: ParameterRegion) -> list[str]:
     """Those that are known in all of the region, and those for the first natural numbers; in case 1 why there is none."""
-    known = [str(solution) for solution in region.solution()]
+    known = [*region.solution()]
     for number in range(len(region.determinants)):
-        known += [str(solution) for solution in region.solution(number)]
-    return [region.why_no_solution] if not known and region.case == 1 else known
+        known += region.solution(number)
+    if region.case == 1 and not known:
+        return [region.why_no_solution]
+    return [*map(str, known)]
+
+
+def _region_from(data: Mapping[str, Any], reader: StatementReader) -> ParameterRegion:
+    """What `ParameterRegion.to_dict` wrote."""
+    return ParameterRegion(
+        reader.statement(data["statement"]),
+        RegionVerdict.from_dict(data["verdict"]),
+        complete=data["complete"],
+        defined=data["defined"],
+        determinants=tuple(data.get("determinants", ())),
+    )
+
+
+def _check_names(given: Collection[str], parameters: Collection[str]) -> None:
+    """Raises `InputError` unless each parameter has a value, and nothing else has one."""
+    missing = ", ".join(name for name in parameters if name not in given)
+    unknown = ", ".join(name for name in given if name not in parameters)
+    if missing or unknown:
+        hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
+        raise InputError(f"values are needed for {', '.join(parameters)}", hint=hint)
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
     """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
     read = read_input(_in_one_polynomial(values, limits), var="x_", limits=limits).S
-    if not read.is_polynomial or read.num.degree >= len(values) or read.field.ground != QQ:
+    are_numbers = read.is_polynomial and read.num.degree < len(values)
+    if not are_numbers or read.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
     numbers = [read.num[k] for k in range(len(values))]
     field = read.field
+    together = (*names, *constant.names)
     if field == QQ:
-        field = constant.field
         numbers = [number.over(constant.field) for number in numbers]
-    elif isinstance(constant.field, AlgebraicField):
+        return ParameterPoint(together, (*numbers, *constant.values), constant.field)
+    if isinstance(constant.field, AlgebraicField):
         *numbers, root = with_root(numbers, field, constant.field, limits)
-        return ParameterPoint((*names, *constant.names), (*numbers, root), root.field)
-    return ParameterPoint((*names, *constant.names), (*numbers, *constant.values), field)
+        return ParameterPoint(together, (*numbers, root), root.field)
+    return ParameterPoint(together, (*numbers, *constant.values), field)
 
 
 def _in_one_polynomial(values: list[Any], limits: Limits) -> Any:

@@ -69,20 +69,28 @@ class Sampler:
             yield point
 
     def _point(self, statement: Statement | None) -> ParameterPoint | None:
-        """A point at which the statement holds; None if none was found."""
+        """A point at which the statement holds, any one without a statement; None if none was found."""
         values = dict(zip(self.start.names, self.start.values, strict=True))
         values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
         field = self.start.field
-        free = list(self.names)
-        try:
-            for function in reversed(statement.sample(self.random)) if statement else ():
-                field = self._solve_for_zero(function, values, field, free)
-        except (ZeroDivisionError, ValueError):
+        if statement is not None:
+            try:
+                field = self._solve(statement.sample(self.random), values)
+            except (ZeroDivisionError, ValueError):
+                return None
+        in_one_field = tuple(value.over(field) for value in values.values())
+        point = ParameterPoint((*self.start.names, *self.names), in_one_field, field)
+        if statement is not None and not statement.holds(point):
             return None
-        point = ParameterPoint(
-            (*self.start.names, *self.names), tuple(value.over(field) for value in values.values()), field
-        )
-        return point if statement is None or statement.holds(point) else None
+        return point
+
+    def _solve(self, functions: Sequence[FunctionPoly], values: dict[str, Poly]) -> Field:
+        """Choose a parameter for each function so that it vanishes, the last function first; the field of all values."""
+        field = self.start.field
+        free = list(self.names)
+        for function in reversed(functions):
+            field = self._solve_for_zero(function, values, field, free)
+        return field
 
     def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:
         """Choose one free parameter so that the function vanishes; the field of all values.  `ValueError` if none does it."""
@@ -96,11 +104,17 @@ class Sampler:
             if equation.degree < 1:
                 continue
             factor = self.random.choice([f for f, _ in field.factor(equation)])
-            value: Poly | None = -factor[0] if factor.degree == 1 else None
-            if value is None and field == QQ and len(free) == len(names) == 1:
-                value = AlgebraicField(QQ, factor, "alpha").generator
+            is_alone = len(free) == len(names) == 1
+            value = _root(factor, adjoined=is_alone and field == QQ)
             if value is not None:
                 values[name] = value
                 free.remove(name)
                 return value.field
         raise ValueError("no parameter can be chosen")
+
+
+def _root(factor: Poly, *, adjoined: bool) -> Poly | None:
+    """Of an irreducible polynomial, in its field, or in an extension if one may be adjoined."""
+    if factor.degree == 1:
+        return -factor[0]
+    return AlgebraicField(QQ, factor, "alpha").generator if adjoined else None

@@ -50,7 +50,8 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
     if isinstance(statement, Both | Either):
         parts = [statement_data(part) for part in statement.parts]
-        return {"kind": "and" if isinstance(statement, Both) else "or", "parts": parts}
+        kind = "and" if isinstance(statement, Both) else "or"
+        return {"kind": kind, "parts": parts}
     raise TypeError(f"{type(statement).__name__} isn't a kind of statement that is written")
 
 
@@ -69,12 +70,14 @@ def _congruence_data(statement: Congruence) -> dict[str, Any]:
 
 def _natural_data(statement: Natural) -> dict[str, Any]:
     letter = statement.letter
-    factors = statement.factors
+    equations = None
+    if statement.factors is not None:
+        equations = [factor.to_str(letter) for factor in statement.factors]
     x = free_letter(parameters_of(statement.S.field), "xzt")
     return {
         "kind": "natural number",
         "unknown": letter,
-        "equations": None if factors is None else [factor.to_str(letter) for factor in factors],
+        "equations": equations,
         "degree": statement.m,
         "structure": statement.structure.value,
         "variable": x,
@@ -123,7 +126,9 @@ def _in_order(function: RatFunc, names: tuple[str, ...]) -> RatFunc:
         raise InputError("the parameters of an equation with an algebraic constant are in another order")
     ordered = FunctionField(names)
     values = [ordered.generator(name) for name in base.names]
-    return RatFunc(*(over_parameters(part).value_at(values, ordered) for part in (function.num, function.den)))
+    num = over_parameters(function.num).value_at(values, ordered)
+    den = over_parameters(function.den).value_at(values, ordered)
+    return RatFunc(num, den)
 
 
 def constant_data(constant: ParameterPoint) -> dict[str, Any]:

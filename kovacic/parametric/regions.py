@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import count, groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
@@ -114,8 +114,9 @@ class RegionVerdict:
         >>> RegionVerdict.from_dict(generic.to_dict()) == generic
         True
         """
-        structure = data["structure"]
-        return cls(None if structure is None else Structure(structure), data["known"], data["family"])
+        name = data["structure"]
+        structure = None if name is None else Structure(name)
+        return cls(structure, data["known"], data["family"])
 
     @property
     def case(self) -> int | None:
@@ -130,7 +131,9 @@ class RegionVerdict:
     @property
     def group_written(self) -> str:
         """The same with formulas between backquotes."""
-        return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
+        if not self.known:
+            return "not determined"
+        return self.family or _GROUPS[self.structure]
 
     def __str__(self) -> str:
         if not self.known:
@@ -241,7 +244,8 @@ class ParameterRegion:
     @property
     def plain(self) -> bool:
         """Is there nothing to say beside the statement and the case?"""
-        return self.defined and self.complete is True and self.verdict.known and not self.determinants
+        is_proven = self.complete is True and self.verdict.known
+        return self.defined and is_proven and not self.determinants
 
     def to_dict(self) -> dict[str, Any]:
         """The region's part of the JSON object.
@@ -258,21 +262,34 @@ class ParameterRegion:
         >>> region.to_dict()["condition"], region.to_dict()["case"]
         ('n - 1/2 in Z', 1)
         """
-        names = ("case", "group", "complete", "defined")
-        data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
-        data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
-        return data | ({"determinants": list(self.determinants)} if self.determinants else {})
+        data: dict[str, Any] = {
+            "condition": self.statement.text(),
+            "case": self.case,
+            "group": self.group,
+            "complete": self.complete,
+            "defined": self.defined,
+            "statement": statement_data(self.statement),
+            "verdict": self.verdict.to_dict(),
+        }
+        if self.determinants:
+            data["determinants"] = list(self.determinants)
+        return data
 
     def __repr__(self) -> str:
-        return f"<ParameterRegion {self.statement.text()}: {self.verdict if self.defined else self.group}>"
+        return f"<ParameterRegion {self.statement.text()}: {said_of(self)}>"
 
     def _repr_latex_(self) -> str:
-        return rf"${self.statement.latex()}\colon\ \text{{{self.verdict if self.defined else self.group}}}$"
+        return rf"${self.statement.latex()}\colon\ \text{{{said_of(self)}}}$"
 
     def __str__(self) -> str:
         known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
-        first = f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
+        first = f"{self.statement.text()}: {said_of(self)}{known}"
         return "\n      ".join([first, *self.determinants])
+
+
+def said_of(region: ParameterRegion) -> str:
+    """What holds in a region in words: the case, or that S isn't defined."""
+    return str(region.verdict) if region.defined else region.group
 
 
 @dataclass(frozen=True)
@@ -290,18 +307,38 @@ def _mirrored(regions: Sequence[ParameterRegion]) -> Iterator[ParameterRegion]:
     Regions in a row that begin with the same vanishing function are a block.  Two blocks in a row that differ in that function
     alone mean the same as one of either: at a point of both, the first of their common conditions that holds decides.
     """
-    merged: list[tuple[list[Statement], list[ParameterRegion]]] = []
+    blocks: list[_Block] = []
     for first, group in groupby(regions, key=_first_part):
-        block = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
-        if merged and _is_mirrored(*merged[-1], first, block):
-            merged[-1][0].append(first)
+        inner = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
+        if blocks and blocks[-1].takes(first, inner):
+            blocks[-1].firsts.append(first)
         else:
-            merged.append(([first], block))
-    for firsts, block in merged:
-        has_more = any(both(region.statement).parts for region in block)
-        for region in _mirrored(block) if has_more else block:
-            parts = (either(*firsts), *both(region.statement).parts)
-            yield replace(region, statement=Both(parts) if len(parts) > 1 else parts[0])
+            blocks.append(_Block([first], inner))
+    for block in blocks:
+        yield from block.complete()
+
+
+@dataclass
+class _Block:
+    """Regions in a row that begin with one of the `firsts`; `regions` are without this beginning."""
+
+    firsts: list[Statement]
+    regions: list[ParameterRegion]
+
+    def takes(self, first: Statement, regions: list[ParameterRegion]) -> bool:
+        """Can another block be added: do both begin with functions that vanish, and say the same otherwise?"""
+        are_functions = isinstance(first, Vanishes) and isinstance(self.firsts[-1], Vanishes)
+        return are_functions and self.regions == regions
+
+    def complete(self) -> Iterator[ParameterRegion]:
+        """The regions with their beginning."""
+        regions: Iterable[ParameterRegion] = self.regions
+        if any(both(region.statement).parts for region in self.regions):
+            regions = _mirrored(self.regions)
+        for region in regions:
+            parts = (either(*self.firsts), *both(region.statement).parts)
+            statement = Both(parts) if len(parts) > 1 else parts[0]
+            yield replace(region, statement=statement)
 
 
 def _first_part(region: ParameterRegion) -> Statement:
@@ -309,24 +346,24 @@ def _first_part(region: ParameterRegion) -> Statement:
     return next(iter(both(region.statement).parts), ALWAYS)
 
 
-def _is_mirrored(
-    firsts: Sequence[Statement], last: Sequence[ParameterRegion], first: Statement, block: Sequence[ParameterRegion]
-) -> bool:
-    """Do two blocks begin with functions that vanish, and say the same otherwise?"""
-    return isinstance(first, Vanishes) and isinstance(firsts[-1], Vanishes) and block == last
-
-
 def in_one_line(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions, with those in a row that have the same case in one, where that is short."""
     found: list[ParameterRegion] = []
     for region in _mirrored(regions):
-        last = found[-1] if found else None
-        if last is not None and last.plain and region.plain and last.case == region.case:
-            together = _together(last.statement, region.statement)
-            if together is not None:
-                region = replace(found.pop(), statement=together)
-        found.append(region)
+        joined = _joined(found[-1], region) if found else None
+        if joined is None:
+            found.append(region)
+        else:
+            found[-1] = joined
     return found
+
+
+def _joined(last: ParameterRegion, region: ParameterRegion) -> ParameterRegion | None:
+    """Two regions in one, where nothing but the same case is said in them."""
+    if not last.plain or not region.plain or last.case != region.case:
+        return None
+    statement = _together(last.statement, region.statement)
+    return None if statement is None else replace(last, statement=statement)
 
 
 def _together(first: Statement, second: Statement) -> Statement | None:
@@ -352,13 +389,23 @@ def without_implied(statement: Statement) -> Statement:
         return statement
     parts = [*statement.parts]
     for part in statement.parts:
-        functions = tuple(other.function for other in parts if isinstance(other, Vanishes) and other is not part)
-        if not isinstance(part, Vanishes) or len(functions) < 2:
-            continue
-        chart = _common_zeros(functions)
-        if chart is not None and holds_on(part, chart, NOTHING_ASSUMED):
+        if isinstance(part, Vanishes) and _follows(part, [other for other in parts if other is not part]):
             parts.remove(part)
     return Both(tuple(parts))
+
+
+def _follows(statement: Vanishes, others: Iterable[Statement]) -> bool:
+    """Does the function provably vanish where those of the others do, two or more?"""
+    functions = _vanishing(others)
+    if len(functions) < 2:
+        return False
+    chart = _common_zeros(functions)
+    return chart is not None and holds_on(statement, chart, NOTHING_ASSUMED)
+
+
+def _vanishing(statements: Iterable[Statement]) -> tuple[FunctionPoly, ...]:
+    """The functions of those that say that one vanishes."""
+    return tuple(statement.function for statement in statements if isinstance(statement, Vanishes))
 
 
 def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
@@ -368,46 +415,67 @@ def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     for region in regions:
         check_time()
         said = {str(statement_data(part)) for part in both(region.statement).parts}
-        if any(known <= said for known in seen):
+        says_more = any(known <= said for known in seen)
+        if says_more or _is_covered(region, kept):
             continue
-        charts = _charts(region.statement)
-        if not charts or not all(any(holds_on(r.statement, *chart) for r in kept) for chart in charts):
-            seen.append(said)
-            kept.append(region)
+        seen.append(said)
+        kept.append(region)
     return kept
 
 
-def _charts(statement: Statement) -> list[tuple[ParameterPoint, Assumptions]]:
-    """Values that are all of those at which the statement holds, and maybe more, with what is known of their parameters.
+def _is_covered(region: ParameterRegion, earlier: Sequence[ParameterRegion]) -> bool:
+    """Are its values known, and does at all values of a chart one of the earlier regions' statements hold?"""
+    charts = _charts(region.statement)
+    if not charts:
+        return False
+    return all(any(holds_on(other.statement, *chart) for other in earlier) for chart in charts)
+
+
+class _Chart(NamedTuple):
+    """Values of the parameters as functions of others, and what is known of these."""
+
+    values: ParameterPoint
+    known: Assumptions
+
+
+def _charts(statement: Statement) -> list[_Chart]:
+    """Values that are all of those at which the statement holds, and maybe more.
 
     They are functions of fewer parameters, or of one more, an integer k.  [] where none are known.
     """
-    functions = tuple(part.function for part in both(statement).parts if isinstance(part, Vanishes))
+    functions = _vanishing(both(statement).parts)
     if len(functions) > 1:
         chart = _common_zeros(functions)
-        return [] if chart is None else [(chart, NOTHING_ASSUMED)]
-    charts: list[tuple[ParameterPoint, Assumptions]] = []
+        return [] if chart is None else [_Chart(chart, NOTHING_ASSUMED)]
+    charts: list[_Chart] = []
     for part in _alternatives(statement):
-        if not isinstance(part, Congruence) or part.form is not None or not families(part.equation):
+        if not isinstance(part, Congruence) or not _is_spectrum(part):
             return []
         charts += _of_integers(part)
     return charts
 
 
-def _of_integers(statement: Congruence) -> list[tuple[ParameterPoint, Assumptions]]:
+def _is_spectrum(statement: Congruence) -> bool:
+    """Is it an equation for an integer, not a form, that can be solved for a parameter?"""
+    return statement.form is None and bool(families(statement.equation))
+
+
+def _of_integers(statement: Congruence) -> list[_Chart]:
     """One parameter as a function of an integer k, which is a new parameter, for each of the classes."""
-    name, f = families(statement.equation)[0]
+    solved, f = families(statement.equation)[0]
     names = statement.equation.field.names
     k = next(name for name in map("k{}".format, count()) if name not in names)
     field = FunctionField((*names, k))
-    chart = ParameterPoint(names, tuple(map(field.generator, names)), field)
-    above, below = (chart.at(over_parameters(g)) for g in (f.num, f.den))
+    values = {name: field.generator(name) for name in names}
+    chart = ParameterPoint(names, tuple(values.values()), field)
+    above = chart.at(over_parameters(f.num))
+    below = chart.at(over_parameters(f.den))
     known = Assumptions(((k, Known(("integer",))),))
     charts = []
     for residue in statement.residues:
         N = field.generator(k) * statement.modulus + residue
-        values = tuple(above(N) / below(N) if n == name else field.generator(n) for n in names)
-        charts.append((ParameterPoint(names, values, field), known))
+        on_class = {**values, solved: above(N) / below(N)}
+        charts.append(_Chart(ParameterPoint(names, tuple(on_class.values()), field), known))
     return charts
 
 
@@ -415,10 +483,11 @@ def _of_integers(statement: Congruence) -> list[tuple[ParameterPoint, Assumption
 def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
     """Where the functions vanish; None where that isn't one piece."""
     *others, last = functions
-    field = last.field
-    before: ParameterPoint | None = ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)
     if others:
         before = _common_zeros(tuple(others))
+    else:
+        field = last.field
+        before = ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)
     if before is None:
         return None
     try:
@@ -434,19 +503,24 @@ def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
 
 def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:
     """Is it provably true at all of these values?"""
-    if isinstance(statement, Both | Either):
-        return (all if isinstance(statement, Both) else any)(holds_on(part, chart, known) for part in statement.parts)
+    if isinstance(statement, Both):
+        return all(holds_on(part, chart, known) for part in statement.parts)
+    if isinstance(statement, Either):
+        return any(holds_on(part, chart, known) for part in statement.parts)
     try:
         if isinstance(statement, Vanishes):
             return not chart.at(statement.function)
         if isinstance(statement, Congruence):
-            equation = chart.at(statement.equation)
-            for_numbers = statement.holds_for(equation)
-            if for_numbers is not None or not known:
-                return for_numbers is True
-            return (
-                Congruence.make(over_parameters(equation), statement.residues, statement.modulus).decided(known) is True
-            )
+            return _congruence_holds_on(statement, chart, known)
     except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
         pass
     return False
+
+
+def _congruence_holds_on(statement: Congruence, chart: ParameterPoint, known: Assumptions) -> bool:
+    equation = chart.at(statement.equation)
+    for_numbers = statement.holds_for(equation)
+    if for_numbers is not None or not known:
+        return for_numbers is True
+    on_chart = Congruence.make(over_parameters(equation), statement.residues, statement.modulus)
+    return on_chart.decided(known) is True
