@@ -120,10 +120,11 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
     roots: list[tuple[Poly, int]] = []
     room = m
     for place in problem.places:
+        is_regular = place.kind is Kind.REGULAR
         square = place.delta_squared
-        if place.kind is Kind.REGULAR and square is None:
+        if is_regular and square is None:
             continue
-        if place.kind is Kind.REGULAR and square is not None and problem.field.rational_value(square) is None:
+        if is_regular and square is not None and problem.field.rational_value(square) is None:
             largest = m // 2 * place.degree
             roots.append((square, largest))
             room -= largest
@@ -148,7 +149,11 @@ def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankCondition
     chosen = choices_of_degree(problem, d)
     if chosen is None:
         return None
-    return [(e, rank_conditions(_coordinates(e.images(d), e.field, problem.field), problem.field)) for e in chosen]
+    found = []
+    for exponents in chosen:
+        images = _coordinates(exponents.images(d), exponents.field, problem.field)
+        found.append((exponents, rank_conditions(images, problem.field)))
+    return found
 
 
 def has_solution(problem: Problem, d: int) -> bool | None:
@@ -156,7 +161,8 @@ def has_solution(problem: Problem, d: int) -> bool | None:
     chosen = choices_of_degree(problem, d)
     if chosen is None:
         return None
-    return any(has_kernel(_coordinates(e.images(d), e.field, problem.field.ground)) for e in chosen)
+    numbers = problem.field.ground
+    return any(has_kernel(_coordinates(e.images(d), e.field, numbers)) for e in chosen)
 
 
 def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Poly]:
@@ -185,7 +191,10 @@ def _parts(polynomial: Poly, below: Field) -> list[Poly]:
     """The coordinates of a polynomial over a field below its own."""
     if polynomial.field == below:
         return [polynomial]
-    return [leaf for part in polynomial.parts for leaf in _parts(part, below)]
+    found = []
+    for part in polynomial.parts:
+        found += _parts(part, below)
+    return found
 
 
 @dataclass(frozen=True)
@@ -246,19 +255,27 @@ def _singular(problem: Problem) -> list[Place]:
 def _with_rational_points(problem: Problem) -> Problem | None:
     """The same problem over an extension over which its singular points are rational; None where that is too large."""
     base = problem.field
-    while True:
-        factor = next((place.factor for place in problem.finite_places if place.degree > 1), None)
-        if factor is None:
-            return problem
-        field = problem.field
-        if factor.degree == 2:
-            extension = _square_root(factor[1] * factor[1] - 4 * factor[0], field).field
-        else:
-            extension = AlgebraicField(field, factor, "point")
+    factor = _several_points(problem)
+    while factor is not None:
+        extension = _with_a_root(factor, problem.field)
         if _degree_over(extension, base) > _DEGREE:
             return None
         S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
         problem = analyse(S, problem.budget)
+        factor = _several_points(problem)
+    return problem
+
+
+def _several_points(problem: Problem) -> Poly | None:
+    """The first factor of the denominator whose roots aren't in the field; None without any."""
+    return next((place.factor for place in problem.finite_places if place.degree > 1), None)
+
+
+def _with_a_root(factor: Poly, field: Field) -> Field:
+    """The field with a root of an irreducible polynomial, by a square root for degree 2."""
+    if factor.degree == 2:
+        return _square_root(factor[1] * factor[1] - 4 * factor[0], field).field
+    return AlgebraicField(field, factor, "point")
 
 
 def _degree_over(field: Field, base: Field) -> int:
@@ -270,13 +287,13 @@ def _square_root(square: Poly, field: Field) -> Poly:
     root = field.sqrt(square)
     if root is not None:
         return root
+    if field.ground == field and not isinstance(square, FunctionPoly):
+        return adjoined_square_root(field, square)
     outer = field.poly([1])
     inner = square
     if isinstance(square, FunctionPoly):
         outer, inner = square.square_part()
-    if isinstance(square, FunctionPoly) or field.ground != field:
-        return AlgebraicField(field, field.poly([-inner, 0, 1]), f"sqrt({inner.to_str()})").generator * outer
-    return adjoined_square_root(field, square)
+    return AlgebraicField(field, field.poly([-inner, 0, 1]), f"sqrt({inner.to_str()})").generator * outer
 
 
 def _square(place: Place, S: RatFunc) -> Poly:
@@ -305,7 +322,8 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     quotient = _at_infinity(place, S)
     main = root * x**n  # S - main^2 = b x^(n-1) + ..., and omega = +-main + e/x + ... with e = (+-b/a - n)/2
     for k in range(1, n + 1):
-        main = main + (quotient - x * main * main)[2 * n - k + 1] / (2 * root) * x ** (n - k)
+        rest = quotient - x * main * main
+        main = main + rest[2 * n - k + 1] / (2 * root) * x ** (n - k)
     ratio = (quotient - x * main * main)[n] / root
     return [LocalPart(factor, 1 - (sign * ratio - n) / 2, sign * main) for sign in (1, -1)]
 

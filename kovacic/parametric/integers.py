@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import chain, count, product
 from math import ceil, lcm
 from random import Random
+from typing import NamedTuple
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
@@ -55,31 +56,39 @@ class Congruence(Statement):
         A form gets no constant term (in a Laurent series at 0) and coprime coefficients; else the mean of the roots lies in
         (-1, 0] if it is a number, and the classes are symmetric about it if the equation is.
         """
-        Z = equation.field.poly([0, 1])
         classes = {Fraction(r) for r in residues}
         modulus = Fraction(modulus)
         if equation.degree == 1:
-            form, scale, shift = normal_form(-equation[0] / equation[1])
-            equation = over_parameters(Z - form)
-            modulus = abs(modulus * scale)
-            classes = {(residue - shift) * scale for residue in classes}
-            return cls._with_least_modulus(equation, classes, modulus)
-        mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
+            return cls._of_form(-equation[0] / equation[1], classes, modulus)
+        field = equation.field
+        Z = field.poly([0, 1])
+        mean = field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
         if mean is not None:
-            equation = over_parameters(equation(Z + ceil(mean)))
-            classes = {r - ceil(mean) for r in classes}
-            twice = 2 * (mean - ceil(mean))
+            shift = ceil(mean)
+            equation = over_parameters(equation(Z + shift))
+            classes = {residue - shift for residue in classes}
+            twice = 2 * (mean - shift)
             if twice.denominator == 1 and equation(twice - Z) == (-1) ** equation.degree * equation:
-                classes |= {twice - r for r in classes}
+                classes |= {twice - residue for residue in classes}
         return cls._with_least_modulus(equation, classes, modulus)
+
+    @classmethod
+    def _of_form(cls, value: Poly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:
+        """A form of the parameters is congruent to one of the classes: value = form/scale + shift."""
+        form, scale, shift = normal_form(value)
+        equation = over_parameters(form.field.poly([0, 1]) - form)
+        scaled = {(residue - shift) * scale for residue in classes}
+        return cls._with_least_modulus(equation, scaled, abs(modulus * scale))
 
     @classmethod
     def _with_least_modulus(cls, equation: FunctionPoly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:
         """k classes modulo m may be one modulo m/k, which is an integer where the numbers are integers."""
         known = {residue % modulus for residue in classes}
         for k in range(len(known), 1, -1):
+            if equation.degree != 1 and modulus % k != 0:
+                continue
             fewer = {residue % (modulus / k) for residue in known}
-            if len(fewer) * k == len(known) and (equation.degree == 1 or modulus % k == 0):
+            if len(fewer) * k == len(known):
                 return cls(equation, tuple(sorted(fewer)), modulus / k)
         return cls(equation, tuple(sorted(known)), modulus)
 
@@ -94,15 +103,18 @@ class Congruence(Statement):
         return [Coset(residue, self.modulus) for residue in self.residues]
 
     def _holds(self, point: ParameterPoint) -> bool:
-        roots = rational_roots(point.at(self.equation))
-        return any(coset.contains(N) for coset, N in product(self.cosets, roots))
+        return self._has_one_of(rational_roots(point.at(self.equation)))
+
+    def _has_one_of(self, numbers: Iterable[Fraction]) -> bool:
+        """Does one of the numbers lie in one of the classes?"""
+        return any(coset.contains(N) for coset, N in product(self.cosets, numbers))
 
     def holds_for(self, equation: Poly) -> bool | None:
         """Is it true where this is the equation?  None where there are parameters in it."""
         numbers = equation if equation.field.ground == QQ else _without_parameters(equation)
         if numbers is None:
             return None
-        return any(coset.contains(N) for coset, N in product(self.cosets, rational_roots(numbers)))
+        return self._has_one_of(rational_roots(numbers))
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         made = Congruence.make(change(self.equation), self.residues, self.modulus)
@@ -118,10 +130,9 @@ class Congruence(Statement):
         relation = self._relation(other.equation)
         if relation is None:
             return None
-        sign, shift = relation
         common = common_multiple(self.modulus, other.modulus)
         numbers = self._numbers_below(common)
-        numbers += [sign * number + shift for number in other._numbers_below(common)]
+        numbers += [relation.sign * number + relation.shift for number in other._numbers_below(common)]
         made = Congruence.make(self.equation, numbers, common)
         return replace(made, letter=self.letter, fixed=self.fixed)
 
@@ -132,21 +143,22 @@ class Congruence(Statement):
             found += [residue + k * self.modulus for k in range(int(multiple / self.modulus))]
         return found
 
-    def _relation(self, other: FunctionPoly) -> tuple[int, int] | None:
-        """`(sign, shift)` where each root N of the other equation is one, sign N + shift, of this one."""
+    def _relation(self, other: FunctionPoly) -> _Relation | None:
+        """Between the roots of the other equation and those of this one."""
         own = self.equation
-        N = self.equation.field.poly([0, 1])
-        k = self.equation.degree
+        k = own.degree
         if other == own:
-            return 1, 0
+            return _Relation(1, 0)
         if other.degree != k or other.field != own.field:
             return None
+        N = own.field.poly([0, 1])
         for sign in (1, -1):
             shift = own.field.rational_value((own[k - 1] / own.lc - sign * other[k - 1] / other.lc) / -k)
-            if shift is not None and shift.denominator == 1:
-                moved = own(sign * N + int(shift))
-                if moved * other.lc == other * moved.lc:
-                    return sign, int(shift)
+            if shift is None or shift.denominator > 1:
+                continue
+            moved = own(sign * N + int(shift))
+            if moved * other.lc == other * moved.lc:
+                return _Relation(sign, int(shift))
         return None
 
     def decided(self, assumptions: Assumptions) -> bool | None:
@@ -161,17 +173,18 @@ class Congruence(Statement):
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""
+        if self.form is None:
+            return self
         largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
-        known = None if self.form is None else values_at_integers(self.form, largest)
+        known = values_at_integers(self.form, largest)
         if known is None or not assumptions.is_integer(known[0]):
             return self
         name, values = known
-        field = self.equation.field
+        parameter = self.equation.field.generator(name)
         found: list[Statement] = []
         for number, value in values.items():
-            here = Vanishes(over_parameters(field.generator(name) - number))
-            is_in_class = any(coset.contains(value) for coset in self.cosets)
-            if is_in_class and here.decided(assumptions) is not False:
+            here = Vanishes(over_parameters(parameter - number))
+            if self._has_one_of([value]) and here.decided(assumptions) is not False:
                 found.append(here)
         return either(*found)
 
@@ -206,6 +219,13 @@ class Congruence(Statement):
         return f"`{n.function(form)} = {residue} mod {modulus}`"
 
 
+class _Relation(NamedTuple):
+    """N is a root of one equation exactly where sign * N + shift is one of another."""
+
+    sign: int
+    shift: int
+
+
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
     """A name for an integer that isn't one of the names."""
     return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
@@ -214,12 +234,12 @@ def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
 def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Statement:
     """When does a polynomial in N over Q(t) have an integer root in these classes?"""
     classes = {r % modulus for r in residues}
-    symmetric = classes == {-r % modulus for r in classes}  # and then the signs of N say the same
+    is_symmetric = classes == {-r % modulus for r in classes}  # and then the signs of N say the same
     statements: list[Statement] = []
     seen: list[Poly] = []
     field = equation.field
     for factor, _ in field.factor(equation):
-        if symmetric and factor(field.poly([0, -1])).monic() in seen:
+        if is_symmetric and factor(field.poly([0, -1])).monic() in seen:
             continue
         seen.append(factor)
         numbers = _without_parameters(factor)
@@ -245,11 +265,11 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
     """The rational roots of a polynomial over Q or Q(alpha)."""
     common = polynomial
     if isinstance(polynomial, ExtensionPoly):
-        common = polynomial.parts[0]
-        for part in polynomial.parts[1:]:
-            common = common.gcd(part)
+        common = reduce(lambda a, b: a.gcd(b), polynomial.parts)
+    if common.degree < 1:
+        return []
     found: list[Fraction] = []
-    for factor, _ in QQ.factor(common) if common.degree > 0 else ():
+    for factor, _ in QQ.factor(common):
         root = QQ.rational_value(-factor[0]) if factor.degree == 1 else None
         if root is not None:
             found.append(root)

@@ -11,12 +11,13 @@ References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbin
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from random import Random
+from typing import NamedTuple
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
@@ -29,6 +30,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import (
+    Numbers,
     choices_of_degree,
     degrees_of_solutions,
     form_conditions,
@@ -82,7 +84,10 @@ class Determinant:
             return self
         factors: list[FunctionPoly] = []
         for factor in self.factors:
-            factors += irreducible_factors(change(factor)) if factor else [factor]
+            if factor:
+                factors += irreducible_factors(change(factor))
+            else:
+                factors.append(factor)
         return replace(self, factors=tuple(factors), system=tuple(map(change, self.system)))
 
     def holds(self, point: ParameterPoint) -> bool:
@@ -135,7 +140,9 @@ class Natural(Statement):
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
-        return replace(self, S=S, factors=None if self.factors is None else tuple(map(change, self.factors)))
+        if self.factors is None:
+            return replace(self, S=S)
+        return replace(self, S=S, factors=tuple(map(change, self.factors)))
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point, as far as they are listed."""
@@ -154,12 +161,12 @@ class Natural(Statement):
             return _has_form(S, self.m)
         return any(_has_solution(S, number) for number in numbers)
 
-    def _given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
-        """Where the exponents give the number: a polynomial, its zeros, and S there."""
+    def _given(self, number: int) -> Iterator[_Given]:
+        """Where the exponents give the number."""
         for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors or ()):
             surface = hypersurface(exponents)
             with suppress(ZeroDivisionError):
-                yield exponents, surface, surface.restricted(self.S)
+                yield _Given(exponents, surface, surface.restricted(self.S))
 
     def determinants(self, number: int) -> list[Determinant]:
         """Delta for one natural number, for each way in which the exponents give it."""
@@ -203,13 +210,14 @@ class Natural(Statement):
         """In one line: one polynomial where it is the same for all exponents that give the number."""
         found: dict[str, dict[str, None]] = {}
         for determinant in self.determinants(number):
-            found.setdefault(equation_written(determinant.exponents), {})[str(determinant)] = None
+            where = equation_written(determinant.exponents)
+            found.setdefault(where, {})[str(determinant)] = None
         places: dict[str, list[str]] = {}
         for where, texts in found.items():
             places.setdefault(" or ".join(texts), []).append(where)
         values = [*places]
         if len(places) > 1:
-            values = [f"{value} where {' or '.join(where)}" for value, where in places.items()]
+            values = [f"{value} where {' or '.join(wheres)}" for value, wheres in places.items()]
         text = ", ".join(values)
         if len(text) > _WRITTEN_OUT:
             text = f"{text[:_WRITTEN_OUT]}..."
@@ -220,17 +228,17 @@ class Natural(Statement):
         if factor is None or not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
-        found: list[Determinant] = []
-        if self.m == 1:
-            found = [
-                determinant for determinant in self.determinants(number) if determinant.factors or determinant.system
-            ]
+        found = self._that_can_vanish(number) if self.m == 1 else []
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
         if chosen.factors:
             return [chosen.exponents, random.choice(chosen.factors)]
         return [chosen.exponents, *chosen.system]
+
+    def _that_can_vanish(self, number: int) -> list[Determinant]:
+        """The determinants that aren't 1, and have a formula."""
+        return [determinant for determinant in self.determinants(number) if determinant.factors or determinant.system]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         return False if self._possible(assumptions) == () else None
@@ -248,20 +256,25 @@ class Natural(Statement):
     def written(self) -> str:
         factors = self.factors
         if factors is not None and not any(any(degrees(factor)) for factor in factors):
-            numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
-            what = "a solution" if self.m == 1 else f"an invariant of degree {self.m}"
-            zeros = "zero" if numbers == "1" else "zeros"
-            return f"{what} with {numbers} {zeros} exists"
+            return self._with_these_numbers([-f[0] / f[1] for f in factors])
         what = "" if self.m == 1 else f" for an invariant of degree {self.m}"
         return f"{self._numbers_written()}, `{self.letter} in N`, and `Delta_{self.letter} = 0`{what}"
+
+    def _with_these_numbers(self, zeros: Sequence[Poly]) -> str:
+        """That P, or an invariant, with so many zeros exists, where there are no parameters in the equations."""
+        numbers = " or ".join(written(over_parameters(number)) for number in zeros)
+        what = "a solution" if self.m == 1 else f"an invariant of degree {self.m}"
+        noun = "zero" if numbers == "1" else "zeros"
+        return f"{what} with {numbers} {noun} exists"
 
     def _numbers_written(self) -> str:
         """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
         found: list[str] = []
         if self.factors is not None:
             listed = alternatives(self.factors, Notation(self.letter, self.fixed))
+            longest = _WRITTEN_OUT if self.m == 1 else _EQUATIONS
             is_solved = "= 0" not in listed
-            if is_solved and len(text_of(listed)) <= (_WRITTEN_OUT if self.m == 1 else _EQUATIONS):
+            if is_solved and len(text_of(listed)) <= longest:
                 return listed
             found.append(listed)
         sums = self._by_exponents()
@@ -275,41 +288,60 @@ class Natural(Statement):
         numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
         if numbers is None:
             return None
-        field = problem.field
-        d = self.letter
         roots = [_in_parentheses(root_written(square)) for square, _ in numbers.roots]
+        distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         if numbers.only_signs:
-            left = written(over_parameters(field.poly([-numbers.constant, 1])), d)
-            return f"`{left} = +-{' +- '.join(roots)}`"
-        names = [d, *parameters_of(field)]
-        letters: list[str] = []
-        for _ in roots:
-            letters.append(free_letter([*names, *letters], "jkmnl"))
-        terms = [str(numbers.constant), *(f"{k}*{root}" for k, root in zip(letters, roots, strict=True))]
-        terms = [re.sub(r"^(\w+)\*(\d+)\*", r"\2*\1*", term) for term in terms]
-        bounds = [f"`{k}` from -{largest} to {largest}" for k, (_, largest) in zip(letters, numbers.roots, strict=True)]
-        constant = over_parameters(field.poly([-numbers.constant, 1]))
-        has_zero = self.factors is None or constant in self.factors
+            return f"`{written(distance, self.letter)} = +-{' +- '.join(roots)}`"
+        has_constant = self.factors is None or distance in self.factors
+        letters = self._letters_beside(parameters_of(problem.field), len(roots))
         if len(letters) == 1:
-            solved = self._solved_for_a_parameter(numbers.constant, *numbers.roots[0], letters[0], 0 if has_zero else 1)
+            solved = self._solved_for_a_parameter(numbers, letters[0], 0 if has_constant else 1)
             if solved is not None:
                 return solved
-        excluded = ", not 0" if len(letters) == 1 else ", not all 0"
-        without = "" if has_zero else excluded
-        return f"`{d} = {' + '.join(terms)}` for integers {', '.join(bounds)}{without}"
+        terms = [str(numbers.constant)]
+        bounds = []
+        for k, root, (_, largest) in zip(letters, roots, numbers.roots, strict=True):
+            # a factor comes first: 2*k*sqrt(a) for k*2*sqrt(a)
+            terms.append(re.sub(r"^(\w+)\*(\d+)\*", r"\2*\1*", f"{k}*{root}"))
+            bounds.append(f"`{k}` from -{largest} to {largest}")
+        said = f"`{self.letter} = {' + '.join(terms)}` for integers {', '.join(bounds)}"
+        if has_constant:
+            return said
+        return f"{said}, not 0" if len(letters) == 1 else f"{said}, not all 0"
 
-    def _solved_for_a_parameter(self, constant: Fraction, square: Poly, largest: int, j: str, least: int) -> str | None:
-        """(d - constant)^2 = j^2 square, solved for a parameter that is linear in the square; None where there is none."""
-        names = parameters_of(square.field)
+    def _letters_beside(self, names: Sequence[str], count: int) -> list[str]:
+        """So many names of integers that are neither parameters nor d."""
+        letters: list[str] = []
+        for _ in range(count):
+            letters.append(free_letter([self.letter, *names, *letters], "jkmnl"))
+        return letters
+
+    def _solved_for_a_parameter(self, numbers: Numbers, j: str, least: int) -> str | None:
+        """(d - constant)^2 = j^2 square for the only root, solved for a parameter that is linear in the square.
+
+        None where there is none.
+        """
+        ((root_square, largest),) = numbers.roots
+        names = parameters_of(root_square.field)
         field = FunctionField((*names, j))
-        square = over_parameters(over_parameters(square).value_at([field.generator(name) for name in names], field))
+        square = over_parameters(root_square).value_at([field.generator(name) for name in names], field)
         d = field.poly([0, 1])
-        equation = over_parameters((d - constant) ** 2 - field.generator(j) ** 2 * square)
+        equation = over_parameters((d - numbers.constant) ** 2 - field.generator(j) ** 2 * square)
         solved = families(equation, (*self.fixed, j))
-        if not solved or any(_has_others(part, j) for part in (solved[0][1].num, solved[0][1].den)):
+        if not solved:
+            return None
+        name, f = solved[0]
+        if _has_others(f.num, j) or _has_others(f.den, j):
             return None  # where numerator and denominator vanish for some parameters, more would have to be said
-        said = Notation(self.letter).equals(*solved[0])
-        return f"{said} for an integer `{j}` from {least} to {largest}"
+        return f"{Notation(self.letter).equals(name, f)} for an integer `{j}` from {least} to {largest}"
+
+
+class _Given(NamedTuple):
+    """The exponents give a number where a polynomial vanishes: that, its zeros, and S there."""
+
+    exponents: FunctionPoly
+    surface: Hypersurface
+    S: RatFunc
 
 
 def _has_others(part: Poly, j: str) -> bool:

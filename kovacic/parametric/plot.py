@@ -59,16 +59,20 @@ def plot(
     """
     chosen = _chosen(names, parameters, fixed or {})
     grids = _grids(chosen, ranges, steps)
+    columns = grids[0]
     is_map = len(chosen) == 2
+    rows = grids[1] if is_map else None
 
     def colour(*point: Fraction) -> int:
         return LABELS.index(label_at({**(fixed or {}), **dict(zip(chosen, point, strict=True))}))
 
-    rows = [(second,) for second in grids[1]] if is_map else [()]
-    table = [[colour(first, *row) for first in grids[0]] for row in rows]
+    if rows is None:
+        table = [[colour(first) for first in columns]]
+    else:
+        table = [[colour(first, second) for first in columns] for second in rows]
     if axes is None:
         axes = new_axes(6.5, 5.5)
-    handles = draw_cells(axes, grids[0], grids[1] if is_map else None, table, _KINDS)
+    handles = draw_cells(axes, columns, rows, table, _KINDS)
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     axes.set(xlabel=chosen[0])
     if is_map:

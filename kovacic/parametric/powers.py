@@ -5,7 +5,7 @@ On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated; on 4 W + 1 =
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import gcd
 from typing import Any
@@ -15,7 +15,7 @@ import sympy
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.numerals import as_text
-from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.functions import element, irreducible_factors, over_parameters, powers_of
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion
@@ -58,11 +58,10 @@ class _PowersForT:
             return expression.xreplace(values)
 
         conditions = tuple(map(raised, solution.conditions))
-        where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in conditions)
-        is_said = bool(solution.where) and not conditions
-        return PolynomialSolution(
-            raised(solution.y), raised(solution.degree), conditions, solution.where if is_said else where
-        )
+        where = solution.where
+        if conditions or not where:
+            where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in conditions)
+        return PolynomialSolution(raised(solution.y), raised(solution.degree), conditions, where)
 
 
 def in_powers(S: RatFunc) -> InPowers | None:
@@ -70,17 +69,28 @@ def in_powers(S: RatFunc) -> InPowers | None:
     field = S.field
     assert isinstance(field, FunctionField)
     parts = [over_parameters(part) for part in S.cleared()]
-    powers = [gcd(*(k for part in parts for k in powers_of(part, i))) or 1 for i in range(len(field.names))]
+    powers = tuple(_common_power(parts, i) for i in range(len(field.names)))
     if max(powers) == 1:
         return None
-    context = field.context
-    lowered = []
-    for part in parts:
-        terms = {
-            (e[0], *(n // k for n, k in zip(e[1:], powers, strict=True))): c for e, c in part.num.to_dict().items()
-        }
-        lowered.append(FunctionPoly(field, context.from_dict(terms), context.constant(1)))
-    return InPowers(RatFunc(*lowered), tuple(powers))
+    num, den = (_lowered(part, powers) for part in parts)
+    return InPowers(RatFunc(num, den), powers)
+
+
+def _common_power(functions: Sequence[FunctionPoly], i: int) -> int:
+    """The largest k for which parameter number i occurs in powers of t^k only; 1 where it doesn't occur."""
+    occurring: list[int] = []
+    for function in functions:
+        occurring += powers_of(function, i)
+    return gcd(*occurring) or 1
+
+
+def _lowered(function: FunctionPoly, powers: Sequence[int]) -> FunctionPoly:
+    """T for t^k in a polynomial."""
+    terms = {}
+    for (first, *exponents), coefficient in function.num.to_dict().items():
+        lower = [n // k for n, k in zip(exponents, powers, strict=True)]
+        terms[(first, *lower)] = coefficient
+    return element(function.field, function.field.context.from_dict(terms))
 
 
 def _in_factors(statement: Statement) -> Statement:
@@ -94,8 +104,11 @@ def _in_factors(statement: Statement) -> Statement:
     if isinstance(statement, Congruence) and statement.form is None:
         return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
     if isinstance(statement, Natural) and statement.factors is not None:
-        factors = (over_parameters(f) for equation in statement.factors for f, _ in equation.field.factor(equation))
-        return replace(statement, factors=tuple(dict.fromkeys(factors)))
+        factors: dict[FunctionPoly, None] = {}
+        for equation in statement.factors:
+            for factor, _ in equation.field.factor(equation):
+                factors[over_parameters(factor)] = None
+        return replace(statement, factors=tuple(factors))
     return statement
 
 

@@ -28,7 +28,7 @@ from kovacic.equation import Equation
 from kovacic.exact import has_long_numbers
 from kovacic.limits import Budget
 from kovacic.numerals import as_text
-from kovacic.parametric.exponents import Exponents, local_parts
+from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
 from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
@@ -49,12 +49,13 @@ class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
 
     @classmethod
     def eval(cls, n: Any, a: Any, b: Any, z: Any) -> Any:
-        if not (n.is_Integer and n >= -1):
-            return None  # -1 is that of the derivative of a constant
-        terms = [
-            _binomial(n + a, n - s) * _binomial(n + b, s) * ((z - 1) / 2) ** s * ((z + 1) / 2) ** (n - s)
-            for s in range(int(n) + 1)
-        ]
+        """The sum where n is natural; -1 is that of the derivative of a constant."""
+        if not n.is_Integer or n < -1:
+            return None
+        terms = []
+        for s in range(int(n) + 1):
+            coefficient = _binomial(n + a, n - s) * _binomial(n + b, s)
+            terms.append(coefficient * ((z - 1) / 2) ** s * ((z + 1) / 2) ** (n - s))
         return sympy.Add(*terms)
 
     def fdiff(self, argindex: int = 4) -> Any:
@@ -107,9 +108,8 @@ class PolynomialSolution:
 
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
-        return (
-            f"y = {caret(as_text(self.y))} where {self.where or f'{caret(as_text(self.degree))} is a natural number'}"
-        )
+        where = self.where or f"{caret(as_text(self.degree))} is a natural number"
+        return f"y = {caret(as_text(self.y))} where {where}"
 
 
 #: From the degree d, if there is one to be chosen.
@@ -193,20 +193,26 @@ def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, i
         degree = sympy.Integer(1)
         left = list(signs)
         for choices in parts:
-            first = choices[0]
-            last = choices[-1]
-            exponent = first.exponent.to_sympy(x)
-            main = first.main.to_sympy(x)
-            if len(choices) > 1:
-                sign = left.pop(0)
-                other = last.exponent.to_sympy(x)
-                exponent = sympy.factor((exponent + other) / 2) + sign * sympy.factor((exponent - other) / 2)
-                main = sign * main
-            y *= _local_factor(first.factor, exponent, main, x)
+            sign = left.pop(0) if len(choices) > 1 else None
+            exponent, main = _with_sign(choices, sign, x)
+            y *= _local_factor(choices[0].factor, exponent, main, x)
             degree -= exponent
         return PolynomialSolution(y, sympy.expand(degree))
 
     return by_signs, sum(len(choices) > 1 for choices in parts)
+
+
+def _with_sign(choices: Sequence[LocalPart], sign: Any, x: Any) -> tuple[Any, Any]:
+    """Exponent and main part of the first of two choices for the sign 1, of the other one for -1; or of the only one."""
+    first = choices[0]
+    exponent = first.exponent.to_sympy(x)
+    main = first.main.to_sympy(x)
+    if sign is None:
+        return exponent, main
+    other = choices[-1].exponent.to_sympy(x)
+    mean = sympy.factor((exponent + other) / 2)
+    difference = sympy.factor((exponent - other) / 2)
+    return mean + sign * difference, sign * main
 
 
 def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:
@@ -260,8 +266,13 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
 
 def _without_constant(base: Any, x: Any) -> Any:
     """The base of a power times a constant, so that it has no denominator: k x^2 - 1 for x^2 - 1/k."""
-    radicands = [p.base for p in base.atoms(sympy.Pow) if abs(p.exp) == sympy.S.Half]
-    signs = {radicand * sign: sign for radicand in radicands for sign in (1, -1) if (radicand * sign).is_Symbol}
+    signs: dict[Any, int] = {}
+    for power in base.atoms(sympy.Pow):
+        if abs(power.exp) != sympy.S.Half:
+            continue
+        for sign in (1, -1):
+            if (power.base * sign).is_Symbol:
+                signs[power.base * sign] = sign
     roots = {name: sympy.Dummy(positive=True) for name in signs}
     # sqrt(a) is a letter, so that it is no factor of everything: that would vanish where a does.
     in_letters = base.subs({name: signs[name] * root**2 for name, root in roots.items()})
@@ -295,8 +306,11 @@ def _square_root(square: Any) -> Any:
     outside: list[Any] = []
     for factor in sympy.Mul.make_args(square):
         base, k = factor.as_base_exp()
-        is_even = k.is_Integer and k % 2 == 0 and not base.is_number
-        (outside if is_even else inside).append(base ** (k / 2) if is_even else factor)
+        is_even = k.is_Integer and k % 2 == 0
+        if is_even and not base.is_number:
+            outside.append(base ** (k / 2))
+        else:
+            inside.append(factor)
     return sympy.Mul(*outside) * sympy.sqrt(sympy.Mul(*inside))
 
 
@@ -345,11 +359,15 @@ def _text(function: Poly) -> str:
 
 def may_be_natural(degree: Any) -> bool:
     """Is it a natural number, or can it be one for some values of the parameters?"""
-    return bool(degree.free_symbols or (degree.is_Integer and degree >= 0))
+    if degree.free_symbols:
+        return True
+    return bool(degree.is_Integer and degree >= 0)
 
 
 def root(square: Poly) -> Any:
     """The square root of a constant, up to its sign."""
     inside = square.field.sqrt(square)
     x = sympy.Symbol("x")
-    return sympy.sqrt(sympy.factor(square.to_sympy(x))) if inside is None else sympy.expand(inside.to_sympy(x))
+    if inside is not None:
+        return sympy.expand(inside.to_sympy(x))
+    return sympy.sqrt(sympy.factor(square.to_sympy(x)))

@@ -7,9 +7,10 @@ for Schwarz's table, `natural` for determinants.  Nothing here is numerical.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from random import Random
 from typing import ClassVar
 
@@ -115,7 +116,9 @@ class _Several(Statement):
         decisions = {part.decided(assumptions) for part in self.parts}
         if self.decisive in decisions:
             return self.decisive
-        return None if None in decisions else not self.decisive
+        if None in decisions:
+            return None
+        return not self.decisive
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
@@ -147,17 +150,12 @@ class Either(_Several):
         """A common start "n = " or "E = f(n), ", and a common end, from "for" on, are written once."""
         parts = [part.written for part in self.parts]
         if self.is_about_one_value:
-            head = parts[0].partition(" = ")[0]
-            values = [part.partition(" = ")[2].rstrip("`") for part in parts]
-            return f"{head} = {', '.join(values[:-1])}` or `{values[-1]}`"
-        heads, separators, ends = zip(*(part.rpartition(" for ") for part in parts), strict=True)
-        if len(set(ends)) == 1 and all(separators):
-            return f"{' or '.join(heads)} for {ends[0]}"
-        heads, separators, ends = zip(*(part.partition(" with ") for part in parts), strict=True)
-        if len(set(heads)) == 1 and all(separators):
-            return f"{heads[0]} with {' or '.join(ends)}"
+            return _values_of_one(parts)
+        together = _with_common_end(parts) or _with_common_start(parts) or _one_of(parts)
+        if together:
+            return together
         is_long = any(" for " in part or ", " in part for part in parts)
-        return _one_of(parts) or (", or " if is_long else " or ").join(parts)
+        return (", or " if is_long else " or ").join(parts)
 
     @property
     def is_about_one_value(self) -> bool:
@@ -166,18 +164,61 @@ class Either(_Several):
         return len(heads) == 1 and all(isinstance(part, Vanishes) for part in self.parts)
 
 
-def _one_of(parts: list[str]) -> str | None:
+def _values_of_one(parts: Sequence[str]) -> str:
+    """`n = 0, 1` or `2` for `n = 0`, `n = 1`, `n = 2`."""
+    head = parts[0].partition(" = ")[0]
+    values = [part.partition(" = ")[2].rstrip("`") for part in parts]
+    return f"{head} = {', '.join(values[:-1])}` or `{values[-1]}`"
+
+
+def _with_common_end(parts: Sequence[str]) -> str | None:
+    """Where the last "for" is followed by the same in all of them."""
+    split = [part.rpartition(" for ") for part in parts]
+    ends = {end for _, _, end in split}
+    if len(ends) != 1 or not all(separator for _, separator, _ in split):
+        return None
+    return f"{' or '.join(head for head, _, _ in split)} for {ends.pop()}"
+
+
+def _with_common_start(parts: Sequence[str]) -> str | None:
+    """Where the same stands before the first "with" in all of them."""
+    split = [part.partition(" with ") for part in parts]
+    heads = {head for head, _, _ in split}
+    if len(heads) != 1 or not all(separator for _, separator, _ in split):
+        return None
+    return f"{heads.pop()} with {' or '.join(end for _, _, end in split)}"
+
+
+def _one_of(parts: Sequence[str]) -> str | None:
     """That one of several formulas is an integer of some kind; None where another thing is said of one of them."""
-    properties = {"` is ": "", " in Z`": "an integer"}
-    for separator, kind in properties.items():
-        formulas, separators, kinds = zip(*(part.partition(separator) for part in parts), strict=True)
-        simple = all(separators) and len(set(kinds)) == 1 and not any("`" in formula[1:] for formula in formulas)
-        if simple and (len(parts) > 2 or not kind):
-            *first, last = (formula.strip("`") for formula in formulas)
-            listed = ", ".join(f"`{formula}`" for formula in first)
-            one_of = "one of " if first[1:] else ""
-            return f"{one_of}{listed} or `{last}` is {kind or kinds[0]}"
+    known = _of_one_kind(parts, "` is ")
+    if known is not None:
+        formulas, kind = known
+        return f"{_alternatives(formulas)} is {kind}"
+    known = _of_one_kind(parts, " in Z`")
+    if known is not None and len(parts) > 2:
+        return f"{_alternatives(known[0])} is an integer"
     return None
+
+
+def _of_one_kind(parts: Sequence[str], separator: str) -> tuple[list[str], str] | None:
+    """The formulas before the separator, and what follows it; None where that differs, or other formulas stand there."""
+    split = [part.partition(separator) for part in parts]
+    kinds = {kind for _, _, kind in split}
+    if len(kinds) != 1 or not all(found for _, found, _ in split):
+        return None
+    formulas = [formula for formula, _, _ in split]
+    if any("`" in formula[1:] for formula in formulas):
+        return None
+    return formulas, kinds.pop()
+
+
+def _alternatives(formulas: Sequence[str]) -> str:
+    """One of `a`, `b` or `c`."""
+    *first, last = (formula.strip("`") for formula in formulas)
+    listed = ", ".join(f"`{formula}`" for formula in first)
+    one_of = "one of " if len(first) > 1 else ""
+    return f"{one_of}{listed} or `{last}`"
 
 
 class Both(_Several):
@@ -192,22 +233,29 @@ class Both(_Several):
         return None if last is None else replace(self, parts=(*self.parts[:-1], last))
 
     def sample(self, random: Random) -> list[FunctionPoly]:
-        return [function for part in self.parts for function in part.sample(random)]
+        return list(chain.from_iterable(part.sample(random) for part in self.parts))
 
     @cached_property
     def written(self) -> str:
-        parts = [part.written for part in self.parts]
-        for k, part in enumerate(self.parts):
-            if len(parts) > 1 and isinstance(part, Either) and not part.is_about_one_value:
-                parts[k] = f"({parts[k]})"
-        return ", and ".join(parts)
+        if len(self.parts) == 1:
+            return self.parts[0].written
+        return ", and ".join(map(_in_conjunction, self.parts))
+
+
+def _in_conjunction(part: Statement) -> str:
+    """Alternatives are in parentheses, unless they are those of one value."""
+    needs_parentheses = isinstance(part, Either) and not part.is_about_one_value
+    return f"({part.written})" if needs_parentheses else part.written
 
 
 def both(*statements: Statement) -> Both:
     """One statement that says that all of them hold."""
     parts: list[Statement] = []
     for one in statements:
-        parts += one.parts if isinstance(one, Both) else (one,)
+        if isinstance(one, Both):
+            parts += one.parts
+        else:
+            parts.append(one)
     return Both(tuple(parts))
 
 
@@ -220,7 +268,8 @@ def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
     merged: list[Statement] = []
     for one in statements:
-        for part in one.parts if isinstance(one, Either) else (one,):
+        parts = one.parts if isinstance(one, Either) else (one,)
+        for part in parts:
             _add(part, merged)
     return merged[0] if len(merged) == 1 else Either(tuple(merged))
 

@@ -51,9 +51,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import chain
 from math import gcd
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
@@ -85,25 +84,48 @@ class Coordinate:
         return f"{self.base}^{self.n}" if self.base.isidentifier() else f"({self.base})^{self.n}"
 
 
-def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Poly, Poly]]:
-    """Coordinates s, n the largest number for which s^2 S, with S in this coordinate, is num/den in z = s^n; num and den.
+class Symmetric(NamedTuple):
+    """s^2 S = num/den, polynomials in z = s^n, with S in the coordinate s."""
+
+    coordinate: Coordinate
+    num: Poly
+    den: Poly
+
+    def quotient(self, problem: Problem) -> Problem:
+        """v'' = S_z v: s^2 S = n^2 z^2 S_z + (n^2 - 1)/4."""
+        n = self.coordinate.n
+        z = RatFunc(problem.field.poly([0, 1]))
+        return analyse((RatFunc(self.num, self.den) - Fraction(n * n - 1, 4)) / (n * z) ** 2, problem.budget)
+
+
+def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
+    """Coordinates s, n the largest number for which s^2 S, with S in this coordinate, is a function of z = s^n.
 
     They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.  The
     other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
     """
-    S = problem.S
     field = problem.field
     x = RatFunc(field.poly([0, 1]))
-    for pole in (None, *(-place.factor[0] for place in problem.finite_places if place.degree == 1)):
-        moved = S if pole is None else S(1 / x + pole) / x**4
+    rational_poles = [-place.factor[0] for place in problem.finite_places if place.degree == 1]
+    for pole in (None, *rational_poles):
+        moved = problem.S
+        if pole is not None:
+            moved = moved(1 / x + pole) / x**4
         points = moved.den if moved.den.degree else moved.num
         if points.degree < 1:
             continue
         center = -points[points.degree - 1] / (points.lc * points.degree)
-        square = (moved(x + center) if center else moved) * x * x
+        if center:
+            moved = moved(x + center)
+        square = moved * x * x
         n = gcd(*_exponents(square.num), *_exponents(square.den))
-        num, den = (field.poly([f[i] for i in range(0, f.degree + 1, n or 1)]) for f in (square.num, square.den))
-        yield _coordinate(pole, center, n, variable), num, den
+        coordinate = _coordinate(pole, center, n, variable)
+        yield Symmetric(coordinate, _every(n, square.num), _every(n, square.den))
+
+
+def _every(n: int, f: Poly) -> Poly:
+    """f as a polynomial in x^n; a number for n = 0."""
+    return f.field.poly([f[i] for i in range(0, f.degree + 1, n or 1)])
 
 
 def _exponents(f: Poly) -> list[int]:
@@ -122,21 +144,24 @@ def _coordinate(pole: Poly | None, center: Poly, n: int, variable: str) -> Coord
 
 def kimura(problem: Problem, variable: str) -> Theorem | None:
     """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
-    z = RatFunc(problem.field.poly([0, 1]))
-    quotients = (
-        (coordinate, analyse((RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2, problem.budget))
-        for coordinate, num, den in symmetries(problem, variable)
-        if (n := coordinate.n) > 1
-    )
-    for coordinate, equation in (
-        chain([(Coordinate(variable), problem)], quotients) if riemann.is_fuchsian(problem) else ()
-    ):
-        if riemann.is_fuchsian(equation) and riemann.singular_points(equation) <= 3:
-            points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
-            origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
-            name = f"at most three regular {points}: Kimura's theorem"
-            return Theorem(name, restriction.confluence(problem), structures(equation, coordinate.n, origin))
+    if not riemann.is_fuchsian(problem):
+        return None
+    for coordinate, equation in _quotients(problem, variable):
+        if not riemann.is_fuchsian(equation) or riemann.singular_points(equation) > 3:
+            continue
+        points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
+        origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
+        name = f"at most three regular {points}: Kimura's theorem"
+        return Theorem(name, restriction.confluence(problem), structures(equation, coordinate.n, origin))
     return None
+
+
+def _quotients(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Problem]]:
+    """The equation itself, and those that it becomes in z = s^n, n > 1."""
+    yield Coordinate(variable), problem
+    for symmetric in symmetries(problem, variable):
+        if symmetric.coordinate.n > 1:
+            yield symmetric.coordinate, symmetric.quotient(problem)
 
 
 def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRegion]:
@@ -161,24 +186,11 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
     """Equation (1) for signs f, g, h; None where three singular points are conjugate."""
-    x = sympy.Symbol(variable)
     n = coordinate.n
-    base, weight = map(read_expression, (coordinate.base, coordinate.weight))
-    points: list[tuple[Any, Any]] = []
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY or place.degree > 2:
-            continue
-        square = riemann.difference_squared(place)
-        if place.degree == 1:
-            points.append((None if place.at_infinity else (-place.factor[0]).to_sympy(x), root(square)))
-        else:
-            half, rest = (place.factor[k].to_sympy(x) for k in (1, 0))
-            for sign in (1, -1):
-                c = (-half + sign * sympy.sqrt(sympy.factor(half**2 - 4 * rest))) / 2
-                points.append((c, _square_root(sympy.simplify(square.to_sympy(x).subs(x, c)))))
-    if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
-        points.append((None, sympy.Integer(1)))
-    if len(points) != 3:
+    base = read_expression(coordinate.base)
+    weight = read_expression(coordinate.weight)
+    points = _three_points(problem, sympy.Symbol(variable))
+    if points is None:
         return None
     (c, first), (c1, second), (c2, third) = points
     z = base**n
@@ -201,13 +213,49 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
     return by_signs
 
 
+class _SingularPoint(NamedTuple):
+    """Where it is, None at infinity, and the exponent difference."""
+
+    c: Any
+    difference: Any
+
+
+def _three_points(problem: Problem, x: Any) -> list[_SingularPoint] | None:
+    """The singular points, an ordinary infinity among them if there are two; None where they aren't three, or are conjugate."""
+    points: list[_SingularPoint] = []
+    for place in problem.places:
+        if place.kind is not Kind.ORDINARY and place.degree <= 2:
+            points += _points_of(place, x)
+    if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
+        points.append(_SingularPoint(None, sympy.Integer(1)))
+    return points if len(points) == 3 else None
+
+
+def _points_of(place: Place, x: Any) -> list[_SingularPoint]:
+    """One point, or the two roots of a quadratic factor."""
+    square = riemann.difference_squared(place)
+    if place.at_infinity:
+        return [_SingularPoint(None, root(square))]
+    if place.degree == 1:
+        return [_SingularPoint((-place.factor[0]).to_sympy(x), root(square))]
+    found = []
+    linear = place.factor[1].to_sympy(x)
+    constant = place.factor[0].to_sympy(x)
+    for sign in (1, -1):
+        c = (-linear + sign * sympy.sqrt(sympy.factor(linear**2 - 4 * constant))) / 2
+        difference = _square_root(sympy.simplify(square.to_sympy(x).subs(x, c)))
+        found.append(_SingularPoint(c, difference))
+    return found
+
+
 def _square_root(square: Any) -> Any:
     """Without a radical where it is a square over Q(i)."""
-    if square.has(sympy.I) and square.is_polynomial():
-        constant, factors = sympy.factor_list(square, extension=sympy.I)
-        if factors and all(k % 2 == 0 for _, k in factors):
-            return sympy.sqrt(constant) * sympy.prod(factor ** (k // 2) for factor, k in factors)
-    return sympy.sqrt(square)
+    if not square.has(sympy.I) or not square.is_polynomial():
+        return sympy.sqrt(square)
+    constant, factors = sympy.factor_list(square, extension=sympy.I)
+    if not factors or any(k % 2 for _, k in factors):
+        return sympy.sqrt(square)
+    return sympy.sqrt(constant) * sympy.prod(factor ** (k // 2) for factor, k in factors)
 
 
 def _power(base: Any, n: int, c: Any, exponent: Any, own: Any) -> Any:
@@ -261,7 +309,9 @@ def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
     """Equation (3) for signs e, f; None for q = 0."""
     if not form.q:
         return None
-    x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
+    x = sympy.Symbol(variable)
+    s = read_expression(form.coordinate.base)
+    weight = read_expression(form.coordinate.weight)
     rate = root(form.q)
     delta = root(1 + 4 * form.b)
     beta = form.r.to_sympy(x) / rate
@@ -284,30 +334,42 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     form = _confluent(problem, variable)
     if form is None:
         return None
-    b = form.b
-    r = form.r
-    q = form.q
+    author = "Whittaker" if form.q else "Bessel"
+    name = f"{author}'s equation in {form.coordinate}: Martinet & Ramis"
+    origin = Signed(partial(laguerre_formula, form, variable), 2)
+    region = ParameterRegion(_condition(form), _verdict(form), origin=origin)
+    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
+
+
+def _condition(form: Confluent) -> Statement:
+    """That N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta."""
+    z = form.b.field.poly([0, 0, 1])  # N^2
+    delta_squared = 1 + 4 * form.b
+    if form.q:
+        beta_squared = form.r * form.r / form.q
+        equation = (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared
+    else:
+        equation = z - 4 * delta_squared
     n = form.coordinate.n
-    z = problem.field.poly([0, 0, 1])
-    delta = 1 + 4 * b  # a square, as beta
-    beta = r * r / q if q else r
-    equation = (z - beta - delta) ** 2 - 4 * beta * delta if q else z - 4 * delta
-    statement = integer_roots(over_parameters(equation), [n], 2 * n)
-    verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
-    if q:
-        family = "the Borel group, or `G_m` where both exponential factors occur" if r else "`G_m`"
-        verdict = RegionVerdict(Structure.REDUCIBLE, family=family)
-    region = ParameterRegion(statement, verdict, origin=Signed(partial(laguerre_formula, form, variable), 2))
-    name = f"{'Whittaker' if q else 'Bessel'}'s equation in {form.coordinate}: Martinet & Ramis"
-    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])
+    return integer_roots(over_parameters(equation), [n], 2 * n)
+
+
+def _verdict(form: Confluent) -> RegionVerdict:
+    """What holds under the condition."""
+    if not form.q:
+        return RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+    family = "the Borel group, or `G_m` where both exponential factors occur" if form.r else "`G_m`"
+    return RegionVerdict(Structure.REDUCIBLE, family=family)
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:
     """The first coordinate in which s^2 S is a polynomial of degree 1 or 2; without r, in the root of z."""
     for coordinate, num, den in symmetries(problem, variable):
-        if den.degree > 0 or not 0 < num.degree <= 2:
+        if den.degree > 0 or num.degree not in (1, 2):
             continue
-        b, r, q = (num[k] / den[0] for k in range(3))
+        b = num[0] / den[0]
+        r = num[1] / den[0]
+        q = num[2] / den[0]
         if not q and coordinate.n % 2 == 0:
             return Confluent(replace(coordinate, n=coordinate.n // 2), b, q, r)
         return Confluent(coordinate, b, r, q)
