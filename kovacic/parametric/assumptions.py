@@ -476,7 +476,10 @@ def _sympy_properties(known: Known) -> list[str]:
             continue
         strict, weak = _SIGNS[bound.sign]
         excludes_zero = bound.strict or bound.end != 0
-        words.append(strict if excludes_zero else weak)
+        if excludes_zero:
+            words.append(strict)
+        else:
+            words.append(weak)
     return words
 
 

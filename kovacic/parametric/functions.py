@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import reduce
 from itertools import chain
 from math import gcd
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
@@ -76,7 +76,10 @@ def roots(polynomial: Poly) -> list[Poly]:
 def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], field: Field) -> list[Poly]:
     """Those of the powers of parameter number i, low to high, in the numerator; the others have these values."""
     parts = powers_of(function, i)
-    return [parts[k].value_at(values, field) if k in parts else field.poly([]) for k in range(max(parts) + 1)]
+    found = [field.poly([])] * (max(parts) + 1)
+    for k, part in parts.items():
+        found[k] = part.value_at(values, field)
+    return found
 
 
 def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
@@ -95,16 +98,28 @@ def constant_term(function: Poly) -> Fraction:
     return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
 
 
-def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
-    """`(f, a, b)` with function = f/a + b: f has no constant term (in a Laurent series at 0) and coprime coefficients."""
+class NormalForm(NamedTuple):
+    """A function of the parameters is form/scale + shift.
+
+    The form has no constant term (in a Laurent series at 0) and coprime coefficients.
+    """
+
+    form: FunctionPoly
+    scale: Fraction
+    shift: Fraction
+
+
+def normal_form(function: Poly) -> NormalForm:
+    """The function by a form, whose first coefficient is positive."""
     shift = constant_term(function)
     form = over_parameters(function - shift)
-    above, below = ([int(c) for c in part.coeffs()] for part in (form.num, form.den))
+    above = [int(c) for c in form.num.coeffs()]
+    below = [int(c) for c in form.den.coeffs()]
     if not above:
-        return form, Fraction(1), shift
+        return NormalForm(form, Fraction(1), shift)
     sign = 1 if above[0] > 0 else -1
     scale = Fraction(gcd(*below), gcd(*above) * sign)
-    return over_parameters(form * scale), scale, shift
+    return NormalForm(over_parameters(form * scale), scale, shift)
 
 
 @dataclass(frozen=True)
@@ -122,7 +137,8 @@ class ParameterPoint:
 
     def restricted(self, S: RatFunc) -> RatFunc:
         """S there.  Raises `ZeroDivisionError` where the denominator vanishes identically: S isn't defined."""
-        return RatFunc(*(self.at(over_parameters(part)) for part in S.cleared()))
+        above, below = map(over_parameters, S.cleared())
+        return RatFunc(self.at(above), self.at(below))
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))
@@ -158,8 +174,15 @@ def common_multiple(a: Fraction, b: Fraction) -> Fraction:
     return a * b / common_divisor(a, b)
 
 
-def values_at_integers(form: FunctionPoly, largest: int) -> tuple[str, dict[int, Fraction]] | None:
-    """The only parameter in a form (a t + b)/(c t + d), and its values with such denominators, by the integers t.
+class ValuesAtIntegers(NamedTuple):
+    """The name of the only parameter in a form, and some of the form's values by those of the parameter."""
+
+    name: str
+    values: dict[int, Fraction]
+
+
+def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | None:
+    """The values of a form (a t + b)/(c t + d) with denominators up to the largest, at all integers t.
 
     c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
     divisor of a d - b c.
@@ -178,13 +201,10 @@ def values_at_integers(form: FunctionPoly, largest: int) -> tuple[str, dict[int,
     if most > _MOST_INTEGERS:
         return None
     end = (most + abs(d)) // abs(c)
-    found = {}
-    for t in range(-end, end + 1):
-        if c * t + d:
-            value = Fraction(a * t + b, c * t + d)
-            if value.denominator <= largest:
-                found[t] = value
-    return form.field.names[k - 1], found
+    defined = [t for t in range(-end, end + 1) if c * t + d]
+    values = {t: Fraction(a * t + b, c * t + d) for t in defined}
+    allowed = {t: value for t, value in values.items() if value.denominator <= largest}
+    return ValuesAtIntegers(form.field.names[k - 1], allowed)
 
 
 def _coefficients_of_line(polynomial: Any, k: int) -> tuple[int, int]:

@@ -177,12 +177,11 @@ class Congruence(Statement):
             return self
         largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
         known = values_at_integers(self.form, largest)
-        if known is None or not assumptions.is_integer(known[0]):
+        if known is None or not assumptions.is_integer(known.name):
             return self
-        name, values = known
-        parameter = self.equation.field.generator(name)
+        parameter = self.equation.field.generator(known.name)
         found: list[Statement] = []
-        for number, value in values.items():
+        for number, value in known.values.items():
             here = Vanishes(over_parameters(parameter - number))
             if self._has_one_of([value]) and here.decided(assumptions) is not False:
                 found.append(here)

@@ -295,7 +295,7 @@ class Natural(Statement):
         has_constant = self.factors is None or distance in self.factors
         letters = self._letters_beside(parameters_of(problem.field), len(roots))
         if len(letters) == 1:
-            solved = self._solved_for_a_parameter(numbers, letters[0], 0 if has_constant else 1)
+            solved = self._solved_for_a_parameter(numbers, letters[0], has_zero=has_constant)
             if solved is not None:
                 return solved
         terms = [str(numbers.constant)]
@@ -316,10 +316,10 @@ class Natural(Statement):
             letters.append(free_letter([self.letter, *names, *letters], "jkmnl"))
         return letters
 
-    def _solved_for_a_parameter(self, numbers: Numbers, j: str, least: int) -> str | None:
+    def _solved_for_a_parameter(self, numbers: Numbers, j: str, *, has_zero: bool) -> str | None:
         """(d - constant)^2 = j^2 square for the only root, solved for a parameter that is linear in the square.
 
-        None where there is none.
+        None where there is none.  `has_zero`: j can be 0.
         """
         ((root_square, largest),) = numbers.roots
         names = parameters_of(root_square.field)
@@ -333,6 +333,7 @@ class Natural(Statement):
         name, f = solved[0]
         if _has_others(f.num, j) or _has_others(f.den, j):
             return None  # where numerator and denominator vanish for some parameters, more would have to be said
+        least = 0 if has_zero else 1
         return f"{Notation(self.letter).equals(name, f)} for an integer `{j}` from {least} to {largest}"
 
 

@@ -146,11 +146,8 @@ class Schwarz(Statement):
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
         values = self._sample_row(random)
         random.shuffle(values)
-        known: list[FunctionPoly] = []
-        for square in dict.fromkeys(roots(self.cubic)):
-            difference = self.cubic.field.sqrt(square)
-            if difference is not None:
-                known.append(over_parameters(difference))
+        differences = map(_root, dict.fromkeys(roots(self.cubic)))
+        known = [difference for difference in differences if difference is not None]
         if len(known) != 3:
             return []
         return [root - value for root, value in zip(known, values, strict=True)]
@@ -173,12 +170,10 @@ class Schwarz(Statement):
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
-        field = self.cubic.field
-        for square in roots(self.cubic):
-            difference = field.sqrt(square)
-            known = None if difference is None else values_at_integers(over_parameters(difference), LARGEST)
-            if known is not None and assumptions.is_integer(known[0]):
-                return self._at_values(*known, assumptions)
+        for difference in map(_root, roots(self.cubic)):
+            known = None if difference is None else values_at_integers(difference, LARGEST)
+            if known is not None and assumptions.is_integer(known.name):
+                return self._at_values(known.name, known.values, assumptions)
         return self
 
     def _at_values(self, name: str, numbers: Iterable[int], assumptions: Assumptions) -> Statement:
@@ -518,15 +513,23 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     free = [over_parameters(square) for square in squares if field.rational_value(square) is None]
     if not free or len(squares) < 3:
         return None
-    root = field.sqrt(free[0])
+    root = _root(free[0])
     lines: list[_Line | None] = []
     for square in squares:
-        is_constant = field.rational_value(square) is not None
-        line = _constant_line(square) if is_constant else _line(square, free[0], root)
-        if line is None and not is_constant:
+        if field.rational_value(square) is not None:
+            lines.append(_constant_line(square))
+            continue
+        line = _line(square, free[0], root)
+        if line is None:
             return None
         lines.append(line)
-    return _OneFunction(free[0], None if root is None else over_parameters(root), tuple(lines))
+    return _OneFunction(free[0], root, tuple(lines))
+
+
+def _root(square: Poly) -> FunctionPoly | None:
+    """The square root, where it is a rational function of the parameters."""
+    root = square.field.sqrt(square)
+    return None if root is None else over_parameters(root)
 
 
 def _constant_line(square: Poly) -> _Line | None:
@@ -535,12 +538,12 @@ def _constant_line(square: Poly) -> _Line | None:
     return None if constant is None else _Line(_F(0), constant)
 
 
-def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> _Line | None:
+def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _Line | None:
     """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
     if root is None:
         ratio = rational_square_root(square / first)
         return None if ratio is None else _Line(ratio, _F(0))
-    own = first.field.sqrt(square)
+    own = _root(square)
     if own is None:
         return None
     form, scale, shift = normal_form(own)

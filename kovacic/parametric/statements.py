@@ -155,7 +155,8 @@ class Either(_Several):
         if together:
             return together
         is_long = any(" for " in part or ", " in part for part in parts)
-        return (", or " if is_long else " or ").join(parts)
+        separator = ", or " if is_long else " or "
+        return separator.join(parts)
 
     @property
     def is_about_one_value(self) -> bool:
