@@ -47,16 +47,25 @@ def find_conditions(
         S, parsed, assume = with_values(S, parsed, assume, limits)
     names = parameters_of(parsed.S.field)
     if not names:
-        used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""
-        what = "every parameter has a value" if parsed is not given else f"S has no parameters{used}"
-        hint = "solve decides equations without parameters;"
-        python = f"{hint} var= says which name is the variable"
-        raise InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
+        raise _without_parameters(parsed, given, is_guessed=var is None)
     most = whole(max_degree, "max_degree")
     known = read_assumptions(assume, S, names)
     if PI in names:
         known = known.also(PI, ("irrational", "positive"))
     return conditions_of(parsed, known, most, limits)
+
+
+def _without_parameters(parsed: Parsed, given: Parsed, *, is_guessed: bool) -> InputError:
+    """What is said where all parameters of the `given` input got values, or there were none; maybe one was taken for x."""
+    if parsed is not given:
+        what = "every parameter has a value"
+    elif is_guessed and parsed.S.degree:
+        what = f"S has no parameters: {parsed.variable} is taken for the variable"
+    else:
+        what = "S has no parameters"
+    hint = "solve decides equations without parameters;"
+    python = f"{hint} var= says which name is the variable"
+    return InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
 
 
 def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> ParametricAnswer:
@@ -79,18 +88,18 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
     regions = [_finished(region, parsed.equation, max_degree, budget) for region in result.regions]
     return ParametricAnswer(
-        shown,
-        parsed.variable,
-        parameters_of(parsed.S.field),
-        result.generic,
-        tuple(regions),
-        result.complete,
-        result.theory,
-        limits,
-        _notices(parsed, constant),
-        known,
-        constant,
-        parsed.equation,
+        S=shown,
+        variable=parsed.variable,
+        parameters=parameters_of(parsed.S.field),
+        generic=result.generic,
+        regions=tuple(regions),
+        complete=result.complete,
+        theory=result.theory,
+        limits=limits,
+        notices=_notices(parsed, constant),
+        assumptions=known,
+        constant=constant,
+        equation=parsed.equation,
     )
 
 
@@ -98,14 +107,16 @@ def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
     """The partition by powers of the parameters, where it is complete; else the direct one."""
     try:
         powers = in_powers(S)
+        if powers is None:
+            return direct
         with bounded_work(_STRATA):
-            found = direct if powers is None else partition(powers.S, settings)
+            found = partition(powers.S, settings)
     except LimitExceeded as limit:
         return replace(direct, complete=as_far_as(limit))
-    if powers is None or found.complete is not True:
-        is_limited = str(found.complete).startswith(LIMITED)
-        return replace(direct, complete=found.complete) if is_limited else direct
-    return replace(found, regions=tuple(powers.back(region) for region in found.regions))
+    if found.complete is True:
+        return replace(found, regions=tuple(map(powers.back, found.regions)))
+    is_limited = str(found.complete).startswith(LIMITED)
+    return replace(direct, complete=found.complete) if is_limited else direct
 
 
 def _distinct(
@@ -132,7 +143,9 @@ def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budge
     for region in found.regions:
         decided = region.statement.decided(assumptions)
         if decided is True:
-            generic = region.verdict if region.verdict.known else RegionVerdict.of(decide(S, budget, certify=False))
+            generic = region.verdict
+            if not generic.known:
+                generic = RegionVerdict.of(decide(S, budget, certify=False))
             complete = together([*regions, region])
             break
         statement = region.statement.narrowed(assumptions)

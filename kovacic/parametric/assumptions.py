@@ -179,14 +179,16 @@ class Known:
         """May the parameter have this value?  An algebraic number of which any conjugate may be meant has no sign."""
         number = value.field.rational_value(value)
         if number is not None:
-            is_forbidden_zero = not number and self.nonzero
-            return self._admits(number) and not is_forbidden_zero
+            return self._admits(number) and (number != 0 or "nonzero" not in self.words)
         if self.rational is True:
             return False
         has_sign = getattr(value.field, "approximation", None) is not None
         if not self.bounds or not has_sign:
             return True
-        ball = enclosure(value)
+        return self._admits_irrational(enclosure(value))
+
+    def _admits_irrational(self, ball: Any) -> bool:
+        """May it be a number in the ball, by the bounds?"""
         if not ball.imag.contains(0):
             return False
         ends = [_End(bound.sign, _ball(bound.end)) for bound in self.bounds]
@@ -405,17 +407,23 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     """
     if assume is not None and not isinstance(assume, Mapping):
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
-    found: dict[str, list[str]] = {}
+    words: dict[str, list[str]] = {name: [] for name in names}
     for symbol in getattr(S, "free_symbols", ()):
-        if symbol.name in names:
-            found[symbol.name] = _words_of(symbol)
+        if symbol.name in words:
+            words[symbol.name] = _words_of(symbol)
     for key, what in (assume or {}).items():
-        name = str(key)
-        if name not in names:
-            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-        found.setdefault(name, []).extend(_read_words(what))
-    known = {name: _useful(found.get(name, ())) for name in names}
-    return Assumptions(tuple((name, Known(words)) for name, words in known.items() if words))
+        name = _parameter(key, names)
+        words[name] += _read_words(what)
+    known = {name: Known(_useful(said)) for name, said in words.items()}
+    return Assumptions(tuple((name, facts) for name, facts in known.items() if facts.words))
+
+
+def _parameter(key: object, names: Sequence[str]) -> str:
+    """The name of a parameter, of which something is said.  Raises `InputError` for another name."""
+    name = str(key)
+    if name not in names:
+        raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
+    return name
 
 
 def _useful(words: Iterable[str]) -> tuple[str, ...]:

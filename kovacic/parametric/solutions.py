@@ -7,7 +7,7 @@ the conditions say for which of the two signs y is a solution.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import product
@@ -233,9 +233,17 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     y = P.to_sympy(x)
     for part in exponents.parts:
         y *= _local_factor(part.factor, sympy.factor(part.exponent.to_sympy(x)), part.main.to_sympy(x), x)
-    zero = [" or ".join(f"{_text(f)} = 0" for f in factors) for factors in dict.fromkeys(map(tuple, alternatives))]
-    conditions = [given.to_sympy(x), *(sympy.Mul(*(f.to_sympy(x) for f in factors)) for factors in alternatives)]
-    return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join([equation_written(given), *zero]))
+    conditions = [given.to_sympy(x), *(_product(factors, x) for factors in alternatives)]
+    where = [equation_written(given), *map(_one_vanishes, dict.fromkeys(map(tuple, alternatives)))]
+    return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join(where))
+
+
+def _product(factors: Iterable[Poly], x: Any) -> Any:
+    return sympy.Mul(*(factor.to_sympy(x) for factor in factors))
+
+
+def _one_vanishes(factors: Iterable[Poly]) -> str:
+    return " or ".join(f"{_text(factor)} = 0" for factor in factors)
 
 
 def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
@@ -266,13 +274,7 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
 
 def _without_constant(base: Any, x: Any) -> Any:
     """The base of a power times a constant, so that it has no denominator: k x^2 - 1 for x^2 - 1/k."""
-    signs: dict[Any, int] = {}
-    for power in base.atoms(sympy.Pow):
-        if abs(power.exp) != sympy.S.Half:
-            continue
-        for sign in (1, -1):
-            if (power.base * sign).is_Symbol:
-                signs[power.base * sign] = sign
+    signs = _letters_under_roots(base)
     roots = {name: sympy.Dummy(positive=True) for name in signs}
     # sqrt(a) is a letter, so that it is no factor of everything: that would vanish where a does.
     in_letters = base.subs({name: signs[name] * root**2 for name, root in roots.items()})
@@ -280,6 +282,18 @@ def _without_constant(base: Any, x: Any) -> Any:
     if below.has(x) or below.is_number:
         return base
     return above.subs({root: sympy.sqrt(signs[name] * name) for name, root in roots.items()})
+
+
+def _letters_under_roots(expression: Any) -> dict[Any, int]:
+    """1 for an a with sqrt(a) or 1/sqrt(a) in an expression, -1 for sqrt(-a)."""
+    signs: dict[Any, int] = {}
+    for power in expression.atoms(sympy.Pow):
+        if abs(power.exp) != sympy.S.Half:
+            continue
+        for sign in (1, -1):
+            if (power.base * sign).is_Symbol:
+                signs[power.base * sign] = sign
+    return signs
 
 
 def _constant(field: Field, below: Field) -> Any:
