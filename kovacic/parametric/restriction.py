@@ -156,8 +156,7 @@ def _down(constant: Poly) -> FunctionPoly:
 NO_CONSTANT = ParameterPoint((), ())
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """The parameter of a curve: its name, and its value as a function of the original parameters."""
 
     name: str
