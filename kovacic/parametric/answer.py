@@ -702,18 +702,24 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
 
 
 def _in_one_polynomial(values: list[Any], limits: Limits) -> Any:
-    """The values as coefficients of powers of x_, so that they are read together."""
+    """The values as coefficients of powers of x_, so that they are read together: in text, or as SymPy's if they are."""
     kinds = {type(value) for value in values}
     is_sympy = any(kind.__module__.startswith("sympy") for kind in kinds)
-    if str in kinds or not is_sympy:
-        return " + ".join(f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values))
+    if is_sympy and str not in kinds:
+        return _in_sympy_polynomial(values)
+    terms = [f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values)]
+    return " + ".join(terms)
+
+
+def _in_sympy_polynomial(values: list[Any]) -> Any:
+    """Raises `InputError` for what isn't an expression."""
     import sympy
 
     try:
-        terms = [sympy.sympify(value, strict=True) for value in values]
+        coefficients = [sympy.sympify(value, strict=True) for value in values]
     except sympy.SympifyError as error:
         raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
-    if not all(isinstance(term, sympy.Expr) for term in terms):
+    if not all(isinstance(coefficient, sympy.Expr) for coefficient in coefficients):
         raise InputError("the values of parameters are numbers")
     x = sympy.Symbol("x_")
-    return sum((term * x**k for k, term in enumerate(terms)), sympy.Integer(0))
+    return sum((coefficient * x**k for k, coefficient in enumerate(coefficients)), sympy.Integer(0))

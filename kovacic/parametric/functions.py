@@ -201,10 +201,12 @@ def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | N
     if most > _MOST_INTEGERS:
         return None
     end = (most + abs(d)) // abs(c)
-    defined = [t for t in range(-end, end + 1) if c * t + d]
-    values = {t: Fraction(a * t + b, c * t + d) for t in defined}
-    allowed = {t: value for t, value in values.items() if value.denominator <= largest}
-    return ValuesAtIntegers(form.field.names[k - 1], allowed)
+    found = {}
+    for t in range(-end, end + 1):
+        denominator = c * t + d
+        if denominator and Fraction(a * t + b, denominator).denominator <= largest:
+            found[t] = Fraction(a * t + b, denominator)
+    return ValuesAtIntegers(form.field.names[k - 1], found)
 
 
 def _coefficients_of_line(polynomial: Any, k: int) -> tuple[int, int]:
