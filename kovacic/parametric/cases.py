@@ -21,7 +21,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, holds_on
 from kovacic.parametric.restriction import hypersurface, over_all
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, alternatives_of, both, either
 
 #: Regions above which not all are compared: general Heun has some hundreds.
 _MANY = 100
@@ -287,42 +287,47 @@ def _exclude_each_other(first: Vanishes, second: Vanishes) -> bool:
     return first.function.field.rational_value(difference) not in (None, 0)
 
 
-def _say_the_same(first: list[Case], second: list[Case]) -> bool:
-    return [*map(_said, first)] == [*map(_said, second)]
+def _say_the_same(first: Sequence[Case], second: Sequence[Case]) -> bool:
+    return len(first) == len(second) and all(map(_says_as_much, first, second))
 
 
-def _said(case: Case) -> tuple[Statement, tuple[Statement, ...], RegionVerdict, str]:
-    verdict = case.regions[0].verdict
-    return case.statement, case.without, verdict, verdict.group
+def _says_as_much(case: Case, other: Case) -> bool:
+    """Do they say the same, of the same values?"""
+    if case.statement != other.statement or case.without != other.without:
+        return False
+    return _is_same(case.verdict, other.verdict)
 
 
 def _joined(cases: Iterable[Case]) -> list[Case]:
+    """The cases, with those in a row that can be said in one sentence in one."""
     joined: list[Case] = []
     for case in cases:
         if joined and _can_be_joined(joined[-1], case):
-            last = joined.pop()
-            case = Case(either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
-        joined.append(case)
+            joined[-1] = _as_one(joined[-1], case)
+        else:
+            joined.append(case)
     return joined
+
+
+def _as_one(last: Case, case: Case) -> Case:
+    return Case(either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
 
 
 def _can_be_joined(last: Case, case: Case) -> bool:
     is_single = both(case.statement).parts == both(case.regions[0].statement).parts
-    return last.without == case.without and is_single and _are_one(last.regions[-1], case.regions[0])
+    if not is_single or last.without != case.without:
+        return False
+    return _are_one(last.regions[-1], case.regions[0])
 
 
 def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:
     """Can the two be said in one sentence?  Both have simple statements of the same kind, and the same group."""
     if not first.plain or not second.plain:
         return False
-    statements = [*_alternatives(first.statement), *_alternatives(second.statement)]
+    statements = [*alternatives_of(first.statement), *alternatives_of(second.statement)]
     kinds = {type(statement) for statement in statements}
     is_of_one_kind = len(kinds) <= 1 and kinds <= {Vanishes, Congruence}
     return is_of_one_kind and _is_same(first.verdict, second.verdict)
-
-
-def _alternatives(statement: Statement) -> Sequence[Statement]:
-    return statement.parts if isinstance(statement, Either) else (statement,)
 
 
 def _covered(charts: list[ParameterPoint], statements: Sequence[Statement]) -> bool:

@@ -24,7 +24,7 @@ from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.solutions import Origin, PolynomialSolution
 from kovacic.parametric.spectra import families
-from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, alternatives_of, both, either
 
 #: Characters up to which statements share a line.
 _LINE = 100
@@ -371,16 +371,12 @@ def _together(first: Statement, second: Statement) -> Statement | None:
     merged = first.merged(second)
     if merged is not None:
         return merged
-    parts = [*_alternatives(first), *_alternatives(second)]
+    parts = [*alternatives_of(first), *alternatives_of(second)]
     kinds = {type(part) for part in parts}
     if len(kinds) > 1 or kinds == {Both}:
         return None
     together = either(*parts)
     return together if len(together.text()) <= _LINE else None
-
-
-def _alternatives(statement: Statement) -> Sequence[Statement]:
-    return statement.parts if isinstance(statement, Either) else (statement,)
 
 
 def without_implied(statement: Statement) -> Statement:
@@ -448,7 +444,7 @@ def _charts(statement: Statement) -> list[_Chart]:
         chart = _common_zeros(functions)
         return [] if chart is None else [_Chart(chart, NOTHING_ASSUMED)]
     charts: list[_Chart] = []
-    for part in _alternatives(statement):
+    for part in alternatives_of(statement):
         if not isinstance(part, Congruence) or not _is_spectrum(part):
             return []
         charts += _of_integers(part)

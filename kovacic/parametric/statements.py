@@ -195,10 +195,10 @@ def _one_of(parts: Sequence[str]) -> str | None:
     known = _of_one_kind(parts, "` is ")
     if known is not None:
         formulas, kind = known
-        return f"{_alternatives(formulas)} is {kind}"
+        return f"{_listed(formulas)} is {kind}"
     known = _of_one_kind(parts, " in Z`")
     if known is not None and len(parts) > 2:
-        return f"{_alternatives(known[0])} is an integer"
+        return f"{_listed(known[0])} is an integer"
     return None
 
 
@@ -214,7 +214,7 @@ def _of_one_kind(parts: Sequence[str], separator: str) -> tuple[list[str], str] 
     return formulas, kinds.pop()
 
 
-def _alternatives(formulas: Sequence[str]) -> str:
+def _listed(formulas: Sequence[str]) -> str:
     """One of `a`, `b` or `c`."""
     *first, last = (formula.strip("`") for formula in formulas)
     listed = ", ".join(f"`{formula}`" for formula in first)
@@ -269,10 +269,14 @@ def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
     merged: list[Statement] = []
     for one in statements:
-        parts = one.parts if isinstance(one, Either) else (one,)
-        for part in parts:
+        for part in alternatives_of(one):
             _add(part, merged)
     return merged[0] if len(merged) == 1 else Either(tuple(merged))
+
+
+def alternatives_of(statement: Statement) -> tuple[Statement, ...]:
+    """The statements of which one has to hold: the parts of an `Either`, or a statement itself."""
+    return statement.parts if isinstance(statement, Either) else (statement,)
 
 
 def _add(statement: Statement, alternatives: list[Statement]) -> None:
