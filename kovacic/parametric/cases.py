@@ -6,7 +6,7 @@ be said where the two exclude one another, or meet in values of an earlier case.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, groupby
 
@@ -25,6 +25,8 @@ from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanis
 
 #: Regions above which not all are compared: general Heun has some hundreds.
 _MANY = 100
+#: Raised where a statement isn't about functions of the parameters of a chart, or one isn't defined there.
+_NOT_ON_CHART = (TypeError, ValueError, ZeroDivisionError)
 
 
 @dataclass(frozen=True)
@@ -342,14 +344,19 @@ def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterP
         return False
     if _covered([chart], known):
         return True
-    said = _parts_on(statement, chart)
-    if said is None:
+    try:
+        said = {*_parts_on(statement, chart)}
+    except _NOT_ON_CHART:
         return False
-    for one in known:
-        parts = _parts_on(one, chart)
-        if parts is not None and parts <= said:
-            return True
-    return False
+    return any(_is_among(said, one, chart) for one in known)
+
+
+def _is_among(said: Collection[Statement], statement: Statement, chart: ParameterPoint) -> bool:
+    """Is all that a statement says on the chart said?"""
+    try:
+        return all(part in said for part in _parts_on(statement, chart))
+    except _NOT_ON_CHART:
+        return False
 
 
 def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[Statement]:
@@ -368,17 +375,12 @@ def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[St
     return found
 
 
-def _parts_on(statement: Statement, chart: ParameterPoint) -> set[Statement] | None:
-    """What it says on the chart: all of these statements.  None where it isn't about functions of the chart's parameters."""
-    parts = set()
-    try:
-        for part in both(statement).parts:
-            on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
-            if not _is_true(on_chart):
-                parts.add(on_chart)
-    except (TypeError, ValueError, ZeroDivisionError):
-        return None
-    return parts
+def _parts_on(statement: Statement, chart: ParameterPoint) -> Iterator[Statement]:
+    """What it says on the chart: all of these statements.  Raises `_NOT_ON_CHART`."""
+    for part in both(statement).parts:
+        on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
+        if not _is_true(on_chart):
+            yield on_chart
 
 
 def _is_true(statement: Statement) -> bool:
