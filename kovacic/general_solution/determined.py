@@ -148,9 +148,13 @@ def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, questi
         raise NotImplementedError(
             f"undecided: the behaviour of a particular solution at {place.point}: {of_particular}"
         )
+    return Limit(tuple(rows), _said(of_basis, place))
+
+
+def _said(reasons: Sequence[str | None], place: Approach) -> dict[int, str]:
+    """Why solutions mustn't be part of y, by their indices."""
     t = "1/|x|" if place.is_infinite else f"|x - {place.point}|"
-    said = {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(of_basis) if reason}
-    return Limit(tuple(rows), said)
+    return {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(reasons) if reason}
 
 
 def _is_irregular(expansion: Expansion) -> bool:

@@ -201,8 +201,7 @@ def _points(question: Question) -> list[Expr]:
 
 def _is_entire(y: Expr, x: Expr) -> bool:
     """Is it made of functions that are analytic everywhere, by sums, products and natural powers?"""
-    parts = [e for e in sympy.preorder_traversal(y) if e.has(x)]
-    return all(_keeps_entire(e, x) for e in parts)
+    return all(_keeps_entire(e, x) for e in sympy.preorder_traversal(y) if e.has(x))
 
 
 def _keeps_entire(e: Expr, x: Expr) -> bool:

@@ -243,10 +243,15 @@ def _rate(factor: Expr, x: Expr) -> Expr:
 
 def _with_sign_before(e: Expr) -> Expr:
     """-(-a - b)/c as (a + b)/c: the sign of a sum with more negative terms than others stands before the product."""
-    factors = sympy.Mul.make_args(e)
-    turned = [-factor if _is_mostly_negative(factor) else factor for factor in factors]
-    sign = (-1) ** sum(map(_is_mostly_negative, factors))
-    return sympy.Mul(sign, *turned)
+    factors = []
+    sign = 1
+    for factor in sympy.Mul.make_args(e):
+        if _is_mostly_negative(factor):
+            factors.append(-factor)
+            sign = -sign
+        else:
+            factors.append(factor)
+    return sympy.Mul(sign, *factors)
 
 
 def _is_mostly_negative(factor: Expr) -> bool:

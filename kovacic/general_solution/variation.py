@@ -212,9 +212,10 @@ class Basis:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
                 return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, x, start))
-        integrals = []
-        for integrand, found in zip(integrands, known, strict=True):
-            integrals.append(_open(integrand, x, start) if found is None else found)
+        integrals = list(known)
+        for k, integrand in enumerate(integrands):
+            if known[k] is None:
+                integrals[k] = _open(integrand, x, start)
         solution = self._from_integrals(integrals)
         if is_changed or is_solution(solution, coefficients, right, x):
             return solution
