@@ -172,6 +172,10 @@ def test_a_long_gcd_is_foreseen_only_where_there_is_one() -> None:
             (f**6).gcd(f**5 * g)
         with pytest.raises(LimitExceeded, match="a power of degree"):
             f**300
+        assert (f * g).exact_quotient(f) == g
+        assert (f**6).exact_quotient(f**5 + 1) is None
+        with pytest.raises(LimitExceeded, match="a division by a polynomial of degree 5000"):
+            (f**6).exact_quotient(f**5)
 
 
 @pytest.mark.parametrize("leading", [1, 3])

@@ -30,6 +30,8 @@ _SMOOTH_BITS = 15
 #: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
 _POWER_SECONDS = 1.2e-9
 _GCD_SECONDS = 1.2e-11
+#: FLINT's time for a division over Z per bit of the products of coefficients.
+_QUOTIENT_SECONDS = 2e-11
 #: Above this degree products and divisions look at the clock; divisions so many times for each degree of the divisor.
 _LOOK_DEGREE = 100
 _PIECES = 8
@@ -380,10 +382,21 @@ def _exact_quotient(dividend: Any, divisor: Any) -> Any:
     """
     check_time()
     size = divisor.degree()
+    if _has_remainder_modulo(dividend, divisor, next(primes())):
+        return None
+    bits = divisor.height_bits()
+    seconds = _QUOTIENT_SECONDS * size * (dividend.degree() - size) * bits
+    check_duration(seconds, f"a division by a polynomial of degree {size} with {bits} bits")
     contents = dividend.content(), divisor.content()
     above, below = (part / content for part, content in zip((dividend, divisor), contents, strict=True))
     quotient, rest = _in_pieces(above, below, max(size // _PIECES, _SHORTEST_PIECE))
     return None if rest else fmpq_poly(quotient) * fmpq(*contents)
+
+
+def _has_remainder_modulo(dividend: Any, divisor: Any, p: int) -> bool:
+    """Does the division leave one modulo p, and so over Q?"""
+    below = nmod_poly(divisor, p)
+    return below.degree() == divisor.degree() and bool(nmod_poly(dividend, p) % below)
 
 
 def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
