@@ -238,7 +238,8 @@ def _monomials(power: Expr) -> dict[Expr, Expr]:
 def _unit(rates: Sequence[Expr]) -> Expr:
     """The greatest common divisor of rational numbers, negative where they all are negative."""
     divisor = reduce(sympy.gcd, rates)
-    return -divisor if all(rate < 0 for rate in rates) and divisor > 0 else divisor
+    are_negative = all(rate < 0 for rate in rates)
+    return -divisor if are_negative and divisor > 0 else divisor
 
 
 def _solved_for(base: Expr, known: Meanings) -> _Line | None:

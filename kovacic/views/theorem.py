@@ -195,9 +195,7 @@ class _TheoremWriter:
 
     def _case(self, case: Case, number: str) -> Iterator[Block]:
         rows = _alternatives(case)
-        without = [part for other in case.without for part in (", and not: ", *_said(other))]
-        if all(isinstance(other, Vanishes) for other in case.without):
-            without = [part for other in case.without for part in (", and ", _unequal(other))]
+        without = _without(case)
         if rows:
             yield say(f"{number}one row of the table holds", *without, ":")
             yield Table(("where", "condition"), rows)
@@ -232,17 +230,16 @@ class _TheoremWriter:
     def _solutions_in(self, region: ParameterRegion, case: Case) -> Iterator[Block]:
         """The formulas for one region."""
         natural = [part for part in both(region.statement).parts if isinstance(part, Natural)]
-        weight = natural[0] if natural and natural[0].m == 1 else None
-        if weight is not None:
-            yield from self._with_determinant(region, weight)
-            yield from _values(weight, len(region.determinants))
+        if natural and natural[0].m == 1:
+            yield from self._with_determinant(region, natural[0])
+            yield from _values(natural[0], len(region.determinants))
             return
-        one_by_one = region.solution()
-        together = general(region.origin, self.signs) if len(one_by_one) > _ONE_BY_ONE else None
-        if together is not None:
-            yield from self._with_degree(together, case)
-            return
-        for solution in one_by_one:
+        solutions = [*region.solution()]
+        if len(solutions) > _ONE_BY_ONE:
+            together = general(region.origin, self.signs)
+            if together is not None:
+                solutions = [together]
+        for solution in solutions:
             yield from self._with_degree(solution, case)
 
     def _with_degree(self, solution: PolynomialSolution, case: Case) -> Iterator[Block]:
@@ -256,9 +253,8 @@ class _TheoremWriter:
         degree = of_sympy(self._collected(solution.degree))
         if y.has(letter):
             degree = _name(letter.name).equals(degree)
-        used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
         yield Formula(self._named_solution(replace(solution, y=y)))
-        yield say("where ", degree, " is a natural number", *_chosen(used), ".")
+        yield say("where ", degree, " is a natural number", *_chosen(self._signs_in(solution)), ".")
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
         """exp(int theta) P for the exponents of the region; P has the degree d."""
@@ -272,10 +268,14 @@ class _TheoremWriter:
         solution = by_signs(self.signs)
         if isinstance(region.origin, Given):
             solution = replace(solution, y=region.origin.translated(solution.y))
-        used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
         yield Formula(self._named_solution(solution))
         degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
-        yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(used), ".")
+        yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(self._signs_in(solution)), ".")
+
+    def _signs_in(self, solution: PolynomialSolution) -> list[sympy.Symbol]:
+        """The symbols for signs that occur in a formula or its degree."""
+        symbols = solution.y.free_symbols | solution.degree.free_symbols
+        return [sign for sign in self.signs if sign in symbols]
 
     def _named_solution(self, solution: PolynomialSolution) -> Math:
         """`y = ...`, with exponents as one fraction, and the variable first in sums."""
@@ -450,6 +450,18 @@ def _unequal(statement: Statement) -> Math:
     left, _, right = equation.text.partition(" = ")
     left_latex, _, right_latex = equation.latex.partition(" = ")
     return Math(f"{left} != {right}", rf"{left_latex} \ne {right_latex}")
+
+
+def _without(case: Case) -> list[str | Math]:
+    """What must not hold in the case: `, and a != 1` where all that are equations, else `, and not: ...` for each."""
+    are_equations = all(isinstance(other, Vanishes) for other in case.without)
+    found: list[str | Math] = []
+    for other in case.without:
+        if are_equations:
+            found += [", and ", _unequal(other)]
+        else:
+            found += [", and not: ", *_said(other)]
+    return found
 
 
 def _alternatives(case: Case) -> list[list[Sentence]]:
