@@ -98,8 +98,8 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
         dimensions = {len(space) for space in bases}
         if len(dimensions) > 1:
             continue
-        forms = [Form(m, R0, P) for P in lifter.add(bundle, bases) or ()]
-        if forms and all(form.is_form(problem) for form in forms):
+        forms = _verified_forms(problem, m, R0, lifter.add(bundle, bases) or [])
+        if forms:
             return forms
         if not _are_forms(bundle, problem, m, R0, bases):
             margin *= 2
@@ -122,6 +122,12 @@ def _excluded(
         if not space:
             return NoInvariant(m, prime=h.p, point=point, degree=N)
     return None
+
+
+def _verified_forms(problem: Problem, m: int, R0: Poly, proposal: Sequence[Poly]) -> list[Form]:
+    """Those with the proposed P, if all of them are right; else none."""
+    forms = [Form(m, R0, P) for P in proposal]
+    return forms if all(form.is_form(problem) for form in forms) else []
 
 
 def _are_forms(bundle: Sequence[Homomorphism], problem: Problem, m: int, R0: Poly, bases: Sequence[list[Any]]) -> bool:

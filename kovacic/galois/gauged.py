@@ -91,18 +91,13 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
     if rho and S.field.ground != QQ:
         return None
-    residues = rational_residues(rho)
-    N = None if isinstance(residues, Ground) else lcm(1, *(r.denominator for r in residues))
+    N = _gauge_order(rho)
     kind = normal_form.kind
     f = decision.semi_invariant
-    given = normal_form.name
     if N == 1:
-        return EquationGroup(normal_form, 1, given, normal_form.finite, normal_form.order)
+        return EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order)
     if kind is GroupKind.SL2:
-        name = "SL2" if N == 2 else "GL2"
-        if N not in (None, 2):
-            name = f"SL2 with the scalars mu_{lcm(2, N)}"
-        return EquationGroup(normal_form, N, name, False)
+        return EquationGroup(normal_form, N, _special_linear(N), False)
     assert f is not None
     if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):
         torus = _torus(*_forms(f.theta, rho))
@@ -112,9 +107,30 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         torus = _torus(*_forms(f.theta, rho))
         return EquationGroup(normal_form, N, torus.name, torus.order is not None, torus.order)
     if N is None:
-        return EquationGroup(normal_form, N, f"{given} with the scalars G_m", False)
+        return EquationGroup(normal_form, N, f"{normal_form.name} with the scalars G_m", False)
     if kind is GroupKind.INFINITE_DIHEDRAL:
         return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
+    return _finite_gauge(S, normal_form, f, rho, N)
+
+
+def _gauge_order(rho: RatFunc) -> int | None:
+    """N, the order of the gauge's own group; None where it is infinite."""
+    residues = rational_residues(rho)
+    if isinstance(residues, Ground):
+        return None
+    return lcm(1, *(residue.denominator for residue in residues))
+
+
+def _special_linear(N: int | None) -> str:
+    """The name of SL2 with scalars of order N > 1; -1 is in SL2."""
+    if N is None:
+        return "GL2"
+    return "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
+
+
+def _finite_gauge(S: RatFunc, normal_form: Group, f: SemiInvariant, rho: RatFunc, N: int) -> EquationGroup:
+    """The group for a gauge of order N > 1, and an irreducible normal form that is finite or isn't known to be."""
+    given = normal_form.name
     order = _finite_order(S, normal_form, f, rho, N)
     name = f"{given} with scalars" if order is None else f"{given} with scalars, order {order}"
     if N == 2 and order is not None:  # then it is that of the normal form
