@@ -528,7 +528,7 @@ class _Linear:
 
 
 @dataclass(frozen=True)
-class _Line:
+class _LinearInOne:
     """constant + factor * the parameter of this name."""
 
     name: str
@@ -540,13 +540,13 @@ class _Line:
         return -self.constant / self.factor
 
 
-def _line(form: FunctionPoly) -> _Line | None:
+def _line(form: FunctionPoly) -> _LinearInOne | None:
     """A linear form of one parameter; None for anything else."""
     linear = _linear(form)
     if linear is None or len(linear.factors) != 1:
         return None
     ((name, factor),) = linear.factors.items()
-    return _Line(name, linear.constant, factor)
+    return _LinearInOne(name, linear.constant, factor)
 
 
 def _is_in_one(value: Poly, classes: Iterable[Coset]) -> bool:

@@ -223,7 +223,7 @@ def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
 
 
 @dataclass
-class _Block:
+class _CaseBlock:
     """Cases in a row that begin with one of the `firsts`, which exclude one another; `cases` are without this beginning."""
 
     firsts: list[Vanishes]
@@ -251,7 +251,7 @@ def _mirrored(cases: Iterable[Case]) -> list[Case]:
     no value belongs to both, because their functions differ by a number.
     """
     found: list[Case] = []
-    blocks: list[_Block] = []
+    blocks: list[_CaseBlock] = []
     for first, group in groupby(cases, key=_first_part):
         members = [*group]
         if not isinstance(first, Vanishes) or not all(map(_has_more, members)):
@@ -262,11 +262,11 @@ def _mirrored(cases: Iterable[Case]) -> list[Case]:
         if blocks and blocks[-1].takes(first, inner):
             blocks[-1].add(first, inner)
         else:
-            blocks.append(_Block([first], inner))
+            blocks.append(_CaseBlock([first], inner))
     return [*found, *_completed(blocks)]
 
 
-def _completed(blocks: Iterable[_Block]) -> list[Case]:
+def _completed(blocks: Iterable[_CaseBlock]) -> list[Case]:
     """All of their cases, with the beginnings."""
     return list(chain.from_iterable(block.complete() for block in blocks))
 

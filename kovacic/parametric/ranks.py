@@ -307,7 +307,7 @@ def _rows_of(columns: Sequence[dict[int, Any]]) -> list[dict[int, Any]]:
     return [rows[i] for i in sorted(rows)]
 
 
-class _Pivot(NamedTuple):
+class _ConstantPivot(NamedTuple):
     """A constant entry; those with the smallest `cost` come first."""
 
     cost: int
@@ -315,17 +315,17 @@ class _Pivot(NamedTuple):
     column: int
 
 
-def _constant_entry(rows: Sequence[dict[int, Any]]) -> _Pivot | None:
+def _constant_entry(rows: Sequence[dict[int, Any]]) -> _ConstantPivot | None:
     """The constant entry with the fewest others in its row times those in its column; None without any."""
     weights: Counter[int] = Counter()
     for row in rows:
         weights.update(row.keys())
-    best: _Pivot | None = None
+    best: _ConstantPivot | None = None
     for i, row in enumerate(rows):
         for k, entry in row.items():
             if not entry.is_constant():
                 continue
-            pivot = _Pivot(len(row) * weights[k], i, k)
+            pivot = _ConstantPivot(len(row) * weights[k], i, k)
             if best is None or pivot < best:
                 best = pivot
     return best

@@ -307,19 +307,19 @@ def _mirrored(regions: Sequence[ParameterRegion]) -> Iterator[ParameterRegion]:
     Regions in a row that begin with the same vanishing function are a block.  Two blocks in a row that differ in that function
     alone mean the same as one of either: at a point of both, the first of their common conditions that holds decides.
     """
-    blocks: list[_Block] = []
+    blocks: list[_RegionBlock] = []
     for first, group in groupby(regions, key=_first_part):
         inner = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
         if blocks and blocks[-1].takes(first, inner):
             blocks[-1].firsts.append(first)
         else:
-            blocks.append(_Block([first], inner))
+            blocks.append(_RegionBlock([first], inner))
     for block in blocks:
         yield from block.complete()
 
 
 @dataclass
-class _Block:
+class _RegionBlock:
     """Regions in a row that begin with one of the `firsts`; `regions` are without this beginning."""
 
     firsts: list[Statement]

@@ -479,7 +479,7 @@ def _each_factor(cubic: FunctionPoly) -> list[Poly]:
     return found
 
 
-class _Line(NamedTuple):
+class _DifferenceLine(NamedTuple):
     """slope * w + shift."""
 
     slope: Fraction
@@ -498,7 +498,7 @@ class _OneFunction:
 
     square: FunctionPoly
     root: FunctionPoly | None
-    lines: tuple[_Line | None, ...]
+    lines: tuple[_DifferenceLine | None, ...]
 
     def structure(self, w: Fraction) -> Structure | None:
         """By Kimura's theorem, with this value of the function."""
@@ -514,7 +514,7 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     if not free or len(squares) < 3:
         return None
     root = _root(free[0])
-    lines: list[_Line | None] = []
+    lines: list[_DifferenceLine | None] = []
     for square in squares:
         if field.rational_value(square) is not None:
             lines.append(_constant_line(square))
@@ -532,17 +532,17 @@ def _root(square: Poly) -> FunctionPoly | None:
     return None if root is None else over_parameters(root)
 
 
-def _constant_line(square: Poly) -> _Line | None:
+def _constant_line(square: Poly) -> _DifferenceLine | None:
     """The root of a number; None where it is irrational."""
     constant = rational_square_root(square)
-    return None if constant is None else _Line(_F(0), constant)
+    return None if constant is None else _DifferenceLine(_F(0), constant)
 
 
-def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _Line | None:
+def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
     """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
     if root is None:
         ratio = rational_square_root(square / first)
-        return None if ratio is None else _Line(ratio, _F(0))
+        return None if ratio is None else _DifferenceLine(ratio, _F(0))
     own = _root(square)
     if own is None:
         return None
@@ -551,7 +551,7 @@ def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _Line
     if form != root_form:
         return None
     slope = root_scale / scale
-    return _Line(slope, shift - slope * root_shift)
+    return _DifferenceLine(slope, shift - slope * root_shift)
 
 
 def _classes(single: _OneFunction, structure: Structure) -> Statement:
@@ -577,7 +577,7 @@ def _classes_up_to_sign(square: FunctionPoly, admitted: Sequence[Fraction], peri
     return either(*statements)
 
 
-def _numbers_in_table(line: _Line, period: Fraction) -> set[Fraction]:
+def _numbers_in_table(line: _DifferenceLine, period: Fraction) -> set[Fraction]:
     """The w modulo a period at which the line has a denominator of the table: modulo 2, one of its values."""
     step = abs(2 / line.slope)
     steps = range(int(period / step))

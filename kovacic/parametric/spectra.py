@@ -274,7 +274,7 @@ def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: 
     return spectrum if length <= len(text_of(sum_of_roots)) + _LONGER else sum_of_roots
 
 
-def _sum_of_roots(roots: _Roots, modulus: int, n: Notation) -> str:
+def _sum_of_roots(roots: _RootsBySquares, modulus: int, n: Notation) -> str:
     """The mean, without multiples of the modulus, and the square roots."""
     constant = floor(constant_term(roots.mean) / modulus) * modulus
     terms = [n.function(roots.mean - constant)] if roots.mean != constant else []
@@ -282,7 +282,7 @@ def _sum_of_roots(roots: _Roots, modulus: int, n: Notation) -> str:
     return f"`{' +- '.join(terms)}`"
 
 
-class _Way(NamedTuple):
+class _WayToSay(NamedTuple):
     """A way to say it: which parameter is solved for, the choice of n, and what it costs to read that, in characters."""
 
     name: str
@@ -294,10 +294,10 @@ def _spectrum(equation: FunctionPoly, numbers: _Classes, n: Notation) -> str | N
     """`name = f(n)` and what is said of n, by the shortest of the ways to choose n; None where no parameter is linear."""
     known = families(equation, n.fixed)
     energies = [(name, f) for name, f in known if name == ENERGY]
-    ways: list[_Way] = []
+    ways: list[_WayToSay] = []
     for k, (name, f) in enumerate(energies or known):
         choices = _choices(equation, f, numbers, n)
-        ways += [_Way(name, choice, _LATER * k + _cost(choice, n)) for choice in choices]
+        ways += [_WayToSay(name, choice, _LATER * k + _cost(choice, n)) for choice in choices]
     if not ways:
         return None
     best = min(ways, key=lambda way: way.cost)
@@ -428,21 +428,21 @@ def _mean_of_roots(equation: Poly) -> Poly:
 
 
 @dataclass(frozen=True)
-class _Roots:
+class _RootsBySquares:
     """The roots of an equation: the mean +- the square roots of one, two or three squares."""
 
     mean: FunctionPoly
     squares: list[Poly]
 
 
-def _roots(equation: FunctionPoly) -> _Roots | None:
+def _roots(equation: FunctionPoly) -> _RootsBySquares | None:
     """The roots, where they are such sums for an equation of degree 2, 4 or 8."""
     if equation.degree not in (2, 4, 8):
         return None
     mean = over_parameters(_mean_of_roots(equation))
     shifted = equation(equation.field.poly([0, 1]) + mean) / equation.lc
     squares = _squares(shifted)
-    return None if squares is None else _Roots(mean, squares)
+    return None if squares is None else _RootsBySquares(mean, squares)
 
 
 def _squares(shifted: Poly) -> list[Poly] | None:
