@@ -65,36 +65,36 @@ _FEW = 128  # terms that the last step of a chain may have: it goes term by term
 
 
 @dataclass(frozen=True)
-class Gauss:
+class GaussianMatrix:
     """A matrix, or a number, over Z[i]: real and imaginary part (None: zero)."""
 
     re: Any
     im: Any = None
 
-    def __mul__(self, other: Gauss) -> Gauss:
+    def __mul__(self, other: GaussianMatrix) -> GaussianMatrix:
         if self.im is None and other.im is None:
-            return Gauss(self.re * other.re)
+            return GaussianMatrix(self.re * other.re)
         if self.im is None:
-            return Gauss(self.re * other.re, self.re * other.im)
+            return GaussianMatrix(self.re * other.re, self.re * other.im)
         if other.im is None:
-            return Gauss(self.re * other.re, self.im * other.re)
+            return GaussianMatrix(self.re * other.re, self.im * other.re)
         # three products instead of four
         x = self.re * other.re
         y = self.im * other.im
-        return Gauss(x + y * -1, (self.re + self.im) * (other.re + other.im) + (x + y) * -1)
+        return GaussianMatrix(x + y * -1, (self.re + self.im) * (other.re + other.im) + (x + y) * -1)
 
-    def __add__(self, other: Gauss) -> Gauss:
+    def __add__(self, other: GaussianMatrix) -> GaussianMatrix:
         re = self.re + other.re
         if self.im is None:
-            return Gauss(re, other.im)
+            return GaussianMatrix(re, other.im)
         if other.im is None:
-            return Gauss(re, self.im)
-        return Gauss(re, self.im + other.im)
+            return GaussianMatrix(re, self.im)
+        return GaussianMatrix(re, self.im + other.im)
 
-    def at(self, m: int) -> Gauss:
+    def at(self, m: int) -> GaussianMatrix:
         """The matrix of integers for a matrix of polynomials."""
         im = None if self.im is None else self.im.at(m)
-        return Gauss(self.re.at(m), im)
+        return GaussianMatrix(self.re.at(m), im)
 
     def in_balls(self) -> Any:
         """The matrix of balls for a matrix of integers, at the working precision in force."""
@@ -107,8 +107,8 @@ class Gauss:
 class Run:
     """A run of steps: D V' = C V, D (Y, Y')' = D (Y, Y') + R V."""
 
-    C: Gauss
-    R: Gauss
+    C: GaussianMatrix
+    R: GaussianMatrix
     D: Any
 
     def at(self, m: int) -> Run:
@@ -117,7 +117,7 @@ class Run:
 
     def after(self, first: Run) -> Run:
         """`first`, then this."""
-        return Run(self.C * first.C, self.R * first.C + first.R * Gauss(self.D), self.D * first.D)
+        return Run(self.C * first.C, self.R * first.C + first.R * GaussianMatrix(self.D), self.D * first.D)
 
 
 class PolynomialMatrix:
@@ -195,9 +195,9 @@ class Recurrence:
 
         C, R = tables(self.P[0], self.Q[0], D)
         if self.is_real:
-            return Run(Gauss(C), Gauss(R), D)
+            return Run(GaussianMatrix(C), GaussianMatrix(R), D)
         C_im, R_im = tables(self.P[1] or [], self.Q[1] or [], zero)
-        return Run(Gauss(C, C_im), Gauss(R, R_im), D)
+        return Run(GaussianMatrix(C, C_im), GaussianMatrix(R, R_im), D)
 
 
 def make_block(leaf: Run, m: int, leaves: int) -> Run:
