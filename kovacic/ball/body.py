@@ -87,7 +87,8 @@ def sign(value: sp.Expr) -> int | None:
     if value.is_Rational:
         return int(sp.sign(value))
     # Not zero, if it is algebraic: more digits tell the sign in the end.
-    digits = sp.N(value, 15, maxn=10_000 if value.is_algebraic else 60)
+    most = 10_000 if value.is_algebraic else 60
+    digits = sp.N(value, 15, maxn=most)
     if not digits.is_Float or digits._prec <= 1:
         raise InputError(f"it can't be decided whether {value} is zero", hint="take algebraic numbers, such as sqrt(2)")
     return 1 if digits > 0 else -1
@@ -331,4 +332,5 @@ class BallOnSphere(Rolling):
             1: "D has two simple roots, real, outside of [-1, 1]",
             -1: "D has two simple roots, a complex conjugate pair",
         }
-        return kinds[sign(self.discriminant)] + (", with a = 0" if centred else "")
+        kind = kinds[sign(self.discriminant)]
+        return f"{kind}, with a = 0" if centred else kind

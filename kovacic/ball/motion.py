@@ -266,7 +266,9 @@ def _read_force(sphere: BallOnSphere, gravity: Quantity | None, potential: Poten
         raise InputError("either gravity or a potential")
     if potential is not None:
         return Force.of(potential_of(potential))
-    return Force.gravity(sphere, 1 if gravity is None else gravity)
+    if gravity is None:
+        gravity = 1
+    return Force.gravity(sphere, gravity)
 
 
 def _contact_frame(ball: Dynamics, state: State) -> Array:
@@ -308,7 +310,8 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> _Course:
     p = solution.sol(turns[:2])
     f = np.array(ball.rates(force.slope, p))
     first, second = np.abs(f[3] * p[1] + p[3] * f[1] - f[4] * p[0] - p[4] * f[0])
-    period = float(turns[2] - turns[0] if first >= second else turns[3] - turns[1])
+    start = 0 if first >= second else 1
+    period = float(turns[start + 2] - turns[start])
     low, high = np.sort(colatitude(p[3:6]))
     return _Course(solution.sol, period, period, (float(low), float(high)), approach)
 
@@ -353,7 +356,10 @@ def _integrate(
         "dense_output": True,
         "method": "DOP853",
     }
-    result = solve_ivp(rates, (0.0, (1e12 if turns else 10) / rate), y, events=speed if turns else None, **options)
+    if turns:
+        result = solve_ivp(rates, (0.0, 1e12 / rate), y, events=speed, **options)
+    else:
+        result = solve_ivp(rates, (0.0, 10 / rate), y, **options)
     if not result.success or (turns and len(result.t_events[0]) < turns):
         said = f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}"
         raise LimitExceeded(said, limit="steps")

@@ -147,13 +147,20 @@ def equations_of(place: Rolling) -> dict[str, Math]:
     S = place.S
     in_u = [part.subs(x, cos(u)) for part in (*place.linear_system, d1, d2)]
     found = {name: named(name, part * sin(u)) for name, part in zip(("a1", "a2", "b1", "b2"), in_u, strict=False)}
-    factor = rf"\left({sp.latex(S)}\right)" if S.is_Add else sp.latex(S)
     return {
         **found,
         "11": equation(-sin(u) * in_u[4] - cos(u) / sin(u), sin(u) ** 2 * in_u[5], u),
         "12": equation(d1, d2),
-        "13": Math(f"y''(x) = ({S})*y(x)", f"y'' = {factor} y") if S else Math("y''(x) = 0", "y'' = 0"),
+        "13": _normal_form(S),
     }
+
+
+def _normal_form(S: sp.Expr) -> Math:
+    """Equation 13."""
+    if S == 0:
+        return Math("y''(x) = 0", "y'' = 0")
+    factor = rf"\left({sp.latex(S)}\right)" if S.is_Add else sp.latex(S)
+    return Math(f"y''(x) = ({S})*y(x)", f"y'' = {factor} y")
 
 
 @dataclass(frozen=True)

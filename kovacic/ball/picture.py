@@ -43,7 +43,8 @@ def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> 
     figure = Figure(figsize=(12.5, 2.6 + 1.6 * len(panels)), dpi=110)
     figure.set_layout_engine("constrained", wspace=0.08)
     grid = figure.add_gridspec(len(panels), 2, width_ratios=(1.15, 1))
-    path = figure.add_subplot(grid[:, 0], projection="3d" if motion.ball.kappa else None)
+    projection = "3d" if motion.ball.kappa else None
+    path = figure.add_subplot(grid[:, 0], projection=projection)
     _draw_path(path, motion.contact(times), motion.ball.kappa)
     for k, (curves, label, heading, levels) in enumerate(panels):
         axes = figure.add_subplot(grid[k, 1])
@@ -69,9 +70,8 @@ def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> 
 
 def _draw_path(axes: Any, points: Array, kappa: float) -> None:
     """On the plane; or on the sphere, seen from far away above the middle of the path, with circles every 30 degrees."""
-    front = np.full(len(points), True)
-    shown = points.T[: 3 if kappa else 2]
     if kappa:
+        shown = points.T
         X, Y, Z = points.mean(axis=0)
         azimuth = np.arctan2(Y, X)
         elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
@@ -83,7 +83,13 @@ def _draw_path(axes: Any, points: Array, kappa: float) -> None:
         axes.set_box_aspect((1, 1, 1), zoom=1.7)
         axes.set_axis_off()
         front = points @ Rotation.from_euler("ZY", [azimuth, -elevation]).as_matrix()[:, 0] >= 0
+        surface = "sphere (faint: far side)"
+        corner = "upper left"
     else:
+        shown = points.T[:2]
+        front = np.full(len(points), True)
+        surface = "plane"
+        corner = "best"
         axes.set(xlabel="X", ylabel="Y")
         axes.grid(True, color="#dddddd", lw=0.6)
         axes.set_aspect("equal", adjustable="datalim")
@@ -91,5 +97,5 @@ def _draw_path(axes: Any, points: Array, kappa: float) -> None:
         axes.plot(*np.where(seen, shown, np.nan), color=_BLUE, lw=1.5, alpha=alpha)
     for k, colour, label in ((0, _GREEN, "start"), (-1, _ORANGE, "end")):
         axes.scatter(*shown[:, k], color=colour, s=40, label=label, zorder=3)
-    axes.set_title(f"path of the contact point on the {'sphere (faint: far side)' if kappa else 'plane'}", fontsize=10)
-    axes.legend(loc="upper left" if kappa else "best")
+    axes.set_title(f"path of the contact point on the {surface}", fontsize=10)
+    axes.legend(loc=corner)

@@ -73,7 +73,8 @@ class BallSolution:
         place : Rolling
             What it was found for.
         """
-        (a1, a2, b1, b2), S = place.linear_system, place.S
+        a1, a2, b1, b2 = place.linear_system
+        S = place.S
         n = self.n
         w = self.omega_3
         y = self.y
@@ -114,57 +115,121 @@ def closed_form(place: Rolling) -> BallSolution:
     >>> print(closed_form(InRoots(sp.Rational(3, 2))).omega_3)
     c1*(4*x - x1 - 3*x2)/sqrt(x - x2) + c2*(4*x - 3*x1 - x2)/sqrt(x - x1)
     """
-    D = place.D
-    lead = place.leading
-    rho = place.ratio
-    half = place.half
-    square = place.discriminant / 4
     if isinstance(place, InRoots):
         return _in_roots(place)
-    quarter = D ** sp.Rational(1, 4)
-    scale = sp.sqrt(lead)
-    share = sp.factor(half / (2 * D))
-    root = quarter**2
-    E = None
-    omega: tuple[sp.Expr, ...] = (share + rho * scale / root, share - rho * scale / root)
-    if rho == 0:
-        eta = C1
-        n = C2 - half * C1 / root
-        omega = (share,)
-    elif lead == 0 and half == 0:
-        # D is constant, and its powers go into c1 and c2, of y too.
-        n = -C2 * D / rho / place.weight
-        return BallSolution((share, 1 / X), C1 + C2 * X, C1 + C2 * X, n)
-    elif lead == 0:
-        # D' is constant; zeta = -(half/rho) c2 by the first of the two equations.
-        eta = C1 + C2 * root
-        n = -half * (C2 / rho + eta / root)
-        omega = (share, 3 * share)
-    elif sign(square) == 0:
-        # D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); here l > 0, since a double root needs A3 > A1.
-        linear = X + half.subs(X, 0) / lead
-        quarter = sp.sqrt(scale * linear)
-        eta = C1 * linear**rho + C2 * linear ** (-rho)
-        n = -2 * scale * C1 * linear**rho
-        omega = tuple((sp.Rational(1, 2) + power) / linear for power in (rho, -rho))
-    elif rho == 1:
-        eta = C1 * root + C2 * half
-        n = -2 * C1 * half - C2 * sp.expand(lead * D + half**2) / root
-    elif sign(lead) == -1:
-        # E = sqrt(d) exp(i phi)
-        phi = sp.acos(half / sp.sqrt(square))
-        eta = C1 * sp.cos(rho * phi) + C2 * sp.sin(rho * phi)
-        n = -sp.sqrt(square) * (C1 * sp.cos((1 + rho) * phi) + C2 * sp.sin((1 + rho) * phi)) / root
-    else:
-        # For real roots beyond x = 1, D' is negative and so is D'/2 + sqrt(l D): its negative is as good, and positive.
-        beyond = sign(square) == 1 and sign(half.subs(X, 0)) == -1
-        E = -half - scale * root if beyond else half + scale * root
-        eta = C1 * E**rho + C2 * E ** (-rho)
-        n = (1 if beyond else -1) * (C1 * E ** (1 + rho) + square * C2 * E ** (-1 - rho)) / root
+    letters = _Letters.of(place)
+    rho = letters.rho
+    if rho != 0 and letters.leading == 0 == letters.half:
+        return _with_constant_D(letters)
+    found = _general(letters)
+    omega = found.omega
     if (2 * rho).is_Integer and rho != 0 and len(place.roots) == 2:
         omega = _in_roots(InRoots(rho)).omega
-    omega_3 = sum(term / root for term in eta.args) if rho == 1 else eta / quarter**2  # c1 by itself
-    return BallSolution(omega, quarter * eta, omega_3, n / place.weight, E)
+    omega_3 = found.eta / found.quarter**2
+    if rho == 1:  # c1 by itself
+        omega_3 = sum(term / letters.root for term in found.eta.args)
+    return BallSolution(omega, found.quarter * found.eta, omega_3, found.spin / letters.weight, found.E)
+
+
+@dataclass(frozen=True)
+class _Letters:
+    """D, l, D'/2, d and rho of a ball, and m R^2 A1."""
+
+    D: sp.Expr
+    leading: sp.Expr
+    half: sp.Expr
+    d: sp.Expr
+    rho: sp.Expr
+    weight: sp.Expr
+
+    @classmethod
+    def of(cls, place: Rolling) -> _Letters:
+        return cls(place.D, place.leading, place.half, place.discriminant / 4, place.ratio, place.weight)
+
+    @property
+    def root(self) -> sp.Expr:
+        """sqrt(D)."""
+        return sp.sqrt(self.D)
+
+    @property
+    def scale(self) -> sp.Expr:
+        """sqrt(l)."""
+        return sp.sqrt(self.leading)
+
+    @property
+    def share(self) -> sp.Expr:
+        """D'/(4 D)."""
+        return sp.factor(self.half / (2 * self.D))
+
+
+@dataclass(frozen=True)
+class _General:
+    """eta, m R^2 A1 n, omega, D^(1/4) and E: the general solution, before it is written."""
+
+    eta: sp.Expr
+    spin: sp.Expr
+    omega: tuple[sp.Expr, ...]
+    quarter: sp.Expr
+    E: sp.Expr | None = None
+
+
+def _with_constant_D(c: _Letters) -> BallSolution:
+    """The powers of D go into c1 and c2, of y too."""
+    n = -C2 * c.D / c.rho / c.weight
+    return BallSolution((c.share, 1 / X), C1 + C2 * X, C1 + C2 * X, n)
+
+
+def _general(c: _Letters) -> _General:
+    """The general solution in the form that is the simplest for this ball, for a D that isn't constant or rho = 0."""
+    quarter = c.D ** sp.Rational(1, 4)
+    rate = c.rho * c.scale / c.root
+    omega = (c.share + rate, c.share - rate)
+    if c.rho == 0:
+        return _General(C1, C2 - c.half * C1 / c.root, (c.share,), quarter)
+    if c.leading == 0:  # D' is constant; zeta = -(half/rho) c2 by the first of the two equations
+        eta = C1 + C2 * c.root
+        return _General(eta, -c.half * (C2 / c.rho + eta / c.root), (c.share, 3 * c.share), quarter)
+    if sign(c.d) == 0:
+        return _with_double_root(c)
+    if c.rho == 1:
+        eta = C1 * c.root + C2 * c.half
+        spin = -2 * C1 * c.half - C2 * sp.expand(c.leading * c.D + c.half**2) / c.root
+        return _General(eta, spin, omega, quarter)
+    if sign(c.leading) == -1:
+        return _in_angles(c, omega, quarter)
+    return _in_powers(c, omega, quarter)
+
+
+def _with_double_root(c: _Letters) -> _General:
+    """D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); here l > 0, since a double root needs A3 > A1."""
+    linear = X + c.half.subs(X, 0) / c.leading
+    quarter = sp.sqrt(c.scale * linear)
+    eta = C1 * linear**c.rho + C2 * linear ** (-c.rho)
+    spin = -2 * c.scale * C1 * linear**c.rho
+    omega = tuple((sp.Rational(1, 2) + power) / linear for power in (c.rho, -c.rho))
+    return _General(eta, spin, omega, quarter)
+
+
+def _in_angles(c: _Letters, omega: tuple[sp.Expr, ...], quarter: sp.Expr) -> _General:
+    """For l < 0, with E = sqrt(d) exp(i phi)."""
+    phi = sp.acos(c.half / sp.sqrt(c.d))
+    eta = C1 * sp.cos(c.rho * phi) + C2 * sp.sin(c.rho * phi)
+    turned = C1 * sp.cos((1 + c.rho) * phi) + C2 * sp.sin((1 + c.rho) * phi)
+    return _General(eta, -sp.sqrt(c.d) * turned / c.root, omega, quarter)
+
+
+def _in_powers(c: _Letters, omega: tuple[sp.Expr, ...], quarter: sp.Expr) -> _General:
+    """In powers of E; for real roots beyond x = 1, D' is negative and so is E: its negative is as good, and positive."""
+    is_beyond = sign(c.d) == 1 and sign(c.half.subs(X, 0)) == -1
+    if is_beyond:
+        E = -c.half - c.scale * c.root
+        direction = 1
+    else:
+        E = c.half + c.scale * c.root
+        direction = -1
+    eta = C1 * E**c.rho + C2 * E ** (-c.rho)
+    spin = direction * (C1 * E ** (1 + c.rho) + c.d * C2 * E ** (-1 - c.rho)) / c.root
+    return _General(eta, spin, omega, quarter, E)
 
 
 def _in_roots(place: InRoots) -> BallSolution:

@@ -45,6 +45,9 @@ if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
     from kovacic.special.writer import Writer
 
+Points = list[tuple[Place, int]]
+"""Zeros or poles of f, with their multiplicities."""
+
 
 @dataclass(frozen=True)
 class Bessel(StandardEquation):
@@ -104,25 +107,32 @@ class Bessel(StandardEquation):
 def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
     """r = 1: f is a constant times the product of its zeros, by their multiplicities, over that of its poles."""
     one = problem.field.poly([1])
-    poles = one
-    for place in irregular:
-        if not place.at_infinity:
-            poles = poles * place.factor ** (place.order - 2)
-    n = sum((place.order - 2) * place.degree for place in irregular)
+    poles = [(place, place.order - 2) for place in irregular]
+    n = _count(poles)
     regular = [place for place in problem.places if place.kind is Kind.REGULAR and place.delta_squared is not None]
     for zeros in _zeros(regular, n):
         count_work(TRIAL)
-        numerator = one
-        for place, k in zeros:
-            if not place.at_infinity:
-                numerator = numerator * place.factor**k
-        f = RatFunc(numerator, poles)
+        f = RatFunc(_product(zeros, one), _product(poles, one))
         scale = _scale(f, irregular[0])
         if scale is not None:
             place, k = zeros[0]
             assert place.delta_squared is not None
             nu_squared = place.delta_squared * Fraction(1, k * k)
             yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f * scale)
+
+
+def _product(points: Points, one: Poly) -> Poly:
+    """The polynomial with these zeros, as far as they are finite."""
+    found = one
+    for place, k in points:
+        if not place.at_infinity:
+            found = found * place.factor**k
+    return found
+
+
+def _count(points: Points) -> int:
+    """How many points these are, with their multiplicities."""
+    return sum(k * place.degree for place, k in points)
 
 
 def _scale(f: RatFunc, place: Place) -> Poly | None:
@@ -137,39 +147,48 @@ def _scale(f: RatFunc, place: Place) -> Poly | None:
     return scale if scale.degree == 0 else None
 
 
-def _zeros(regular: list[Place], n: int) -> Iterator[list[tuple[Place, int]]]:
+def _zeros(regular: list[Place], n: int) -> Iterator[Points]:
     """Sets of places with multiplicities proportional to the exponent differences, n zeros in all."""
     logarithmic = [place for place in regular if not place.delta_squared]
     if logarithmic:  # nu = 0: all zeros are here, and the exponents don't tell the multiplicities
-        yield from _of_degree(n, logarithmic, product(*(range(1, n // place.degree + 1) for place in logarithmic)))
+        for choice in product(*(range(1, n // place.degree + 1) for place in logarithmic)):
+            zeros = list(zip(logarithmic, choice, strict=True))
+            if _count(zeros) == n:
+                yield zeros
         return
+    for nu_squared in _orders(regular, n):
+        found = _with_multiplicities(regular, nu_squared)
+        for zeros in (found, [(place, k) for place, k in found if not place.is_apparent]):
+            if zeros and _count(zeros) == n:
+                yield zeros
+
+
+def _orders(regular: list[Place], n: int) -> Iterator[Poly]:
+    """Each nu^2 for which one of the places has the multiplicity 1, 2, ..., up to n zeros."""
     tried = set()
-    for first in regular:
-        for m in range(1, n // first.degree + 1):
-            assert first.delta_squared is not None
-            nu_squared = first.delta_squared * Fraction(1, m * m)
+    for place in regular:
+        for m in range(1, n // place.degree + 1):
+            assert place.delta_squared is not None
+            nu_squared = place.delta_squared * Fraction(1, m * m)
             if nu_squared in tried:
                 continue
             count_work(TRIAL)
             tried.add(nu_squared)
-            found = [(place, k) for place in regular if (k := _multiplicity(place, nu_squared))]
-            for zeros in (found, [(place, k) for place, k in found if not place.is_apparent]):
-                if zeros and sum(k * place.degree for place, k in zeros) == n:
-                    yield zeros
+            yield nu_squared
 
 
-def _of_degree(n: int, places: list[Place], choices: Iterator[tuple[int, ...]]) -> Iterator[list[tuple[Place, int]]]:
-    """The places with those multiplicities that make n zeros."""
-    for choice in choices:
-        zeros = list(zip(places, choice, strict=True))
-        if sum(k * place.degree for place, k in zeros) == n:
-            yield zeros
+def _with_multiplicities(regular: list[Place], nu_squared: Poly) -> Points:
+    """The places whose exponent differences are multiples of nu."""
+    multiplicities = [(place, _multiplicity(place, nu_squared)) for place in regular]
+    return [(place, k) for place, k in multiplicities if k]
 
 
 def _multiplicity(place: Place, nu_squared: Poly) -> int | None:
     """k with Delta = k nu at a regular place, None if there is no such positive integer."""
     assert place.delta_squared is not None
-    ratio = rational_square_root(place.delta_squared / nu_squared) if nu_squared else None
+    if not nu_squared:
+        return None
+    ratio = rational_square_root(place.delta_squared / nu_squared)
     return int(ratio) if ratio is not None and ratio.denominator == 1 else None
 
 
@@ -182,18 +201,24 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
     Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
     """
     nu = writer.square_root(nu_squared)
-    if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t)):
+    if singular is not None and _has_zero_beside(singular, t):
         first, second = (
             (writer.factor(t, [((m + 1) * HALF, t)]), writer.hypergeometric((), (m + 1,), writer.argument(-t)))
             for m in (nu, -nu)
         )
         return writer.pair(first, second)
     modified = writer.is_negative(t.num.lc)
-    z = writer.root_of(t * (-4 if modified else 4))
+    four_t = t * -4 if modified else t * 4
+    z = writer.root_of(four_t)
     degree = next((m - HALF for m in (nu, -nu) if writer.is_degree(m - HALF)), None)
     if degree is not None and not modified:
         return _spherical(writer, degree, t, z)
     return _cylindrical(writer, nu, t, z, modified=modified)
+
+
+def _has_zero_beside(singular: Poly, t: RatFunc) -> bool:
+    """Does t vanish at a point that isn't a zero of this polynomial?"""
+    return any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t))
 
 
 def _spherical(writer: Writer, degree: Number, t: RatFunc, z: Expr) -> tuple[Expr, Expr]:
@@ -252,7 +277,9 @@ def _0f1(argument: Any, c: Any) -> Any:
     """
     found = argument.hypgeom_0f1(acb(c))
     bits = ctx.prec
-    if found.rel_accuracy_bits() > bits // 2 or not isinstance(c, fmpq) or c < fmpq(-1, 2) or not argument.is_finite():
+    is_accurate = found.rel_accuracy_bits() > bits // 2
+    is_bounded = isinstance(c, fmpq) and c >= fmpq(-1, 2) and argument.is_finite()
+    if is_accurate or not is_bounded:
         return found
     w = 2 * math.sqrt(float(abs(argument).upper()))
     if w > 2 * bits:
@@ -284,7 +311,9 @@ def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution,
 
     def second(z: acb) -> ValueAndSlope:
         w, slope = (root * z, acb(root)) if squared else (2 * root * z.sqrt(), root / z.sqrt())
-        value, above = (w.bessel_k(v) if factor > 0 else w.bessel_y(v) for v in (nu, nu + 1))
+        kind = w.bessel_k if factor > 0 else w.bessel_y
+        value = kind(nu)
+        above = kind(nu + 1)
         return value, (nu / w * value - above) * slope
 
     return first(order), second, 1

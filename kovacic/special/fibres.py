@@ -13,7 +13,7 @@ Reference: M. van Hoeij, R. Vidunas, J. Algebra 441 (2015) 626-659, for the patt
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -48,23 +48,17 @@ def coverings(problem: Problem, *, extended: bool) -> Iterator[Covering]:
     """Those that are possible, of small degree first.  With `extended`, conjugate places are separated over a larger field."""
     regular = [place for place in problem.places if place.kind is Kind.REGULAR]
     places = [place for place in regular if not place.is_apparent]
-    different = next((place for place in places if place.delta_squared is None), None)
-    if extended and different is not None and different.degree == 2:
-        yield from coverings(_with_root(problem, different.factor), extended=extended)
-    if len(places) > _PLACES or different is not None:
+    different = [place.factor for place in places if place.delta_squared is None]
+    if different:
+        if extended and different[0].degree == 2:
+            yield from coverings(_with_root(problem, different[0]), extended=extended)
         return
-    tried = set()
-    for zeros, poles, rest in _distributed(problem, regular, places):
-        for f in _scaled(zeros.polynomial, poles.polynomial, rest):
-            if f in tried:
-                continue
-            tried.add(f)
-            count_work(_TRIAL)
-            if len(tried) > _TRIALS:
-                raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
-            ones = _difference_at_ones(f, zeros.degree, regular)
-            if ones is not None:
-                yield Covering(f, zeros.square, ones, poles.square)
+    if len(places) > _PLACES:
+        return
+    for zeros, poles, f in _functions(problem, regular, places):
+        ones = _difference_at_ones(f, zeros.degree, regular)
+        if ones is not None:
+            yield Covering(f, zeros.square, ones, poles.square)
 
 
 def _with_root(problem: Problem, factor: Poly) -> Problem:
@@ -88,7 +82,7 @@ class _Fibre:
 
     @property
     def points(self) -> int:
-        return sum(place.degree for place, _ in self.places)
+        return _points(place for place, _ in self.places)
 
     @property
     def polynomial(self) -> Poly:
@@ -98,6 +92,20 @@ class _Fibre:
             if not place.at_infinity:
                 result = result * place.factor**k
         return result
+
+
+def _functions(problem: Problem, regular: list[Place], places: list[Place]) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
+    """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
+    tried = set()
+    for zeros, poles, rest in _distributed(problem, regular, places):
+        for f in _scaled(zeros.polynomial, poles.polynomial, rest):
+            if f in tried:
+                continue
+            tried.add(f)
+            count_work(_TRIAL)
+            if len(tried) > _TRIALS:
+                raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
+            yield zeros, poles, f
 
 
 def _distributed(
@@ -113,18 +121,23 @@ def _distributed(
                 continue
             used = zeros.mask | poles.mask
             rest = [place for place in places if not used >> among.index(place) & 1]
-            third = sum(place.degree for place in rest)
-            points = zeros.points + poles.points + third + (n - third) // 2  # over 1, S shows all but multiple points
-            if points >= n + 2:
+            over_one = _points(rest)
+            multiple = (n - over_one) // 2  # at most: S doesn't show these
+            if zeros.points + poles.points + over_one + multiple >= n + 2:
                 yield zeros, poles, rest
+
+
+def _points(places: Iterable[Place]) -> int:
+    """How many roots the places have together."""
+    return sum(place.degree for place in places)
 
 
 def _by_degree(problem: Problem, regular: list[Place], among: list[Place]) -> dict[int, list[_Fibre]]:
     """The fibres that can be, by the degree of f."""
-    points = sum(place.degree for place in regular if not place.is_apparent)
+    points = _points(place for place in regular if not place.is_apparent)
     elsewhere = sum(int(place.delta or 1) * place.degree for place in regular if place.is_apparent)
     fibres: dict[int, list[_Fibre]] = {}
-    for fibre in _fibres(among, 2 * sum(place.degree for place in among) - 4):
+    for fibre in _fibres(among, 2 * _points(among) - 4):
         problem.budget.check()
         count_work(1)
         if fibre.degree >= points - 2 - elsewhere:
@@ -137,16 +150,25 @@ def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
     for chosen, mask in _commensurable(places, most, 0, [], 0):
         first = chosen[0].delta_squared
         assert first is not None
-        ratios = [_ratio(place, chosen[0]) for place in chosen]
-        if not first:  # all of them 0: the multiplicities are free, and only equal ones are tried
-            ratios = [Fraction(1)] * len(chosen)
-        known = [ratio for ratio in ratios if ratio is not None]
-        unit = Fraction(gcd(*(r.numerator for r in known)), lcm(*(r.denominator for r in known)))
-        least = [int(ratio / unit) for ratio in known]
+        least = _least_multiplicities(chosen)
         size = sum(m * place.degree for m, place in zip(least, chosen, strict=True))
         for k in range(1, most // size + 1):
-            square = first * unit * unit * Fraction(1, k * k)
-            yield _Fibre(tuple((place, k * m) for place, m in zip(chosen, least, strict=True)), square, k * size, mask)
+            points = tuple((place, k * m) for place, m in zip(chosen, least, strict=True))
+            square = first * Fraction(1, (k * least[0]) ** 2)
+            yield _Fibre(points, square, k * size, mask)
+
+
+def _least_multiplicities(chosen: list[Place]) -> list[int]:
+    """The smallest natural numbers in the proportion of the exponent differences.
+
+    Where these are 0 the multiplicities are free, and only equal ones are tried.
+    """
+    if not chosen[0].delta_squared:
+        return [1] * len(chosen)
+    found = (_ratio(place, chosen[0]) for place in chosen)
+    ratios = [ratio for ratio in found if ratio is not None]
+    unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
+    return [int(ratio / unit) for ratio in ratios]
 
 
 def _commensurable(
@@ -156,10 +178,11 @@ def _commensurable(
     chosen before the index, and all that goes with it from there."""
     if chosen:
         yield chosen, mask
-    left = most - sum(place.degree for place in chosen)
+    left = most - _points(chosen)
     for k in range(index, len(places)):
         place = places[k]
-        if place.degree <= left and (not chosen or _ratio(place, chosen[0]) is not None):
+        goes_with_others = not chosen or _ratio(place, chosen[0]) is not None
+        if goes_with_others and place.degree <= left:
             yield from _commensurable(places, most, k + 1, [*chosen, place], mask | 1 << k)
 
 
@@ -180,21 +203,34 @@ def _ratio(place: Place, other: Place) -> Fraction | None:
 def _scaled(zeros: Poly, poles: Poly, rest: list[Place]) -> Iterator[RatFunc]:
     """The multiples of zeros/poles that are 1 at the places of the rest, or have 1 for a critical value."""
     f = RatFunc(zeros, poles)
-    slope = f.derivative().num
-    if rest:
-        finite = [] if rest[0].at_infinity else [rest[0].factor]
+    if not rest:
+        factors = _critical(f)
+    elif rest[0].at_infinity:
+        factors = []
     else:
-        finite = [p for p, _ in slope.field.factor(slope)] if slope.degree > 0 else []
-    values = [f.num * f.den.inverse_modulo(p) % p for p in finite if f.den.gcd(p).degree == 0]
-    if f.degree == 0 and not (rest and finite):
+        factors = [rest[0].factor]
+    values = [f.num * f.den.inverse_modulo(p) % p for p in factors if f.den.gcd(p).degree == 0]
+    is_known_at_infinity = f.degree == 0
+    if is_known_at_infinity and not (rest and factors):
         values.append(f.num.lc)
     for value in values:
         if value.degree == 0:
             yield f / value
 
 
+def _critical(f: RatFunc) -> list[Poly]:
+    """The irreducible polynomials at whose roots f' vanishes."""
+    slope = f.derivative().num
+    if slope.degree <= 0:
+        return []
+    return [p for p, _ in slope.field.factor(slope)]
+
+
 def _difference_at_ones(f: RatFunc, degree: int, regular: list[Place]) -> Poly | None:
-    """The square of the exponent difference over 1, from that and the multiplicity of one point there; None if f is 1."""
+    """The square of the exponent difference over 1, from that and the multiplicity of one point there; None if f is 1.
+
+    A point that isn't singular has the exponent difference 1.
+    """
     over_one = f.num - f.den
     if over_one.degree < 0:
         return None

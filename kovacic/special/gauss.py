@@ -235,11 +235,14 @@ def _reducible(writer: Writer, forms: list[_GaussForm]) -> tuple[Expr, Expr] | N
     free = next((form for form in forms if not writer.is_integer(form.alpha)), None)
     if free is not None:
         return writer.pair(free.term, free.turned.term)
-    even = next((signed for form in forms for signed in form.signs if signed.alpha == signed.beta), None)
+    signed_forms = [signed for form in forms for signed in form.signs]
+    even = next((form for form in signed_forms if form.alpha == form.beta), None)
     if even is not None:
         return writer.pair(*_even_and_odd(even))
-    regular = next((signed for form in forms for signed in form.signs if _is_irreducible_at(signed)), None)
-    return None if regular is None else writer.pair(regular.term, regular.swapped.term)
+    regular = next((form for form in signed_forms if _is_irreducible_at(form)), None)
+    if regular is None:
+        return None
+    return writer.pair(regular.term, regular.swapped.term)
 
 
 def _is_irreducible_at(form: _GaussForm) -> bool:
@@ -376,6 +379,8 @@ def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSol
         w = 1 - z if mirrored else z
         F = w.hypgeom_2f1(first, second, third, False, *whole)
         slope = w.hypgeom_2f1(first + 1, second + 1, third + 1, False, *whole) * first * second / third
-        return F, -slope if mirrored else slope
+        if mirrored:
+            slope = -slope
+        return F, slope
 
     return value

@@ -33,29 +33,50 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
     x = user_variable(equation)
     T = function_of_x(equation)
     angle = T.args[0]
-    waves = T.func is tan
-    # its zeros are where x is infinite, and f has no pole elsewhere
-    infinite = S.field.poly([1, 0, 1] if waves else [0, 1])
-    if S.den.remove(infinite)[0].degree > 0:
+    is_tangent = T.func is tan
+    if _has_pole_elsewhere(S, is_tangent=is_tangent):
         return None
     s = T.diff(x).xreplace({T: t})
     f = cancel(s**2 * Atoms(t).ratio(S) - s * s.diff(t, 2) / 2 + s.diff(t) ** 2 / 4)
-    n = sympy.degree(sympy.fraction(f)[1], t)
+    n = sympy.degree(sympy.denom(f), t)
     if s.has(x) or not n:
         return None
-    unit = n if waves else I * n  # kappa x is unit * angle
-    unit = -unit if (unit * angle).could_extract_minus_sign() else unit
-    slope = cancel(s * f.diff(t))
+    unit = n if is_tangent else I * n  # kappa x is unit * angle
+    if (unit * angle).could_extract_minus_sign():
+        unit = -unit
     kappa = unit * angle.diff(x)
+    slope = cancel(s * f.diff(t))
     mean = cancel(f + s * slope.diff(t) / kappa**2)
-    start = 0 if waves else 1
+    start = 0 if is_tangent else 1  # t at x = 0
     cosine, sine = (sympy.expand(part.subs(t, start)) for part in (f - mean, slope / kappa))
     if mean.has(t) or sympy.expand(cosine**2 + sine**2) == 0:
         return None
-    shift, size = (atan(sine / cosine), cosine * sympy.sqrt(1 + (sine / cosine) ** 2)) if cosine else (pi / 2, sine)
+    size, shift = _size_and_shift(cosine, sine)
     a, q = (sympy.expand(2 * part / kappa**2) for part in (-2 * mean, size))
-    X = RatFunc(S.field.poly([0, 1]))
-    factor = display(product(gauge + (X / (X * X + 1) if waves else 1 / (2 * X))), Atoms(t)).subs(t, T)
+    factor = _factor(gauge, t, is_tangent=is_tangent).subs(t, T)
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
-    y1, y2 = (factor * function(a, q, sympy.expand((unit * angle - shift) / 2)) for function in (mathieuc, mathieus))
-    return y1, y2
+    z = sympy.expand((unit * angle - shift) / 2)
+    return factor * mathieuc(a, q, z), factor * mathieus(a, q, z)
+
+
+def _has_pole_elsewhere(S: RatFunc, *, is_tangent: bool) -> bool:
+    """Has S another pole than where x is infinite: exp(k x) = 0, or tan(k x)^2 = -1?"""
+    field = S.field
+    infinite = field.poly([1, 0, 1]) if is_tangent else field.poly([0, 1])
+    others, _ = S.den.remove(infinite)
+    return others.degree > 0
+
+
+def _size_and_shift(cosine: Expr, sine: Expr) -> tuple[Expr, Expr]:
+    """size and shift for cosine cos(u) + sine sin(u) = size cos(u - shift)."""
+    if not cosine:
+        return sine, pi / 2
+    ratio = sine / cosine
+    return cosine * sympy.sqrt(1 + ratio**2), atan(ratio)
+
+
+def _factor(gauge: RatFunc, t: sympy.Symbol, *, is_tangent: bool) -> Expr:
+    """exp(int gauge dt)/sqrt(s), but for its constant: v = u/sqrt(s), and s is t or 1 + t^2 times one."""
+    X = RatFunc(gauge.field.poly([0, 1]))
+    half_of_slope = X / (X * X + 1) if is_tangent else 1 / (2 * X)
+    return display(product(gauge + half_of_slope), Atoms(t))

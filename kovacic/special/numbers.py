@@ -45,8 +45,13 @@ class Number:
 
 def multiplicities(f: RatFunc) -> list[tuple[Poly, int]]:
     """The monic irreducible factors with their multiplicities, negative in the denominator."""
-    parts = ((f.num, 1), (f.den, -1))
-    return [(p, sign * k) for part, sign in parts if part.degree > 0 for p, k in f.field.factor(part)]
+    zeros = _factors(f.num)
+    poles = _factors(f.den)
+    return zeros + [(p, -k) for p, k in poles]
+
+
+def _factors(polynomial: Poly) -> list[tuple[Poly, int]]:
+    return polynomial.field.factor(polynomial) if polynomial.degree > 0 else []
 
 
 def root(value: Poly, n: int) -> Poly | None:

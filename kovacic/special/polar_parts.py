@@ -154,16 +154,18 @@ def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[
     place = min(places, key=lambda place: place.degree)
     v = value(place)
     field = place.num.field
-    if place.degree == 1:
-        return [field.poly([1]) if root(v[0], n) is not None else v[0]]
     one = field.poly([1])
+    if place.degree == 1:
+        is_power = root(v[0], n) is not None
+        return [one] if is_power else [v[0]]
     scales = [one] if n == 3 else [one, -one]
     if place.degree == 2 and n == 2:
         # v = q w^2 has the norm (q N(w))^2, and (v + sqrt N(v))^2 = v (tr v + 2 sqrt N(v)).
         p = place.factor
         trace = 2 * v[0] - v[1] * p[1]
         norm = field.sqrt(v[0] * v[0] - v[0] * v[1] * p[1] + v[1] * v[1] * p[0])
-        scales += [trace + 2 * sign * norm for sign in (1, -1)] if norm is not None else []
+        if norm is not None:
+            scales += [trace + 2 * norm, trace - 2 * norm]
     return list(dict.fromkeys(scale for scale in scales if scale))
 
 

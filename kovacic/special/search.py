@@ -73,7 +73,8 @@ class SpecialFunctions:
         return self.pullback is not None
 
     def __repr__(self) -> str:
-        return f"<SpecialFunctions: {f'{as_text(self.y1)}, {as_text(self.y2)}' if self else 'none was found'}>"
+        found = f"{as_text(self.y1)}, {as_text(self.y2)}" if self else "none was found"
+        return f"<SpecialFunctions: {found}>"
 
     def _repr_latex_(self) -> str | None:
         if self.pullback is None:
@@ -179,7 +180,8 @@ def _written(
     from kovacic.special.writer import Writer
 
     writer = Writer(gauge, sympy.Symbol(variable), symbols)
-    found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
+    singular = S.den if joined else None
+    found = pullback.equation.written(writer, pullback.f, singular)
     for y in found or ():
         _check(y, writer.atoms.x, S, gauge)
     return None if found is None else _in_own_symbols(found, writer)
@@ -227,28 +229,27 @@ def by_sign(
     pullback = find(S, budget).pullback
     if pullback is None:
         return None
-    try:
-        with budget.watched():
-            return _by_sign(pullback, S, gauge, variable, symbols, S.den if joined else None)
-    except LimitExceeded:
-        return None
-
-
-def _by_sign(
-    pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], singular: Poly | None
-) -> BySign | None:
-    """The first integer whose sign helps both ways, else the first that helps one; its solutions are checked at a point."""
     import sympy
 
     from kovacic.special.writer import Writer
 
-    writer = Writer(gauge, sympy.Symbol(variable), symbols)
+    try:
+        with budget.watched():
+            writer = Writer(gauge, sympy.Symbol(variable), symbols)
+            return _by_sign(pullback, S, writer, joined=joined)
+    except LimitExceeded:
+        return None
+
+
+def _by_sign(pullback: Pullback, S: RatFunc, writer: Writer, *, joined: bool) -> BySign | None:
+    """The first integer whose sign helps both ways, else the first that helps one; its solutions are checked at a point."""
+    singular = S.den if joined else None
     best = _best(_helpful(pullback, writer, singular))
     if best is None:
         return None
     for pair in best.pairs:
         for y in pair or ():
-            _check(y, writer.atoms.x, S, gauge)
+            _check(y, writer.atoms.x, S, writer.gauge)
     natural = _in_own_symbols(best.natural, writer)
     negative = None if best.negative is None else _in_own_symbols(best.negative, writer)
     return BySign(best.integer.xreplace(_own_symbols(writer)), natural, negative)

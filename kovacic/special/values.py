@@ -55,9 +55,16 @@ class StandardForm:
 
 def each(*solutions: StandardSolution) -> StandardSolutions:
     """The values of either."""
-    return lambda z, needed: [
-        solution(z) if wanted else (acb(0), acb(0)) for solution, wanted in zip(solutions, needed, strict=True)
-    ]
+
+    def values(z: acb, needed: Sequence[bool]) -> list[ValueAndSlope]:
+        """(0, 0) for those that aren't needed."""
+        found = []
+        for solution, is_needed in zip(solutions, needed, strict=True):
+            value = solution(z) if is_needed else (acb(0), acb(0))
+            found.append(value)
+        return found
+
+    return values
 
 
 def rational(constant: Any) -> Any:

@@ -158,8 +158,10 @@ def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
     if not any(rates):
         if len(parts) <= _MOST_SIGNS:
             yield from product((1,), *[(1, -1)] * (len(parts) - 1))
-    elif all(rate in (rates[0], -rates[0]) for rate in rates):
-        yield [1 if rate == rates[0] else -1 for rate in rates]
+        return
+    signs = {rates[0]: 1, -rates[0]: -1}
+    if all(rate in signs for rate in rates):
+        yield [signs[rate] for rate in rates]
 
 
 # ------------------------------------------------------------------------------------------ written

@@ -111,13 +111,16 @@ class Writer:
         zero = square * 0
         inside = square.field.sqrt(square) if square else square
         if inside is not None:
-            return Number(-inside if self.is_negative(inside) else inside)
+            return Number(self._without_sign(inside))
         for known in self._squares:
             ratio = square.field.sqrt(square / known)
             if ratio is not None:
-                return Number(zero, ((known, -ratio if self.is_negative(ratio) else ratio),))
+                return Number(zero, ((known, self._without_sign(ratio)),))
         self._squares.append(square)
         return Number(zero, ((square, zero + 1),))
+
+    def _without_sign(self, value: Poly) -> Poly:
+        return -value if self.is_negative(value) else value
 
     def constant(self, value: Number | Poly) -> Expr:
         if value not in self._shown:
