@@ -36,7 +36,7 @@ _D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
 _FORCE = ("gravity", "potential")
 
 
-class Row(NamedTuple):
+class AnswerRow(NamedTuple):
     """A key of the JSON and its value; where it is shown, its label, and as a template what is said: the value itself."""
 
     key: str
@@ -101,7 +101,7 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
         return
     place = _place(**given)
     rows = _answer(place, latex=latex)
-    motion: list[Row] = []
+    motion: list[AnswerRow] = []
     if given["simulate"] or given["plot"] is not None:
         force = {name: given[name] for name in _FORCE}
         motion = _simulate(place, start=given["start"], end=given["end"], plot=given["plot"], **force)
@@ -120,7 +120,7 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
             click.echo(line)
 
 
-def _in_json(rows: list[Row]) -> dict[str, Any]:
+def _in_json(rows: list[AnswerRow]) -> dict[str, Any]:
     return {row.key: row.value for row in rows}
 
 
@@ -182,7 +182,7 @@ def _place(*, ratio: str | None, mass: str | None, radius: str | None, sphere: s
     return ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
 
 
-def _answer(place: Rolling, *, latex: bool) -> list[Row]:
+def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
     """What the theorems and the engine say, and the closed form, which is checked."""
     import kovacic
     from kovacic.ball import BallOnSphere, closed_form
@@ -205,37 +205,41 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
             text = text.replace(f"{whole}**", f"{name}**").replace(whole, f"({name})")
         return text
 
-    rows = [Row("ratio", place.ratio, "R/R1"), Row("N", 2 * place.ratio, "N = 2R/R1", N)]
+    rows = [AnswerRow("ratio", place.ratio, "R/R1"), AnswerRow("N", 2 * place.ratio, "N = 2R/R1", N)]
     note = f"x = cos u; x1, x2 are the roots of D(x) = {_D}, two different ones"
     if isinstance(place, BallOnSphere):
         note = "x = cos u; units are those of the input"
         roots = ", ".join(map(str, place.roots))
-        rows += [Row("ball", place.kind, "ball"), Row("D", place.D, "D(x)"), Row("roots", roots, "x1, x2")]
-    rows.append(Row("theorem", said, "theorem"))
+        rows += [
+            AnswerRow("ball", place.kind, "ball"),
+            AnswerRow("D", place.D, "D(x)"),
+            AnswerRow("roots", roots, "x1, x2"),
+        ]
+    rows.append(AnswerRow("theorem", said, "theorem"))
     if place.ratio.free_symbols:
         lines = _conditions(place)
-        rows.append(Row("conditions", lines, "by the engine", _as_is("\n".join(lines))))
+        rows.append(AnswerRow("conditions", lines, "by the engine", _as_is("\n".join(lines))))
     rows += [
-        Row("equation", equations["12"].text, "equation (12)"),
-        Row("S", place.S, "(13) y'' = S y, S"),
-        Row("status", solution.status.value),
-        Row("case", solution.case, "case", generic),
-        Row("omega", list(map(str, form.omega)), "omega(x) = y'/y", _as_is("\n".join(map(short, form.omega)))),
+        AnswerRow("equation", equations["12"].text, "equation (12)"),
+        AnswerRow("S", place.S, "(13) y'' = S y, S"),
+        AnswerRow("status", solution.status.value),
+        AnswerRow("case", solution.case, "case", generic),
+        AnswerRow("omega", list(map(str, form.omega)), "omega(x) = y'/y", _as_is("\n".join(map(short, form.omega)))),
     ]
     if form.E:
-        rows.append(Row("E", form.E, "E(x)"))
+        rows.append(AnswerRow("E", form.E, "E(x)"))
     for name in ("y", "omega_3", "n"):
         found = getattr(form, name)
-        rows.append(Row(name, found, name, _as_is(short(found))))
+        rows.append(AnswerRow(name, found, name, _as_is(short(found))))
     rows += [
-        Row("group", solution.group and solution.group.name, "group", generic),
-        Row("verified", solution.verified and form.solves(place), "verified"),
-        Row("note", note, ""),
+        AnswerRow("group", solution.group and solution.group.name, "group", generic),
+        AnswerRow("verified", solution.verified and form.solves(place), "verified"),
+        AnswerRow("note", note, ""),
     ]
     if latex:
         formulas = {name: breakable(math.latex) for name, math in equations.items()}
         shown = "\n".join(f"({name}) {formula}" for name, formula in formulas.items())
-        rows.append(Row("latex", formulas, "LaTeX", _as_is(shown)))
+        rows.append(AnswerRow("latex", formulas, "LaTeX", _as_is(shown)))
     return rows
 
 
@@ -252,7 +256,9 @@ def _as_is(text: str) -> str:
     return text.replace("{", "{{").replace("}", "}}")
 
 
-def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None, **force: str | None) -> list[Row]:
+def _simulate(
+    sphere: Any, *, start: Sequence[str], end: str, plot: Path | None, **force: str | None
+) -> list[AnswerRow]:
     """The motion from `start` = (u, u', v', n) up to the time `end`, `force` being `gravity` or `potential`; the picture."""
     from kovacic.errors import InputError, needs
 
@@ -285,16 +291,16 @@ def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None,
     determined = motion.determined if np.isfinite(motion.determined) else None
     lost = _LOST if motion.approach < _SENSITIVE else ""
     return [
-        Row("potential", motion.force.V, "potential", "V = {}"),
-        Row("turning_points", motion.turning_points, *said),
-        Row("period", motion.period, "period", "{:.15g}"),
-        Row("time", time),
-        Row("contact", (motion.contact(time) + 0.0).tolist(), "contact point", _CONTACT),
-        Row("least_reaction", least, "normal reaction", f"at least {{:.6g}} (t <= {time:g})"),
-        Row("pulled_from", pulled, "", _PULLED),
-        Row("difference", difference, "difference", _DIFFERENCE),
-        Row("energy_drift", float(np.ptp(motion.energy(times))), "energy drift", "{:.2e}"),
-        Row("determined", determined, "asymptotic", _DETERMINED),
-        Row("approach", motion.approach, "", lost),
-        Row("plot", plot and str(plot), "picture"),
+        AnswerRow("potential", motion.force.V, "potential", "V = {}"),
+        AnswerRow("turning_points", motion.turning_points, *said),
+        AnswerRow("period", motion.period, "period", "{:.15g}"),
+        AnswerRow("time", time),
+        AnswerRow("contact", (motion.contact(time) + 0.0).tolist(), "contact point", _CONTACT),
+        AnswerRow("least_reaction", least, "normal reaction", f"at least {{:.6g}} (t <= {time:g})"),
+        AnswerRow("pulled_from", pulled, "", _PULLED),
+        AnswerRow("difference", difference, "difference", _DIFFERENCE),
+        AnswerRow("energy_drift", float(np.ptp(motion.energy(times))), "energy drift", "{:.2e}"),
+        AnswerRow("determined", determined, "asymptotic", _DETERMINED),
+        AnswerRow("approach", motion.approach, "", lost),
+        AnswerRow("plot", plot and str(plot), "picture"),
     ]

@@ -130,7 +130,7 @@ class CommonPower(NamedTuple):
     powers: dict[Any, Any]
 
 
-class _Line(NamedTuple):
+class _ExponentLine(NamedTuple):
     """The exponent of exp(rate x + shift)."""
 
     rate: Any
@@ -163,10 +163,10 @@ def common_power(exponentials: set[Any], x: Any, T: Any) -> CommonPower:
     return CommonPower(k, offset, powers)
 
 
-def _line_of(e: Any, x: Any) -> _Line:
+def _line_of(e: Any, x: Any) -> _ExponentLine:
     """The exponent of an exponential as a polynomial of degree 1 in x."""
     argument = sympy.expand(e.exp)
-    line = _Line(rate=argument.coeff(x, 1), shift=argument.coeff(x, 0))
+    line = _ExponentLine(rate=argument.coeff(x, 1), shift=argument.coeff(x, 0))
     if sympy.expand(argument - line.rate * x - line.shift) != 0 or line.rate.has(x):
         raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
     return line
@@ -178,7 +178,7 @@ def _common_unit(ratios: list[Any]) -> Any:
     return sympy.Rational(gcd(*(int(ratio.p * common // ratio.q) for ratio in ratios)), common)
 
 
-def _best_offset(lines: list[_Line]) -> Any:
+def _best_offset(lines: list[_ExponentLine]) -> Any:
     """0, or what the exponents vanish with, whichever leaves the fewest constants; the first one among equals."""
 
     def constants_left(offset: Any) -> int:
@@ -199,7 +199,7 @@ class _InVariable(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _ThetaForm:
+class _ThetaEquation:
     """theta^2 Y + P theta Y + Q Y = F with theta = T d/dT."""
 
     P: RatFunc
@@ -214,10 +214,10 @@ class _ThetaForm:
             exponents |= _exponents(part.num) | _exponents(part.den)
         return gcd(*exponents) or 1
 
-    def in_power(self, g: int) -> _ThetaForm:
+    def in_power(self, g: int) -> _ThetaEquation:
         """The equation in T^g."""
         P, Q, F = (_deflated(part, g) for part in (self.P, self.Q, self.F))
-        return _ThetaForm(P / g, Q / g**2, F / g**2)
+        return _ThetaEquation(P / g, Q / g**2, F / g**2)
 
     @property
     def monic(self) -> Monic:
@@ -242,7 +242,7 @@ def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
         field, i = _with_i(field)
     T = RatFunc(field.poly([0, 1]))
     p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
-    form = _ThetaForm(p * T - 1, q * T * T, f * T * T)
+    form = _ThetaEquation(p * T - 1, q * T * T, f * T * T)
     g = form.step
     exponential = form.in_power(g).monic
     found = [_InVariable(exponential, sympy.exp(sympy.expand(g * k * x)))]
@@ -270,7 +270,7 @@ def _with_i(field: Field) -> tuple[Field, Poly | None]:
     return extended, extended.generator
 
 
-def _in_trigonometric(form: _ThetaForm, i: Poly | None, angle: Any) -> Iterator[_InVariable]:
+def _in_trigonometric(form: _ThetaEquation, i: Poly | None, angle: Any) -> Iterator[_InVariable]:
     """In the cosine and in the sine, (T - 1/T)/2 = i sin, where the equation is one in these."""
     cosine = _quotient(form, 1)
     if cosine is not None:
@@ -281,7 +281,7 @@ def _in_trigonometric(form: _ThetaForm, i: Poly | None, angle: Any) -> Iterator[
         yield _InVariable(_substituted(sine, i_sine), sympy.sin(angle))
 
 
-def _in_hyperbolic(form: _ThetaForm, angle: Any) -> Iterator[_InVariable]:
+def _in_hyperbolic(form: _ThetaEquation, angle: Any) -> Iterator[_InVariable]:
     """In the hyperbolic cosine and sine, where the equation is one in these."""
     for sign, function in ((1, sympy.cosh), (-1, sympy.sinh)):
         quotient = _quotient(form, sign)
@@ -308,7 +308,7 @@ def _substituted(equation: Monic, M: RatFunc) -> Monic:
     return p * slope - slope.derivative() / slope, q * slope**2, f * slope**2
 
 
-def _quotient(form: _ThetaForm, sign: int) -> Monic | None:
+def _quotient(form: _ThetaEquation, sign: int) -> Monic | None:
     """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
     T = RatFunc(form.P.field.poly([0, 1]))
     parts = [_invariant(part, sign) for part in (form.P * (T * T - sign) / (2 * T), form.Q, form.F)]

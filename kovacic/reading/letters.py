@@ -198,15 +198,15 @@ class _LetterTable:
             value = roots[sympy.S.One].power(sympy.S.One)
             symbols[line.symbol] = sympy.expand((value - line.rest) / line.slope)
 
-    def _root_of(self, base: Expr, monomial: Expr, rates: Sequence[Expr]) -> _Root:
+    def _root_of(self, base: Expr, monomial: Expr, rates: Sequence[Expr]) -> _RootLetter:
         """A letter by which base^(r m) is rational for each of the rates r of a monomial m."""
         unit = _unit(rates)
         if monomial != 1 and not base.is_negative:
             unit /= 2  # so that the root, which solutions often have, is rational
-        return _Root(self.letter(base ** (unit * monomial)), unit)
+        return _RootLetter(self.letter(base ** (unit * monomial)), unit)
 
 
-class _Root(NamedTuple):
+class _RootLetter(NamedTuple):
     """A letter for base^(unit m)."""
 
     letter: Expr
@@ -217,7 +217,7 @@ class _Root(NamedTuple):
         return self.letter ** (rate / self.unit)
 
 
-class _Line(NamedTuple):
+class _LinearForm(NamedTuple):
     """slope symbol + rest."""
 
     symbol: Expr
@@ -242,15 +242,15 @@ def _unit(rates: Sequence[Expr]) -> Expr:
     return -divisor if are_negative and divisor > 0 else divisor
 
 
-def _solved_for(base: Expr, known: Meanings) -> _Line | None:
+def _solved_for(base: Expr, known: Meanings) -> _LinearForm | None:
     """The base as a function of degree 1 of a symbol that isn't replaced yet; pi is one, too."""
     if base is sympy.pi:
-        return _Line(base, slope=sympy.S.One, rest=sympy.S.Zero)
+        return _LinearForm(base, slope=sympy.S.One, rest=sympy.S.Zero)
     for symbol in sorted(base.free_symbols - known.keys(), key=str):
         slope = base.diff(symbol)
         rest = sympy.expand(base - slope * symbol)
         if slope.is_Rational and not rest.free_symbols & known.keys():
-            return _Line(symbol, slope, rest)
+            return _LinearForm(symbol, slope, rest)
     return None
 
 
