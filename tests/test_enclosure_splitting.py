@@ -17,7 +17,7 @@ from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evalua
 from kovacic.enclosure import transport
 from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
-from kovacic.enclosure.splitting import LEAF, Recurrence, bit_burst, is_split, make_block, split_legs
+from kovacic.enclosure.splitting import LEAF, GaussianMatrix, Recurrence, bit_burst, is_split, make_block, split_legs
 from kovacic.enclosure.taylor import expand, transition
 from kovacic.limits import Budget
 from tests.strategies import Example, examples, fractions, integers, nonzero
@@ -100,14 +100,17 @@ def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, leaves:
         b = coefficients(equation, start, count)
         state = [ExactPoint(Fraction(0))] * (r - 2) + b[:2]
         for matrix, expected in ((run.C, b[-r:]), (run.R, sums_from_2(b, mirror))):
-            found = [product_row(matrix, i, state).scaled(Fraction(1, int(run.D))) for i in range(matrix[0].nrows())]
+            found = [product_row(matrix, i, state).scaled(Fraction(1, int(run.D))) for i in range(matrix.re.nrows())]
             assert found == expected
 
 
-def product_row(matrix: tuple[flint.fmpz_mat, flint.fmpz_mat | None], i: int, state: list[ExactPoint]) -> ExactPoint:
-    re, im = matrix
-    row = [ExactPoint(Fraction(int(re[i, k])), Fraction(0 if im is None else int(im[i, k]))) for k in range(len(state))]
+def product_row(matrix: GaussianMatrix, i: int, state: list[ExactPoint]) -> ExactPoint:
+    row = [ExactPoint(Fraction(int(matrix.re[i, k])), _imaginary(matrix, i, k)) for k in range(len(state))]
     return sum((x * y for x, y in zip(row, state, strict=True)), ExactPoint(Fraction(0)))
+
+
+def _imaginary(matrix: GaussianMatrix, i: int, k: int) -> Fraction:
+    return Fraction(0) if matrix.im is None else Fraction(int(matrix.im[i, k]))
 
 
 def sums_from_2(b: list[ExactPoint], mirror: bool) -> list[ExactPoint]:

@@ -54,10 +54,10 @@ from kovacic.limits import check_time
 
 LEAF = 8  # steps whose product is formed once, with polynomials in m as entries
 _BLOCK = 1.5  # length of the integers of a block, by the bits that are still needed (the first block: 1)
+# Splitting pays above max(1500, factor * order^3) bits; the factor without and with singular points
 _LOWEST = 1500
 _ENTIRE = 10
 _SINGULAR = 35
-# Splitting pays above max(1500, factor * order^3) bits; the factor without and with singular points
 _LEAST = 2000  # bits below which a block isn't shortened any more
 # Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before
 _BURST = 16
