@@ -173,9 +173,10 @@ def test_a_long_gcd_is_foreseen_only_where_there_is_one() -> None:
         with pytest.raises(LimitExceeded, match="a power of degree"):
             f**300
         assert (f * g).exact_quotient(f) == g
-        assert (f**6).exact_quotient(f**5 + 1) is None
-        with pytest.raises(LimitExceeded, match="a division by a polynomial of degree 5000"):
-            (f**6).exact_quotient(f**5)
+        power = f**4
+        assert (power * f).exact_quotient(power + 1) is None
+        with pytest.raises(LimitExceeded, match="a division by a polynomial of degree 4000"):
+            (power * f).exact_quotient(power)
 
 
 @pytest.mark.parametrize("leading", [1, 3])
@@ -300,7 +301,7 @@ def test_a_page_without_time_has_its_formulas_as_text() -> None:
     formulas = [Formulas("x", QQ).math(f) for f in ((X + 1) / (X**2 + 3), X**150 + (X + 1) ** 40 / (X - 2), 1 / X)]
     blocks = [block for math in formulas for block in (Formula(math), say("so that ", math, " holds"))]
     written = []
-    for looks in range(30):
+    for looks in range(0, 30, 3):
         with controlled(looks_in_time=looks), Budget(Limits(seconds=1)).watched():
             page = FORMATS["html"].render(blocks)
         typeset = 6 - page.count("<code>")
