@@ -24,7 +24,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import middle
 from kovacic.enclosure.transport import growth_of_disc
 from kovacic.errors import InputError
-from kovacic.limits import DEFAULT_LIMITS
+from kovacic.limits import DEFAULT_LIMITS, check_time
 from kovacic.special import prices
 
 NO_CLOSED_FORM = (
@@ -198,7 +198,8 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
 
 
 def _rate(num: acb_poly, den: acb_poly, x: acb) -> arb:
-    """|S|^(1/2), about."""
+    """|S|^(1/2), about; of polynomials of degree 4000 it takes some milliseconds, and is asked for at many points."""
+    check_time()
     return arb(abs(num(x) / den(x)).sqrt().mid())
 
 
