@@ -233,6 +233,7 @@ STEPS: dict[str, Callable[[], object]] = {
     "a rational function as an expression": lambda: Atoms(x).ratio(RatFunc(LONG, LONG + 1)),
     "a derivative": lambda: slope(x**2 * sympy.exp(x) + (x + 1) ** -3, x),
     "an exact quotient": lambda: LONG.exact_quotient(LONG),
+    "a division over Q(a)": lambda: divmod(OVER_A.poly([1, 0, 1]), OVER_A.poly([OVER_A.generator("a"), 1])),
     "factors over Q": lambda: QQ.factor(LONG),
     "factors over Q(a)": lambda: OVER_A.factor(OVER_A.poly([OVER_A.generator("a"), 1])),
     "factors without a over Q(a)": lambda: OVER_A.factor(OVER_A.poly([1, 0, 1])),

@@ -136,6 +136,7 @@ def _remainders(polynomial: Any, tree: list[list[Any]]) -> list[Any]:
     """The polynomial modulo each of the factors."""
     rests = [polynomial]
     for level in reversed(tree):
+        check_time()
         rests = [rests[i // 2] % factor for i, factor in enumerate(level)]
     return rests
 

@@ -18,6 +18,7 @@ from typing import Any, Self
 
 from kovacic.algebra.homomorphism import Collector, Homomorphism
 from kovacic.algebra.text import joined_terms, quotient_str
+from kovacic.limits import check_time
 
 Scalar = int | Fraction
 
@@ -69,6 +70,7 @@ class Poly(Immutable, ABC):
         remainder = self
         quotient = [self.field.poly([])] * max(self.degree - other.degree + 1, 0)
         while remainder.degree >= other.degree:
+            check_time()
             shift = remainder.degree - other.degree
             quotient[shift] = remainder.lc * inverse
             remainder = remainder - quotient[shift] * x**shift * other
