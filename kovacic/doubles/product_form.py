@@ -101,13 +101,13 @@ class ProductForm:
     measured: Measured | None = None
 
     def __repr__(self) -> str:
-        return f"<ProductForm on {self.region}, {self.kind}>"
+        return f"<ProductForm on {self.region}, {self._kind}>"
 
     def _repr_html_(self) -> str:
-        return facts("the closed form", self.region, self.measured, values=self.kind)
+        return facts("the closed form", self.region, self.measured, values=self._kind)
 
     @property
-    def kind(self) -> str:
+    def _kind(self) -> str:
         """Of the values: "real" or "complex"."""
         return "real" if self.is_real else "complex"
 
@@ -265,7 +265,7 @@ class ProductDerivative:
     careful: bool = True
 
     def __repr__(self) -> str:
-        return f"<ProductDerivative on {self.region}, {self.form.kind}>"
+        return f"<ProductDerivative on {self.region}, {self.form._kind}>"
 
     @property
     def region(self) -> Region:
