@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from functools import reduce
 from typing import Any
 
 from kovacic.algebra.embedding import real_root_index
@@ -107,9 +106,11 @@ class LinearArithmetic(Arithmetic):
         rational = [term for term in terms if is_rational(term)]
         if len(rational) == len(terms):
             return super().sum(rational)
+        from sympy import Add
+
         others = [term for term in terms if not is_rational(term)]
         known = [self.expression(super().sum(rational))] if rational else []
-        return self._checked(reduce(lambda total, term: total + term, [*others, *known]))
+        return self._checked(Add(*others, *known))  # at once: one by one, a sum of n terms is taken apart n times
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
         """The sum, some terms of which have no unknown function."""
