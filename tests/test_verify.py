@@ -744,6 +744,7 @@ TORSION = [
     (through(X**3 + 1, 2, 3)(X**3 + 1) * 9 * X**4, 3),  # the first one for x^3 + 1 in place of x: a zero of order 4
     ((X**2 + 3) ** 2 / (X**6 + 1), 3),  # residues over infinity, where y + x^3 has its zeros and poles
     (X**2 / (X**4 + 3), 2),  # y + x^2
+    ((9 / (X**9 + 9 * X**2))(2 + 1 / X) / X**4, 7),  # infinity is neither a zero nor a pole
 ]
 
 
@@ -946,6 +947,12 @@ def test_irreducible_polynomials_over_number_fields(field: Any, coefficients: li
     assert not is_irreducible(p * field.poly([field.generator, 1]))
     extension = AlgebraicField(field, p.monic(), "c")
     assert is_a_field(extension) is irreducible
+
+
+@pytest.mark.parametrize("field", [QQ, ROOT2, TOWER, CUBE], ids=str)
+def test_constants_are_no_irreducible_polynomials(field: Any) -> None:
+    assert not is_irreducible(field.poly([5]))
+    assert is_irreducible(field.poly([5, 2]))
 
 
 @pytest.mark.parametrize("S", ["sqrt(-6)*x/(x^2 + 6)^2", "sqrt(2)/(x^4 + 1)^2", "3/(x^2-2)^2 + sqrt(2)/(x^2 - 3)^2"])
