@@ -10,7 +10,7 @@ from math import gcd, prod
 
 import pytest
 import sympy
-from build import QQ, AlgebraicField, Poly, RatFunc, parametrize
+from build import QQ, AlgebraicField, Field, FunctionField, Poly, RatFunc, parametrize
 from flint import Ordering, fmpz_mpoly_ctx, fmpz_poly, nmod_poly
 from hypothesis import given
 from hypothesis import strategies as st
@@ -55,6 +55,17 @@ def test_roots_of_powers_and_of_other_polynomials(f: RationalPoly, n: int) -> No
     assert (radical**n * QQ.poly([7, 1])).root(n) is None
     if radical.degree > 0:
         assert (radical**n + 1).root(n) is None
+
+
+@pytest.mark.parametrize("field", [QQ, SQRT5, CUBIC, FunctionField(("s", "t"))], ids=str)
+def test_roots_of_powers_over_every_kind_of_field(field: Field) -> None:
+    x = field.poly([0, 1])
+    c = field.generator("s") if isinstance(field, FunctionField) else getattr(field, "generator", field.poly([2]))
+    for radical in ((x - c) * (x * x + c * x + 3), x + c):
+        for n in (1, 2, 3):
+            assert (radical**n).root(n) == radical
+            assert (radical**n * (x - 1)).root(n + 1) is None
+            assert (radical**n * (x - 1) ** (n + 1)).root(n + 1) is None
 
 
 @pytest.mark.long
