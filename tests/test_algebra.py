@@ -48,6 +48,32 @@ def test_division_leaves_a_smaller_remainder(a: RationalPoly, b: RationalPoly) -
     assert r.degree < b.degree
 
 
+@pytest.mark.parametrize("leading", [1, 3])
+def test_long_division_leaves_a_smaller_remainder(leading: int) -> None:
+    """Of every length, whatever the pieces in which it is done."""
+    rng = random.Random(7)
+    b = QQ.poly([*(rng.randint(-9, 9) for _ in range(20)), leading])
+    for degree in range(101, 240):
+        a = QQ.poly([Fraction(rng.randint(-9, 9), 5) for _ in range(degree)] + [1])
+        q, r = divmod(a, b)
+        assert a == q * b + r
+        assert r.degree < b.degree
+
+
+@pytest.mark.parametrize("field", [QQ, SQRT5, FunctionField(("s", "t"))], ids=str)
+def test_sympy_has_the_same_values(field: Field) -> None:
+    c = field.poly([3])
+    value = 3
+    if field == SQRT5:
+        c, value = SQRT5.generator, sympy.Symbol("c")
+    elif isinstance(field, FunctionField):
+        c, value = field.generator("s"), sympy.Symbol("s")
+    x = sympy.Symbol("x")
+    f = field.poly([Fraction(1, 3), c, 0, -2 * c, 5])
+    found = f.to_sympy(x)
+    assert sympy.expand(found - (sympy.Rational(1, 3) + value * x - 2 * value * x**3 + 5 * x**4)) == 0
+
+
 @given(nonzero, st.integers(2, 3))
 def test_roots_of_powers_and_of_other_polynomials(f: RationalPoly, n: int) -> None:
     radical = f.monic() // f.gcd(f.derivative())
