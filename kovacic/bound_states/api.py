@@ -27,7 +27,6 @@ from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.quasi import QuasiSolution, degree_beyond, found_of_degree, levels_of, zeros_inside
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, read_question
 from kovacic.bound_states.ranges import tidied
-from kovacic.bound_states.sequence import merged
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
@@ -188,7 +187,7 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     except Uncovered as uncovered:
         return _without_formula(examined, uncovered, max_degree, budget)
     found = (_levels(question, family) for family in families)
-    levels = merged([one for one in found if sympy.false not in one.conditions])
+    levels = [one for one in found if sympy.false not in one.conditions]
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
 
