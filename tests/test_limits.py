@@ -10,7 +10,7 @@ from functools import cache
 import pytest
 import sympy
 import transform
-from build import QQ, Atoms, Conditions, FunctionField, RatFunc, analyse, parametrize
+from build import QQ, Atoms, Conditions, ExactPoint, FunctionField, RatFunc, System, analyse, parametrize
 from clocks import controlled
 from sympy.abc import n, x
 
@@ -18,7 +18,8 @@ import kovacic
 from kovacic import LimitExceeded, Limits, Solution
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.cli.main import run
-from kovacic.general_solution.substitution import slope
+from kovacic.enclosure.frame import least_growth
+from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.limits import Budget, check_time, limited, may_be_late, watched_seconds
 from kovacic.verify.local import points
 from kovacic.writing.document import FORMATS, Formula, say
@@ -232,6 +233,8 @@ STEPS: dict[str, Callable[[], object]] = {
     "a polynomial as an expression": lambda: Atoms(x).poly(LONG),
     "a rational function as an expression": lambda: Atoms(x).ratio(RatFunc(LONG, LONG + 1)),
     "a derivative": lambda: slope(x**2 * sympy.exp(x) + (x + 1) ** -3, x),
+    "a value of an expression": lambda: finite_value(sympy.exp(x) / x, x, sympy.Integer(2)),
+    "a bound for the growth": lambda: least_growth(System.of(X**20 + 3), ExactPoint(2), ExactPoint(3)),
     "an exact quotient": lambda: LONG.exact_quotient(LONG),
     "a division over Q(a)": lambda: divmod(OVER_A.poly([1, 0, 1]), OVER_A.poly([OVER_A.generator("a"), 1])),
     "factors over Q": lambda: QQ.factor(LONG),

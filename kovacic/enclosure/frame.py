@@ -23,7 +23,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq_poly
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
-from kovacic.limits import check_duration
+from kovacic.limits import check_duration, check_time
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
 GaussianParts = tuple[list[int], list[int] | None]
@@ -33,6 +33,7 @@ REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in sca
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 # Halvings of the way, for a lower bound of the growth; few for degrees above 100.
 _LONG = 100
+_SHORT = 10  # up to this degree, moving a polynomial takes microseconds
 _HALVINGS = 60
 _FEW_HALVINGS = 6
 # Seconds that it takes to move a long polynomial to a real and to a complex point, over its degree squared.
@@ -285,6 +286,8 @@ def _sizes_around(polynomial: acb_poly, point: acb) -> list[arb]:
     if degree > _LONG:
         seconds = (_COMPLEX_MOVE_SECONDS if point.imag else _MOVE_SECONDS) * degree**2
         check_duration(seconds, f"a bound for a polynomial of degree {degree}")
+    elif degree > _SHORT:
+        check_time()
     return [abs(c) for c in polynomial(acb_poly([point, 1])).coeffs()]
 
 

@@ -23,6 +23,7 @@ class _SingularError(Exception):
 
 def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     """The value at a point; None where it isn't finite."""
+    check_time()
     try:
         return _substituted(expression, x, point)
     except _SingularError:
