@@ -95,6 +95,32 @@ def test_constants_and_one_pole(S: str, name: str) -> None:
     assert checker.verdict(solution.to_json(full=True)).startswith(GROUP_TOO)
 
 
+@pytest.mark.parametrize("S", ["1/x", "1 - 1/(4*x^2)", "1/x - 1/(4*x^2)", "x + 1/x"])
+def test_logarithms_at_simple_poles_and_for_equal_exponents(S: str) -> None:
+    """They exclude all groups but two: a proof says so, or finds room for fewer forms."""
+    exclusions = checker.Answer(json.loads(kovacic.solve(S).to_json())).exclusions
+    assert next(place for place in exclusions.places if place.name == "x").logarithm
+    assert checker.verdict(kovacic.solve(S).to_json(full=True)).startswith("checked: S from input; case; group")
+
+
+@pytest.mark.parametrize(
+    ("S", "m", "dimension"),
+    [
+        ("0", 2, 3),
+        ("2", 4, 1),
+        ("x^2 + 3", 2, 0),
+        ("3/(4*x^2)", 2, 3),
+        ("-2/(9*x^2)", 6, 3),
+        ("-3/(16*x^2) + 1/x", 4, 1),
+        ("-3/16/x^2-3/16/(x-1)^2+3/16/x/(x-1)", 4, 2),
+    ],
+)
+def test_dimensions_of_forms_are_exact(S: str, m: int, dimension: int) -> None:
+    """All of them for a trivial group, powers of y1 y2 for G_m, none for Borel's, those of mu_3 and of Q8."""
+    exclusions = checker.Answer(json.loads(kovacic.solve(S, var="x").to_json())).exclusions
+    assert exclusions.dimension(m) == dimension
+
+
 @pytest.mark.parametrize("key", ["kind", "degree", "prime", "place"])
 def test_evidence_against_omega_is_refuted_where_it_says_something_else(key: str) -> None:
     """The five zeros that a solution of y'' = (x^4 + x^2 + 12 x) y may have, and a prime modulo which there is none."""
@@ -537,6 +563,10 @@ def lines_with_orders() -> Iterator[tuple[RatFunc, dict[str, Any]]]:
 def test_orders_modulo_primes_are_checked() -> None:
     for _, data in lines_with_orders():
         assert checker.verdict(json.dumps(data)).startswith(GROUP_TOO)
+        for entry in data["group"]["orders"]:
+            zero = [*data["group"]["orders"], entry | {"order": 0}]
+            forged = data | {"group": data["group"] | {"orders": zero}}
+            assert checker.verdict(json.dumps(forged)).startswith("refuted: ")
         for entry in data["group"]["orders"]:
             entry["order"] += 1
         assert checker.verdict(json.dumps(data)).startswith("refuted: ")
