@@ -13,7 +13,7 @@ from kovacic.decision import Status
 from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, natural, search
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import parameters_of
-from kovacic.limits import Budget
+from kovacic.limits import Budget, check_time
 from kovacic.numerals import as_text
 from kovacic.views.sentences import formulas_of
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
@@ -206,6 +206,7 @@ class Steps:
         return Symbol(self.answer.variable)
 
     def _shown(self, value: Any) -> Math:
+        check_time()
         return of_sympy(in_sympy(value, self.x))
 
     def _point(self, point: SingularPoint) -> Math:
