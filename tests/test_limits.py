@@ -19,6 +19,7 @@ from kovacic import LimitExceeded, Limits, Solution
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.cli.main import run
 from kovacic.enclosure.frame import least_growth
+from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.limits import Budget, check_time, limited, may_be_late, watched_seconds
 from kovacic.verify.local import points
@@ -389,3 +390,18 @@ def test_an_answer_is_undecided_or_verified_wherever_the_time_ends(capsys: pytes
         assert not ("undecided: while the answer was verified" in out and "\n  verified: " in out)
     assert any("undecided: while the answer was verified" in out for out in said)
     assert any("verified: every exclusion was recomputed" in out for out in said)
+
+
+@pytest.mark.parametrize("power", ["2", "4/3", "7/3", "-5/2", "1/2"])
+@pytest.mark.parametrize("outside", ["1", "sin(x)", "exp(x^2)"])
+def test_an_expansion_is_foreseen_wherever_sums_are_multiplied(power: str, outside: str) -> None:
+    """3^12 terms, under roots, in powers of roots and in functions; few terms aren't refused."""
+
+    def integrand(count: int) -> sympy.Expr:
+        bases = [x**5 + k * x + 1 for k in range(1, count + 1)]
+        return sympy.Mul(*bases) ** sympy.Rational(power) * sympy.sympify(outside.replace("^", "**"))
+
+    with controlled(), Budget(Limits(seconds=1)).watched():
+        assert prepared(integrand(2)) != 0
+        with pytest.raises(LimitExceeded, match="expanding an integrand"):
+            prepared(integrand(12))

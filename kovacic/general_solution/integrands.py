@@ -37,7 +37,7 @@ def prepared(integrand: Expr) -> Expr:
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
-    check_duration(_TERM_SECONDS * _terms(integrand), "expanding an integrand")
+    check_duration(_TERM_SECONDS * _expanded_terms(integrand), "expanding an integrand")
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator.
     kept = {power: sympy.Dummy() for power in integrand.atoms(sympy.Pow) if _is_inverse_root(power)}
     back = {letter: power for power, letter in kept.items()}
@@ -51,13 +51,21 @@ def _is_inverse_root(power: Expr) -> bool:
     return bool(power.base.is_Add and is_fraction and e < -1)
 
 
+def _expanded_terms(expression: Expr) -> float:
+    """How many terms SymPy writes at most: those of the expression, and of all that stands under roots and in functions."""
+    inner = (
+        base for part in expression.atoms(sympy.Pow, sympy.Function) if not part.is_polynomial() for base in part.args
+    )
+    return _terms(expression) + sum(map(_terms, inner))
+
+
 def _terms(expression: Expr) -> float:
-    """How many terms the expanded product has at most."""
+    """How many terms the expanded product has at most; u^(7/3) is expanded as u^2 u^(1/3)."""
     if expression.is_Add:
         return sum(map(_terms, expression.args))
     if expression.is_Mul:
         return math.prod(map(_terms, expression.args))
-    if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
+    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
         return _terms_of_power(_terms(expression.base), int(expression.exp))
     return 1.0
 
