@@ -131,3 +131,11 @@ def test_the_decaying_solution_is_drawn_with_the_value_that_was_given() -> None:
 
     once, thrice = (sample("x", 0, 1, x0=0, which="decaying", y0=y0, points=2).arcs[0].y[0] for y0 in (1, 3))
     assert abs(thrice - 3 * once) < 1e-7
+
+
+@pytest.mark.parametrize("given", [5, True, "a>0", ["a"], [("a", "positive")], sympy.nan])
+@pytest.mark.parametrize("potential", ["a*x^2", "sqrt(a)*x^2", "log(2)*x^2", "sqrt(2)*sin(x)^2"])
+def test_assumptions_on_a_potential_are_a_mapping(potential: str, given: Any) -> None:
+    """Beside roots and logarithms as well, of which more is assumed."""
+    with pytest.raises(InputError, match="assumptions are a mapping"):
+        kovacic.spectrum(potential, assume=given)

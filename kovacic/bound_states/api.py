@@ -33,6 +33,7 @@ from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
 from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
+from kovacic.parametric.assumptions import check_mapping
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.formula import caret
 
@@ -117,6 +118,7 @@ def spectrum(
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
     most = whole(max_degree, "max_degree")
+    check_mapping(assume)
     V, roots = with_named_roots(V)
     if roots:
         assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}

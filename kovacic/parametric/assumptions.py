@@ -405,8 +405,7 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     Raises `InputError` for a name that isn't a parameter, and for a word that isn't one of `WORDS` ("real" and "complex" say
     nothing that could be used).
     """
-    if assume is not None and not isinstance(assume, Mapping):
-        raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
+    check_mapping(assume)
     words: dict[str, list[str]] = {name: [] for name in names}
     for symbol in getattr(S, "free_symbols", ()):
         if symbol.name in words:
@@ -416,6 +415,12 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
         words[name] += _read_words(what)
     known = {name: Known(_useful(said)) for name, said in words.items()}
     return Assumptions(tuple((name, facts) for name, facts in known.items() if facts.words))
+
+
+def check_mapping(assume: object) -> None:
+    """Raises `InputError` for what can't be assumptions."""
+    if assume is not None and not isinstance(assume, Mapping):
+        raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
 
 
 def _parameter(key: object, names: Sequence[str]) -> str:
