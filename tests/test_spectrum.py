@@ -599,3 +599,16 @@ def test_where_no_condition_is_distinguished_none_is_proposed() -> None:
     with pytest.raises(kovacic.InputError) as refused:
         found.states()
     assert "friedrichs" not in str(refused.value)
+
+
+@pytest.mark.parametrize("V", ["sqrt(a)*x^2", "x^2/sqrt(a)", "sqrt(a)*x^2 + a*x"])
+@parametrize("word", ["negative", "<0", "integer", ">=1", "<=-1", "0<a<3", "!=0"], ordinary=2)
+def test_nothing_is_dropped_that_is_assumed_of_a_parameter_under_a_root(V: str, word: str) -> None:
+    with pytest.raises(kovacic.InputError, match=r"of a it can be assumed only that it is positive or nonnegative"):
+        kovacic.spectrum(V, assume={"a": word})
+
+
+@parametrize("word", ["positive", "> 0", "nonnegative", ">=0", "real"], ordinary=2)
+def test_a_parameter_under_a_root_may_be_positive(word: str) -> None:
+    (levels,) = kovacic.spectrum("sqrt(a)*x^2", assume={"a": word}).levels
+    assert bool(levels.conditions) == (word not in ("positive", "> 0"))

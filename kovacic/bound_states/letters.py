@@ -22,6 +22,14 @@ from kovacic.numerals import as_text
 from kovacic.reading.symbolic import names_of, read_expression
 from kovacic.writing.formula import caret
 
+#: What can be assumed of a parameter under a root, and what is known of its root then.
+_SIGNS = {
+    "positive": "positive",
+    ">0": "positive",
+    "nonnegative": "nonnegative",
+    ">=0": "nonnegative",
+    "real": "nonnegative",
+}
 #: The steps from one number to the next, between which a root is said to lie.
 _STEPS = 10**6
 
@@ -66,19 +74,36 @@ def _free_names(expression: Any) -> Iterator[str]:
 def assumed_of_letters(
     assume: Mapping[Any, Any] | None, letters: Sequence[tuple[str, Any]]
 ) -> Mapping[Any, Any] | None:
-    """What is assumed, and the sign of a letter for log(2), or for sqrt(a): not negative, and positive where a is."""
+    """What is assumed, and the sign of a letter for log(2), or for sqrt(a): not negative, and positive where a is.
+
+    Raises `InputError` where something else than that is assumed of such an a.
+    """
     if not letters:
         return assume
     found = dict(assume or {})
     for letter, meaning in letters:
         base, exponent = meaning.as_base_exp()
         if exponent == sympy.S.Half and base.is_Symbol:
-            own = next((key for key in found if str(key) == base.name), None)
-            word = found.pop(own, None)
-            found[letter] = "positive" if word in ("positive", ">0") else "nonnegative"
+            found[letter] = _sign_of_root(base.name, found)
         elif meaning.is_number and meaning.is_real:
             found[letter] = "positive" if meaning.is_positive else "negative"
     return found
+
+
+def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
+    """Of the root of a parameter, of which nothing is `assumed` afterwards: it occurs in its root alone."""
+    own = next((key for key in assumed if str(key) == name), None)
+    if own is None:
+        return "nonnegative"
+    word = assumed.pop(own)
+    if isinstance(word, str):
+        word = word.replace(" ", "")
+    if word not in _SIGNS:
+        raise InputError(
+            f"sqrt({name}) is real, and of {name} it can be assumed only that it is positive or nonnegative",
+            hint=f'assume={{"{name}": "positive"}}, or write {name} = b^2 where more is known',
+        )
+    return _SIGNS[word]
 
 
 def between(value: Any, name: str) -> str:
