@@ -310,7 +310,7 @@ def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answe
     assert "ZeroDivisionError" in (found[5].error or "")
 
 
-@parametrize("end", ["exception", "exit", "signal 15", "signal 40"], ordinary=0, long=2)
+@parametrize("end", ["exception", "exit", "signal 15", "signal 40"], ordinary=0, long=1)
 def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch: pytest.MonkeyPatch, end: str) -> None:
     """As on Windows, in both processes; timeouts hold there, too."""
     known = [one for one in signal.Signals if one.name not in workers.MISSING_SIGNALS]
@@ -520,8 +520,7 @@ def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
     assert command(str(tmp_path / "absent")).returncode == 2
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("signal_sent", [signal.SIGINT, signal.SIGKILL])
+@parametrize("signal_sent", [signal.SIGINT, signal.SIGKILL], ordinary=0, long=1)
 def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None:
     source, output = tmp_path / "in.txt", tmp_path / "out.jsonl"
     count = 2000

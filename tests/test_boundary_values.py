@@ -84,7 +84,7 @@ def is_multiple(found: Any, expected: Any, point: Any) -> bool:
     return found != 0 and all(abs(sympy.N(value, 30)) < 1e-20 for value in values)
 
 
-@parametrize(("s", "left", "right"), SCALES, ids=str, ordinary=0, long=2)
+@parametrize(("s", "left", "right"), SCALES, ids=str, ordinary=0, long=1)
 def test_eigenfunctions(s: Any, left: Any, right: Any) -> None:
     """Built from the answer; Dirichlet, Neumann (Robin after a factor) and mixed conditions: one free constant."""
     middle = sympy.sympify(left + (right - left) * Rational(3, 11))

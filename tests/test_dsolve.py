@@ -975,7 +975,13 @@ def test_klein_solutions_join_at_ordinary_points(a: sympy.Expr, c: sympy.Expr, s
 @pytest.mark.parametrize(
     ("a", "b", "c", "start"),
     [
-        ((2 * x - 1) * (x**2 + 1), -(x**2 - 4 * x - 7) / 2, -2 * x**5 + x**4 - x**3 / 2 + 2 * x**2 + 11 * x / 2 - 1, 1),
+        pytest.param(
+            (2 * x - 1) * (x**2 + 1),
+            -(x**2 - 4 * x - 7) / 2,
+            -2 * x**5 + x**4 - x**3 / 2 + 2 * x**2 + 11 * x / 2 - 1,
+            1,
+            marks=pytest.mark.slow,
+        ),
         pytest.param(2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, -3, marks=pytest.mark.slow),
         pytest.param(2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, 3, marks=pytest.mark.slow),
         (x**2, x, -9 * (x**6 + Rational(1, 16)), -1),

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 import sympy
+from build import parametrize
 from sympy import cos, exp, sin
 
 import kovacic
@@ -17,9 +18,8 @@ D2, D1, D0 = y(x).diff(x, 2), y(x).diff(x), y(x)
 PROBLEMS = [D2 + k**2 * D0 - g(x), D2 - 2 * D1 + D0 - exp(x) * g(x), x**2 * D2 + x * D1 - D0 - x * g(x) - x**3]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("equation", PROBLEMS)
-@pytest.mark.parametrize("func", [y(x), y])
+@parametrize("func", [y(x), y], ordinary=0, long=1)
 def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: Any) -> None:
     found = kovacic.dsolve(equation, func).rhs
     residual = equation.subs(D0, found)

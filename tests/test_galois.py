@@ -602,7 +602,7 @@ def test_a_normal_form_with_parameters_has_its_group() -> None:
     assert answer.equation_group.name == answer.group.name == "SL2"
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_curve_of_genus_one_beside_a_parameter_ends() -> None:
     """Lame's equation with n = 1: no prime field takes the parameter, so orders modulo primes decide nothing."""
     group = kovacic.solve("(4*x^3 - 28*x + 24)*y'' + (6*x^2 - 14)*y' = (2*x + B)*y", var="x").group

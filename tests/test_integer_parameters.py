@@ -65,7 +65,10 @@ FAMILIES = {
     ("name", "largest"),
     [
         ("hydrogen", 2),
-        *(pytest.param(name, 5, marks=pytest.mark.long) for name in FAMILIES),
+        *(
+            pytest.param(name, 5, marks=pytest.mark.slow if k % 3 else pytest.mark.long)
+            for k, name in enumerate(FAMILIES)
+        ),
     ],
 )
 def test_no_constant_dies(name: str, largest: int) -> None:

@@ -86,7 +86,7 @@ def test_the_group_of_a_root_of_high_order() -> None:
         lambda n: kovacic.spectrum(sympy.Symbol("x") ** 2 + n),
     ],
     ordinary=0,
-    long=12,
+    long=6,
 )
 def test_a_long_argument_gives_a_value_or_says_why_not(call: Callable[[int], object]) -> None:
     said = ""

@@ -42,8 +42,8 @@ def solutions_are_right(name: str, points: int) -> None:
     assert not wrong, wrong[:3]
 
 
-#: One family of twelve in the long tests, each of them in the slow ones.
-EACH = [pytest.param(name, marks=pytest.mark.long if k % 12 == 6 else pytest.mark.slow) for k, name in enumerate(ALL)]
+#: One family of thirty-six in the long tests, each of them in the slow ones.
+EACH = [pytest.param(name, marks=pytest.mark.long if k % 36 == 6 else pytest.mark.slow) for k, name in enumerate(ALL)]
 
 
 @parametrize("name", SOME, ordinary=2, long=4)

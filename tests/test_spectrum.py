@@ -77,7 +77,7 @@ def test_levels_of_the_literature(row: Solvable) -> None:
     check(row)
 
 
-@parametrize("row", [row for row in TABLE + MORE if row.name in LONG], ids=lambda row: row.name, ordinary=0, long=2)
+@parametrize("row", [row for row in TABLE + MORE if row.name in LONG], ids=lambda row: row.name, ordinary=0, long=1)
 def test_more_levels_of_the_literature(row: Solvable) -> None:
     check(row)
 
@@ -118,7 +118,7 @@ def test_levels_by_degree(V: str, domain: tuple[object, object], degree: int, pr
         ("-9/4*sech(x)^2 + tanh(x)/2", ("-oo", "oo"), 1),
     ],
     ordinary=0,
-    long=2,
+    long=1,
 )
 def test_as_many_levels_as_a_solution_has_zeros(V: str, domain: tuple[object, object], number: int) -> None:
     """Just below the continuous spectrum."""
@@ -489,7 +489,7 @@ def test_answers_are_in_the_roots_of_the_user(V: str, domain: tuple[object, obje
     assert "alpha" not in str(answer)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_energies_are_written_without_the_imaginary_unit() -> None:
     """Rosen and Morse's trigonometric potential, whose exponents are conjugate: with A (A - 1) = 5 and B = -3/2."""
     (levels,) = kovacic.spectrum("5*cot(x)^2 - 3*cot(x)", domain=(0, "pi")).levels
