@@ -22,6 +22,7 @@ import scipy.special as special
 import sympy
 
 import kovacic
+from kovacic.doubles.combination import Combination
 from kovacic.doubles.lambdify import lambdify, measure
 
 POINTS = 100_000
@@ -116,6 +117,7 @@ def compare(row: Row) -> dict[str, Any]:
     begin = time.process_time()
     ours = lambdify(solution, interval=row.interval, **options)
     result: dict[str, Any] = {"name": row.name, "build": time.process_time() - begin, "careful": ours.careful}
+    base = None if isinstance(ours, Combination) else ours.base
     functions = {"kovacic": ours, "scipy": row.scipy}
     functions["double-doubles"] = lambdify(solution, interval=row.interval, careful=True, check=False, **options)
     if row.sympy is not None:
@@ -124,7 +126,8 @@ def compare(row: Row) -> dict[str, Any]:
         result[name] = {"ms": 1e3 * seconds(function, points)}
         errors = []
         for f in (function, lambda x, f=function: np.conj(f(x))):
-            errors.append(measure(Other(ours.region, ours.base, f), solution, start=row.start))  # type: ignore[arg-type]
+            other = Other(ours.region, base, f)
+            errors.append(measure(other, solution, start=row.start))  # type: ignore[arg-type]
             if not np.iscomplexobj(f(points[:1])):
                 break
         best = min(errors, key=lambda e: e.median)
