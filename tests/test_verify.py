@@ -314,7 +314,7 @@ def test_powers_of_the_function_show_no_larger_order(pole: int) -> None:
     assert answer.verify()
     (piece,) = function.pieces
     a, b = piece.a, piece.b
-    for k in (2, 3):
+    for k in range(2, 8):
         a, b = a * piece.a + function.h * b * piece.b, a * piece.b + b * piece.a
         for pieces in ([replace(piece, exponent=k)], [replace(piece, a=a, b=b)]):
             power = replace(function, multiple=3 * k, pieces=tuple(pieces))
