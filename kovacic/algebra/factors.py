@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import reduce
 from itertools import islice
 from operator import mul
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 
 #: From so many factors of a denominator on, leading terms are tried that are short enough for so many primes.
@@ -59,18 +59,24 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     >>> [(str(N), str(q)) for N, q in expansions(x + 2, x * (x - 1) ** 2, [(x, 1), (x - 1, 2)])]
     [('2', '1'), ('3', '1')]
     """
-    moduli = [p if k < 4 else p ** (k // 2) for p, k in factors]
+    moduli = [p ** max(1, k // 2) for p, k in factors]
     if len(factors) < _FEW_FACTORS:
-        pairs = zip(factors, moduli, strict=True)
-        return [(num % modulus, (den // p**k if k else den) % modulus) for (p, k), modulus in pairs]
+        return [_expansion(num, den, p**k, modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
     one = num.field.poly([1])
     tree = products([p**k for p, k in factors])
-    simple = _leading_terms(num, factors, moduli, tree) if len(factors) >= _MANY_FACTORS else None
-    if simple is not None:
-        return [(N, one) for N in simple]
+    if len(factors) >= _MANY_FACTORS:
+        simple = _leading_terms(num, factors, moduli, tree)
+        if simple is not None:
+            return [(N, one) for N in simple]
     cofactors = _combined([one] * len(factors), tree)
     of_moduli = products(moduli)
     return list(zip(_remainders(num, of_moduli), _remainders(cofactors, of_moduli), strict=True))
+
+
+def _expansion(num: Poly, den: Poly, power: Poly, modulus: Poly) -> tuple[Poly, Poly]:
+    """(N, q) at one factor p^k: numerator and cofactor modulo p^nu."""
+    cofactor = den // power
+    return num % modulus, cofactor % modulus
 
 
 def _leading_terms(
@@ -81,41 +87,56 @@ def _leading_terms(
     They are found modulo a few primes: the remainders of num itself would be very long numbers.  They are right because num
     and the sum of N den/p^k have the same remainder modulo all p^nu.
     """
-    lifters = [Lifter(num.field) for _ in factors]
-    found = list[Poly | None]([None] * len(factors))
+    terms = [_LiftedTerm(num.field) for _ in factors]
     for bundle in islice(num.field.bundles(), _PRIMES):
         check_time()
         try:
-            images = [
-                _leading_terms_modulo(h(num), [h(p) ** k for p, k in factors], [h(m) for m in moduli]) for h in bundle
-            ]
-            missing = [i for i, N in enumerate(found) if not _has_images(N, bundle, [image[i] for image in images])]
+            by_prime = [_leading_terms_modulo(h, num, factors, moduli) for h in bundle]
+            images = [[each[i] for each in by_prime] for i in range(len(terms))]
+            open_terms = [i for i, term in enumerate(terms) if not term.has(bundle, images[i])]
         except BadPrimeError:
             continue
-        for i in missing:
-            proposal = lifters[i].add(bundle, [[image[i]] for image in images])
-            found[i] = proposal[0] if proposal else None
-        if missing:
+        for i in open_terms:
+            terms[i].add(bundle, images[i])
+        if open_terms:
             continue
-        leading = [N for N in found if N is not None]
+        leading = [term.proposed for term in terms if term.proposed is not None]
         if not (num - _combined(leading, tree)) % product(moduli):
             return leading
     return None
 
 
-def _has_images(proposed: Poly | None, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> bool:
-    """Is this what was proposed so far, also modulo the prime of these homomorphisms?"""
-    if proposed is None:
-        return False
-    return all(h(proposed) == image for h, image in zip(bundle, images, strict=True))
+class _LiftedTerm:
+    """A polynomial that is found from its images modulo primes: what was `proposed` last, if anything was."""
+
+    def __init__(self, field: Field) -> None:
+        self.proposed: Poly | None = None
+        self._lifter = Lifter(field)
+
+    def has(self, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> bool:
+        """Does what was proposed have these images, too?"""
+        proposed = self.proposed
+        if proposed is None:
+            return False
+        return all(h(proposed) == image for h, image in zip(bundle, images, strict=True))
+
+    def add(self, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> None:
+        """Propose another one, from these images and the former ones."""
+        proposal = self._lifter.add(bundle, [[image] for image in images])
+        self.proposed = proposal[0] if proposal else None
 
 
-def _leading_terms_modulo(num: Any, powers: Sequence[Any], moduli: Sequence[Any]) -> list[Any]:
-    """num/(den/p^k) modulo p^nu for all powers p^k, whose product den is, modulo a prime."""
+def _leading_terms_modulo(
+    h: Homomorphism, num: Poly, factors: Sequence[tuple[Poly, int]], moduli: Sequence[Poly]
+) -> list[Any]:
+    """num/(den/p^k) modulo p^nu for all factors p^k, whose product den is, modulo the prime of h."""
+    image = h(num)
+    powers = [h(p) ** k for p, k in factors]
     tree = products(powers)
     terms = list[Any]()
     cofactors = _combined([powers[0] ** 0] * len(powers), tree)
-    for N, q, modulus in zip(_remainders(num, tree), _remainders(cofactors, tree), moduli, strict=True):
+    remainders = _remainders(image, tree)
+    for N, q, modulus in zip(remainders, _remainders(cofactors, tree), map(h, moduli), strict=True):
         common, inverse, _ = (q % modulus).xgcd(modulus)
         if common.degree() > 0:
             raise BadPrimeError("factors meet modulo this prime")
@@ -150,22 +171,36 @@ def combination(target: Poly, polynomials: Sequence[Poly]) -> list[Poly] | None:
     ['1', '-2', '0']
     """
     zero = target.field.poly([])
-    echelon: dict[int, tuple[Poly, list[Poly]]] = {}  # by the degree: a combination, and its coefficients
-
-    def reduced(p: Poly, coefficients: list[Poly]) -> tuple[Poly, list[Poly]]:
-        while p and p.degree in echelon:
-            check_time()
-            other, its = echelon[p.degree]
-            ratio = p.lc / other.lc
-            p = p - ratio * other
-            coefficients = [c - ratio * d if d else c for c, d in zip(coefficients, its, strict=True)]
-        return p, coefficients
-
+    echelon: dict[int, _Combination] = {}
     for k, polynomial in enumerate(polynomials):
-        own = [zero] * len(polynomials)
-        own[k] = target.field.poly([1])
-        rest, coefficients = reduced(polynomial, own)
-        if rest:
-            echelon[rest.degree] = rest, coefficients
-    rest, coefficients = reduced(target, [zero] * len(polynomials))
-    return None if rest else [-c for c in coefficients]
+        unit = [zero] * len(polynomials)
+        unit[k] = target.field.poly([1])
+        independent = _Combination(polynomial, unit).reduced(echelon)
+        if independent.value:
+            echelon[independent.value.degree] = independent
+    left = _Combination(target, [zero] * len(polynomials)).reduced(echelon)
+    return None if left.value else [-c for c in left.coefficients]
+
+
+class _Combination(NamedTuple):
+    """A polynomial `value` that is a given one and a combination of others, with these coefficients."""
+
+    value: Poly
+    coefficients: list[Poly]
+
+    def reduced(self, echelon: Mapping[int, _Combination]) -> _Combination:
+        """Reduced by those of the echelon, which are kept by their degrees, until none there has its degree."""
+        value = self.value
+        coefficients = self.coefficients
+        while value and value.degree in echelon:
+            check_time()
+            other = echelon[value.degree]
+            ratio = value.lc / other.value.lc
+            value = value - ratio * other.value
+            coefficients = [_less(c, ratio, d) for c, d in zip(coefficients, other.coefficients, strict=True)]
+        return _Combination(value, coefficients)
+
+
+def _less(c: Poly, ratio: Poly, d: Poly) -> Poly:
+    """c - ratio d; most d are zero."""
+    return c - ratio * d if d else c

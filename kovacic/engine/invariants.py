@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
@@ -61,8 +61,15 @@ def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | N
     return None
 
 
-def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> tuple[list[int], int] | None:
-    """The least valuations of an invariant of degree m, infinity's last, and the largest degree N of P; None if it can't be."""
+class Bounds(NamedTuple):
+    """The least `valuations` of an invariant at all places, infinity's last, and the largest `degree` N of its P."""
+
+    valuations: list[int]
+    degree: int
+
+
+def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> Bounds | None:
+    """What the places say about an invariant of degree m; None if there can be none."""
     valuations = list[int]()
     N = m
     for place in problem.places:
@@ -71,77 +78,91 @@ def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> tuple[list[i
             return None
         valuations.append(v)
         N -= v * place.degree
-    return (valuations, N) if N >= 0 else None
+    return Bounds(valuations, N) if N >= 0 else None
 
 
 def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     """The rational invariants of degree m: a verified basis, of increasing degrees of P, or the proof that there is none."""
-    bound = bounds(problem, m)
-    if bound is None:
+    found = bounds(problem, m)
+    if found is None:
         return NoInvariant(m)
-    valuations, N = bound
-    problem.budget.check_degree(N, f"an invariant of degree {m}")
-    R0 = singular_part(problem, valuations[:-1])
-    lifter = Lifter(problem.field)
-    margin = _MARGIN
-    recurrence_tried = False
+    problem.budget.check_degree(found.degree, f"an invariant of degree {m}")
+    search = _Search(problem, m, *found)
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            spaces = [invariants_modulo(h, problem, m, valuations, N, margin=margin) for h in bundle]
+            spaces = [search.modulo(h) for h in bundle]
         except BadPrimeError:
             continue
-        excluded = _excluded(bundle, spaces, m, N)
-        if excluded is not None:
-            return excluded
-        bases = [space for space, _ in spaces]
-        dimensions = {len(space) for space in bases}
-        if len(dimensions) > 1:
-            continue
-        forms = _verified_forms(problem, m, R0, lifter.add(bundle, bases) or [])
+        for h, space in zip(bundle, spaces, strict=True):
+            if not space.basis:
+                return NoInvariant(m, prime=h.p, point=space.point, degree=found.degree)
+        forms = search.lifted(bundle, [space.basis for space in spaces])
         if forms:
             return forms
-        if not _are_forms(bundle, problem, m, R0, bases):
-            margin *= 2
-            lifter = Lifter(problem.field)
-            continue
-        is_single = dimensions == {1}
-        if is_single and not recurrence_tried and _recurrence_is_cheaper(problem, m, N, lifter.primes_used):
-            recurrence_tried = True
-            form = _by_recurrence(problem, m, N, valuations, R0)
-            if form is not None:
-                return [form]
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _excluded(
-    bundle: Sequence[Homomorphism], spaces: Sequence[tuple[list[Any], int]], m: int, N: int
-) -> NoInvariant | None:
-    """The proof by the first prime modulo which there is none; None if there is one modulo each."""
-    for h, (space, point) in zip(bundle, spaces, strict=True):
-        if not space:
-            return NoInvariant(m, prime=h.p, point=point, degree=N)
-    return None
+class _Search:
+    """The invariants of degree m, from their images modulo one prime after the other.
 
+    `margin` equations are taken beyond the number of unknowns; the `lifter` has the images of all primes that were of use.
+    """
 
-def _verified_forms(problem: Problem, m: int, R0: Poly, proposal: Sequence[Poly]) -> list[Form]:
-    """Those with the proposed P, if all of them are right; else none."""
-    forms = [Form(m, R0, P) for P in proposal]
-    return forms if all(form.is_form(problem) for form in forms) else []
+    def __init__(self, problem: Problem, m: int, valuations: list[int], N: int) -> None:
+        self.problem = problem
+        self.m = m
+        self.valuations = valuations
+        self.N = N
+        self.R0 = singular_part(problem, valuations[:-1])
+        self.margin = _MARGIN
+        self.lifter = Lifter(problem.field)
+        self.recurrence_tried = False
 
+    def modulo(self, h: Homomorphism) -> ModularSpace:
+        """Those modulo a prime; too few equations may let others pass."""
+        return invariants_modulo(h, self.problem, self.m, self.valuations, self.N, margin=self.margin)
 
-def _are_forms(bundle: Sequence[Homomorphism], problem: Problem, m: int, R0: Poly, bases: Sequence[list[Any]]) -> bool:
-    """Are all that were found modulo the primes forms there?  Too few equations let others pass."""
-    return all(_all_close(h, problem, m, R0, space) for h, space in zip(bundle, bases, strict=True))
+    def lifted(self, bundle: Sequence[Homomorphism], bases: Sequence[list[Any]]) -> list[Form]:
+        """A verified basis over the field, if one can be told with the bases modulo these primes; else none, for now."""
+        dimensions = {len(basis) for basis in bases}
+        if len(dimensions) > 1:
+            return []
+        forms = self._verified(self.lifter.add(bundle, bases) or [])
+        if forms:
+            return forms
+        if not self._are_forms(bundle, bases):
+            self._begin_again()
+            return []
+        if dimensions == {1} and not self.recurrence_tried and self._is_recurrence_cheaper():
+            self.recurrence_tried = True
+            return self._by_recurrence()
+        return []
 
+    def _verified(self, proposal: Sequence[Poly]) -> list[Form]:
+        """The forms with the proposed P, if all of them are right; else none."""
+        forms = [Form(self.m, self.R0, P) for P in proposal]
+        return forms if all(form.is_form(self.problem) for form in forms) else []
 
-def _by_recurrence(problem: Problem, m: int, N: int, valuations: list[int], R0: Poly) -> Form | None:
-    """The invariant that is found over the field itself, verified; None if there is none."""
-    lifted = polynomial_invariant(problem, m, N, valuations)
-    if lifted is None:
-        return None
-    form = Form(m, R0, lifted)
-    return form if form.is_form(problem) else None
+    def _are_forms(self, bundle: Sequence[Homomorphism], bases: Sequence[list[Any]]) -> bool:
+        """Are all that were found modulo the primes forms there?"""
+        return all(self._all_close(h, basis) for h, basis in zip(bundle, bases, strict=True))
+
+    def _all_close(self, h: Homomorphism, basis: Sequence[Any]) -> bool:
+        return all(_closes(h, self.problem, self.m, self.R0, P) for P in basis)
+
+    def _begin_again(self) -> None:
+        """With more equations."""
+        self.margin *= 2
+        self.lifter = Lifter(self.problem.field)
+
+    def _is_recurrence_cheaper(self) -> bool:
+        return _recurrence_is_cheaper(self.problem, self.m, self.N, self.lifter.primes_used)
+
+    def _by_recurrence(self) -> list[Form]:
+        """The invariant that is found over the field itself, verified; none if there is none."""
+        P = polynomial_invariant(self.problem, self.m, self.N, self.valuations)
+        return [] if P is None else self._verified([P])
 
 
 def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -> bool:
@@ -154,10 +175,17 @@ def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -
     return problem.field == QQ and primes_used * (N + 20) >= products
 
 
+class ModularSpace(NamedTuple):
+    """The echelon `basis` modulo a prime of all P whose expansion at this `point` agrees with a form to enough terms."""
+
+    basis: list[Any]
+    point: int
+
+
 def invariants_modulo(
     h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, *, margin: int
-) -> tuple[list[Any], int]:
-    """The echelon basis modulo p of all P whose expansion agrees with a form to N + m + 2 + margin terms; and the point."""
+) -> ModularSpace:
+    """What agrees with a form to N + m + 2 + margin terms."""
     num = h(problem.S.num)
     den = h.keeping_degree(problem.S.den)
     point = ordinary_point(den)
@@ -182,11 +210,7 @@ def invariants_modulo(
     for c in null_space(rows, m + 1, p):
         P = sum((column.truncate(N + 1) * value for column, value in zip(columns, c, strict=True)), columns[0] * 0)
         space.append(translate(P, -point % p))
-    return echelon_by_degree(space), point
-
-
-def _all_close(h: Homomorphism, problem: Problem, m: int, R0: Poly, space: Sequence[Any]) -> bool:
-    return all(_closes(h, problem, m, R0, P) for P in space)
+    return ModularSpace(echelon_by_degree(space), point)
 
 
 def _closes(h: Homomorphism, problem: Problem, m: int, R0: Poly, P: Any) -> bool:
