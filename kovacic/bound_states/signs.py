@@ -12,7 +12,8 @@ from typing import Any
 
 import sympy
 
-from kovacic.parametric.assumptions import Assumptions, Bound
+from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.facts import Bound
 
 
 class Signs:

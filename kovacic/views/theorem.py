@@ -18,8 +18,8 @@ from kovacic.decision import Structure
 from kovacic.equation import PI
 from kovacic.limits import DEFAULT_LIMITS, Budget
 from kovacic.parametric.answer import ParametricAnswer
-from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, outside, solvable_cases
+from kovacic.parametric.facts import WORDS
 from kovacic.parametric.formulas import equation_written, partial_fractions, sentence_of
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural

@@ -1,0 +1,234 @@
+"""What words about one parameter say, read once: "positive integer", "noninteger", ">=1/2", "!=1", "<sqrt(2)".
+
+A class of numbers is a `Coset` s + m Z.  A bound is a `Bound`, with a rational end, or an `End`, a ball with a real number.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from math import ceil, floor
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from kovacic.algebra.embedding import enclosure
+from kovacic.algebra.rationals import QQ
+from kovacic.errors import InputError
+from kovacic.parametric.functions import Coset
+from kovacic.reading.read import read_input
+
+INTEGERS = Coset(Fraction(0), Fraction(1))
+_CLASSES = {
+    "integer": INTEGERS,
+    "even": Coset(Fraction(0), Fraction(2)),
+    "odd": Coset(Fraction(1), Fraction(2)),
+    "half-integer": Coset(Fraction(1, 2), Fraction(1)),
+}
+#: Words for signs, as the relations that they abbreviate.
+INEQUALITIES = {"positive": ">0", "negative": "<0", "nonnegative": ">=0", "nonpositive": "<=0"}
+WORDS = (*_CLASSES, "rational", "irrational", "noninteger", "nonzero", *INEQUALITIES)
+_RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
+_BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL})")
+_UNEQUAL = re.compile(rf"!=({_RATIONAL})")
+#: A bound that is no rational number: sqrt(2).
+_ALGEBRAIC = re.compile(r"(>=|<=|>|<)([^\s<>=]*[a-z(][^\s<>=]*)")
+#: Bits of a rational bound beside one that isn't.
+_BITS = 64
+#: Bits of the balls that are compared.
+_PRECISION = 512
+
+
+@dataclass(frozen=True)
+class Bound:
+    """`sign * (value - end)` isn't negative, nor zero where the bound is strict."""
+
+    sign: int
+    end: Fraction
+    strict: bool
+
+    def admits(self, number: Fraction) -> bool:
+        """Does a number have this bound?"""
+        distance = self.sign * (number - self.end)
+        if distance == 0:
+            return not self.strict
+        return distance > 0
+
+    def is_stronger_than(self, other: Bound) -> bool:
+        """For two lower bounds, or two upper ones; the same isn't stronger, unless both are strict."""
+        distance = self.sign * (self.end - other.end)
+        if distance == 0:
+            return self.strict
+        return distance > 0
+
+    def among(self, numbers: Coset) -> Bound:
+        """The same bound for numbers of a class, by the nearest of them."""
+        steps = (self.end - numbers.start) / numbers.step
+        whole = ceil(steps) if self.sign > 0 else floor(steps)
+        nearest = numbers.start + whole * numbers.step
+        if self.strict and nearest == self.end:
+            nearest += self.sign * numbers.step
+        return Bound(self.sign, nearest, strict=False)
+
+
+@dataclass(frozen=True)
+class End:
+    """A bound, rational or not: the numbers lie on this side, 1 above and -1 below, of a real number, a ball."""
+
+    sign: int
+    ball: Any
+
+    def excludes(self, value: Any) -> bool:
+        """Does a ball provably lie on the wrong side?"""
+        with ctx.workprec(_PRECISION):
+            return bool((value - self.ball) * self.sign < 0)
+
+    def rational_bound(self) -> Bound:
+        """A weaker bound that is rational.  Raises `InputError` for an end that is too large."""
+        with ctx.workprec(_PRECISION):
+            scaled = self.ball * 2**_BITS
+            steps = scaled.floor() if self.sign > 0 else scaled.ceil()
+            whole = (steps - self.sign).unique_fmpz()
+        if whole is None:
+            raise InputError("a bound is too large to be compared with")
+        return Bound(self.sign, Fraction(int(whole), 2**_BITS), strict=True)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the words say; all of it holds."""
+
+    #: The classes that contain the parameter.
+    classes: tuple[Coset, ...]
+    #: Is it known to be rational, True, or irrational, False?
+    rational: bool | None
+    #: Is it said not to be an integer?
+    noninteger: bool
+    #: Single numbers that it isn't, 0 for `nonzero`.
+    excluded: frozenset[Fraction]
+    rational_bounds: tuple[Bound, ...]
+    #: The bounds that aren't rational.
+    ends: tuple[End, ...]
+
+    @property
+    def coset(self) -> Coset | None:
+        """The smallest class that contains the parameter."""
+        return max(self.classes, key=lambda coset: coset.step, default=None)
+
+    @cached_property
+    def bounds(self) -> tuple[Bound, ...]:
+        """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
+        strongest: dict[int, Bound] = {}
+        for bound in self._bounds_among_the_numbers():
+            known = strongest.get(bound.sign)
+            if known is None or bound.is_stronger_than(known):
+                strongest[bound.sign] = bound
+        return tuple(strongest.values())
+
+    def _bounds_among_the_numbers(self) -> Iterator[Bound]:
+        coset = self.coset
+        for bound in (*self.rational_bounds, *(end.rational_bound() for end in self.ends)):
+            if coset is None:
+                yield bound
+            else:
+                yield bound.among(coset)
+
+    def admit(self, number: Fraction) -> bool:
+        """May the parameter be this number?"""
+        if self.rational is False or number in self.excluded:
+            return False
+        if self.noninteger and number.denominator == 1:
+            return False
+        if not all(coset.contains(number) for coset in self.classes):
+            return False
+        ball = ball_of(number)
+        if any(end.excludes(ball) for end in self.ends):
+            return False
+        return all(bound.admits(number) for bound in self.bounds)
+
+    def admit_real(self, ball: Any) -> bool:
+        """May the parameter be a number in a complex ball, by the bounds?"""
+        if not ball.imag.contains(0):
+            return False
+        ends = [End(bound.sign, ball_of(bound.end)) for bound in self.bounds]
+        return not any(end.excludes(ball.real) for end in (*ends, *self.ends))
+
+
+@lru_cache(maxsize=256)
+def read_facts(words: tuple[str, ...]) -> Facts:
+    """What words say that `check_words` let pass."""
+    classes = tuple(_CLASSES[word] for word in words if word in _CLASSES)
+    inequalities = [INEQUALITIES.get(word, word) for word in words]
+    return Facts(
+        classes=classes,
+        rational=_is_rational(words, classes),
+        noninteger="noninteger" in words,
+        excluded=_excluded(words),
+        rational_bounds=tuple(_bound(match) for match in _matches(_BOUND, inequalities)),
+        ends=tuple(_ends(words)),
+    )
+
+
+def _is_rational(words: tuple[str, ...], classes: tuple[Coset, ...]) -> bool | None:
+    if classes or "rational" in words:
+        return True
+    if "irrational" in words:
+        return False
+    return None
+
+
+def _excluded(words: tuple[str, ...]) -> frozenset[Fraction]:
+    numbers = {Fraction(match[1]) for match in _matches(_UNEQUAL, words)}
+    if "nonzero" in words:
+        numbers.add(Fraction(0))
+    return frozenset(numbers)
+
+
+def _bound(match: re.Match[str]) -> Bound:
+    """That of a relation such as >=1/2."""
+    return Bound(_direction(match[1]), Fraction(match[2]), strict="=" not in match[1])
+
+
+def check_words(words: Iterable[str]) -> None:
+    """Raises `InputError` for bounds that aren't real numbers."""
+    _ends(words)
+
+
+def is_relation(word: str) -> bool:
+    """Is it a relation, as >=1/2, !=1 and <sqrt(2)?"""
+    return any(pattern.fullmatch(word) for pattern in (_BOUND, _UNEQUAL, _ALGEBRAIC))
+
+
+def _matches(pattern: re.Pattern[str], words: Iterable[str]) -> list[re.Match[str]]:
+    """Those of the words that have a form."""
+    return [match for match in map(pattern.fullmatch, words) if match is not None]
+
+
+def _ends(words: Iterable[str]) -> list[End]:
+    """The bounds among the words that aren't rational."""
+    return [End(_direction(match[1]), _real_number(match[2])) for match in _matches(_ALGEBRAIC, words)]
+
+
+def _direction(relation: str) -> int:
+    return 1 if ">" in relation else -1
+
+
+@lru_cache(maxsize=256)
+def _real_number(text: str) -> Any:
+    """A ball with the real number that a text denotes.  Raises `InputError` for any other text."""
+    number = read_input(text, var="x_").S
+    is_constant = number.num.degree <= 0 and number.den.degree <= 0
+    if is_constant and number and number.field.ground == QQ:
+        ball = enclosure(number.num[0] / number.den[0])
+        if ball.imag.contains(0):
+            return ball.real
+    raise InputError(f"{text!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
+
+
+def ball_of(number: Fraction) -> Any:
+    """A ball with a rational number, to compare with others."""
+    with ctx.workprec(_PRECISION):
+        return arb(fmpq(number.numerator, number.denominator))
