@@ -16,7 +16,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import acb
 
@@ -34,7 +34,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.system import check_segment
-from kovacic.enclosure.transport import Leg, walk
+from kovacic.enclosure.transport import Leg, Stop, walk
 from kovacic.enclosure.way import Way, by_rays, ray
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
@@ -135,12 +135,27 @@ def _rays(here: ExactPoint | Singular, stops: Sequence[ExactPoint]) -> list[list
     """The numbers of the stops, by straight ways that are shared: those on the same side on the real axis, in the order of
     visit (from infinity the farthest first), and each of the others alone."""
     origin = here.near if isinstance(here, Singular) else here
-    inverted = isinstance(here, Singular) and here.inverted
-    steps = {i: stop.x - origin.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
-    right = sorted((i for i, step in steps.items() if step >= 0), key=steps.__getitem__, reverse=inverted)
-    left = sorted((i for i, step in steps.items() if step < 0), key=steps.__getitem__, reverse=not inverted)
-    alone = [[i] for i in range(len(stops)) if i not in steps]
+    right = []
+    left = []
+    alone = []
+    for number, stop in enumerate(stops):
+        if not (origin.is_real() and stop.is_real()):
+            alone.append([number])
+        elif stop.x >= origin.x:
+            right.append(number)
+        else:
+            left.append(number)
+    from_infinity = isinstance(here, Singular) and here.inverted
+    right.sort(key=lambda number: stops[number].x, reverse=from_infinity)
+    left.sort(key=lambda number: stops[number].x, reverse=not from_infinity)
     return [numbers for numbers in (right, left, *alone) if numbers]
+
+
+class _Stage(NamedTuple):
+    """From where we are, the stops up to a place of the real axis (`reach`) are visited; then we go `onward`."""
+
+    reach: Any
+    onward: tuple[ExactPoint, ...]
 
 
 @dataclass(frozen=True)
@@ -165,10 +180,13 @@ class _Detour:
         """Where it is reached again."""
         return self.centre + self.sign * self.radius
 
-    def top(self, side: str) -> ExactPoint:
-        """The corner "above" or "below" the axis."""
+    def stages(self, side: str) -> tuple[_Stage, ...]:
+        """To where the axis is left; over the corner "above" or "below" it, to where it is reached again; and back there."""
         height = self.radius if side == "above" else -self.radius
-        return ExactPoint(self.centre, height)
+        top = ExactPoint(self.centre, height)
+        begin = ExactPoint(self.begin)
+        end = ExactPoint(self.end)
+        return _Stage(self.begin, (begin,)), _Stage(self.place, (top, end)), _Stage(self.end, ())
 
 
 @dataclass
@@ -286,21 +304,22 @@ class Traveller:
     def _by_discs(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
         origin = to_double(here)
-        places = [to_double(stop) for stop in stops]
-        found = {i: self.state(start) for i, stop in enumerate(stops) if stop == here}
-        waiting = [i for i in range(len(stops)) if i not in found]
-        waiting.sort(key=lambda i: abs(places[i] - origin))
+        found: dict[int, State] = {}
+        waiting = []
+        for stop in Stop.all(stops):
+            if stop.point == here:
+                found[stop.number] = self.state(start)
+            else:
+                waiting.append(stop)
+        waiting.sort(key=lambda stop: abs(stop.near - origin))
         while waiting:
-            farthest = stops[waiting[-1]]
+            farthest = waiting[-1].point
             for leg, way in self._legs(here, farthest, len(waiting)):
-                candidates = [(i, places[i], stops[i]) for i in waiting]
-                served = [*leg.disc.served(self.problem.system, here, candidates)]
-                if not served:
-                    continue
-                states = self._at_ends(here, leg, way.apply(start), [stops[i] for i in served])
-                found |= zip(served, states, strict=True)
-                waiting = [i for i in waiting if i not in found]
-        return [found[i] for i in range(len(stops))]
+                served = [*leg.disc.served(self.problem.system, here, waiting)]
+                if served:
+                    found |= self._at_stops(here, leg, way.apply(start), served)
+                    waiting = [stop for stop in waiting if stop.number not in found]
+        return [found[number] for number in range(len(stops))]
 
     def _legs(self, here: ExactPoint, stop: ExactPoint, targets: int) -> Iterator[tuple[Leg, MatrixProduct]]:
         """The legs of the straight line to a stop, each with the map from the start's coordinates to where it begins."""
@@ -310,12 +329,12 @@ class Traveller:
             if leg.disc.leave != stop:  # the matrix of the last leg isn't needed
                 way = way.after(leg.matrix)
 
-    def _at_ends(self, here: ExactPoint, leg: Leg, entering: State, ends: list[ExactPoint]) -> list[State]:
-        """The user's (z, z') at points that a disc serves, from the state where it is entered."""
-        for end in ends:
-            self._check_gauge(here, end)
+    def _at_stops(self, here: ExactPoint, leg: Leg, entering: State, served: Sequence[Stop]) -> dict[int, State]:
+        """The user's (z, z') by the numbers of the stops that a disc serves, from the state where it is entered."""
+        for stop in served:
+            self._check_gauge(here, stop.point)
         local = leg.local(entering)
-        return [self._given(local.state(end), end) for end in ends]
+        return {stop.number: self._given(local.state(stop.point), stop.point) for stop in served}
 
     def by_closed_form(self, closed: Closed, stop: ExactPoint, start: State) -> State:
         """The user's (z, z') at the end of a straight line from here."""
@@ -373,13 +392,10 @@ class Traveller:
         """
         result: list[State] = []
         for detour in self._detours(stops[-1]):
-            begin = ExactPoint(detour.begin)
-            end = ExactPoint(detour.end)
-            top = detour.top(side)
-            for mark, onward in ((detour.begin, [begin]), (detour.place, [top, end]), (detour.end, [])):
-                nearer = [stop for stop in stops[len(result) :] if detour.sign * (stop.x - mark) <= 0]
+            for stage in detour.stages(side):
+                nearer = [stop for stop in stops[len(result) :] if detour.sign * (stop.x - stage.reach) <= 0]
                 result += self.fan(nearer, start)
-                for point in onward:
+                for point in stage.onward:
                     self.go(point, start)
         return [*result, *self.fan(stops[len(result) :], start)]
 
@@ -394,7 +410,9 @@ class Traveller:
                 shell="leave --path out, where the straight line meets no singular point",
             )
         sign = 1 if last.x > here.x else -1
-        places = {p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < sign * (last.x - here.x)}
+        distance = sign * (last.x - here.x)
+        on_axis = {p.x for p in singular if p.is_real()}
+        places = [place for place in on_axis if 0 < sign * (place - here.x) < distance]
         for place in sorted(places, reverse=sign < 0):
             point = ExactPoint(place)
             squares = [(other - point).norm_squared() / 4 for other in singular if other != point]

@@ -10,7 +10,7 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import count, repeat
+from itertools import repeat
 from typing import Literal, Protocol
 
 from flint import acb, arb
@@ -27,6 +27,7 @@ from kovacic.limits import Limits
 from kovacic.numerals import in_a_message
 
 _LOG = logging.getLogger(__name__)
+_BITS_PER_DIGIT = 3.3219280948873626  # log2(10)
 _STEP = 64
 """Precisions by which Taylor's method goes on are multiples of so many bits above the first one."""
 
@@ -75,7 +76,7 @@ class PointValue:
 
 def start_bits(digits: int) -> int:
     """The working precision of the first run."""
-    return int(digits * 3.3219280948873626) + 24
+    return int(digits * _BITS_PER_DIGIT) + 24
 
 
 def number_of_digits(given: object, limits: Limits) -> int:
@@ -105,33 +106,76 @@ def raise_precision(
     journey: Travel, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits, *, begin: int = 0
 ) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough; not below `begin` bits."""
-    exact = journey.is_exact(targets)
-    method: Method = "taylor" if closed is None else "closed form"
     ceiling = _Ceiling.of(digits, limits, capped=closed is not None)
-    prec = max(start_bits(digits), min(begin, ceiling.bits // 2))
-    previous: _Run | None = None  # the last one with finite balls
-    for number in count(1):
+    climb = _Climb(
+        journey=journey,
+        targets=targets,
+        closed=closed,
+        digits=digits,
+        exact=journey.is_exact(targets),
+        ceiling=ceiling,
+        bits=max(start_bits(digits), min(begin, ceiling.bits // 2)),
+    )
+    while True:
         try:
-            run = _Run.made(journey, targets, closed, Route(digits, method, prec, number))
+            run = climb.run()
         except LimitExceeded as limit:
-            if previous is None:
+            if climb.previous is None:
                 raise
-            return previous.explained(str(limit))
+            return climb.previous.explained(str(limit))
         if run.reached:
             return run.values
-        if closed is not None and run.is_worse(previous):
+        if closed is not None and run.is_worse(climb.previous):
             raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
-        if exact and run.finite and number > 1:
-            ceiling = ceiling.raised(run)
-        if ceiling.is_reached(prec) or (not exact and run.is_stalled(previous)):
+        climb.raise_ceiling(run)
+        if climb.is_over(run):
             return run.explained()
+        climb.go_up(run)
+
+
+@dataclass
+class _Climb:
+    """The runs of one journey at rising precision.
+
+    The next run is made with so many `bits`.  `exact` says that more bits make every ball smaller; `previous` is the last run
+    of those before with finite balls.
+    """
+
+    journey: Travel
+    targets: Sequence[Number]
+    closed: Closed | None
+    digits: int
+    exact: bool
+    ceiling: _Ceiling
+    bits: int
+    runs: int = 0
+    previous: _Run | None = None
+
+    def run(self) -> _Run:
+        """Make the journey once more."""
+        self.runs += 1
+        method: Method = "taylor" if self.closed is None else "closed form"
+        return _Run.made(self.journey, self.targets, self.closed, Route(self.digits, method, self.bits, self.runs))
+
+    def raise_ceiling(self, run: _Run) -> None:
+        """Where this run tells how much other solutions grow; the first one doesn't."""
+        if self.exact and run.finite and run.route.runs > 1:
+            self.ceiling = self.ceiling.raised(run)
+
+    def is_over(self, run: _Run) -> bool:
+        """Does a higher precision give no more, after this run?"""
+        if self.ceiling.is_reached(self.bits):
+            return True
+        return not self.exact and run.is_stalled(self.previous)
+
+    def go_up(self, run: _Run) -> None:
+        """By as many bits as were missing, and some more."""
         if run.finite:
-            previous = run
+            self.previous = run
         more = run.missing + 16
-        if closed is None:  # other points find what was expanded at the same precision
+        if self.closed is None:  # other points find what was expanded at the same precision
             more = -(-more // _STEP) * _STEP
-        prec = min(prec + more, ceiling.bits)
-    raise AssertionError("count() doesn't end")
+        self.bits = min(self.bits + more, self.ceiling.bits)
 
 
 @dataclass(frozen=True)
@@ -205,10 +249,13 @@ class _Run:
         """Where a higher precision hasn't halved the balls, their size comes from the initial values."""
         if previous is None or not self.finite:
             return False
-        return all(
-            value.reached or (self._is_telling(value) and 2 * arb(value.y.rad) > arb(before.y.rad))
-            for before, value in zip(previous.values, self.values, strict=True)
-        )
+        return all(self._is_final(value, before) for before, value in zip(previous.values, self.values, strict=True))
+
+    def _is_final(self, value: PointValue, before: PointValue) -> bool:
+        """Has the value its digits, or a ball that isn't half of that at a lower precision?"""
+        if value.reached:
+            return True
+        return self._is_telling(value) and bool(2 * arb(value.y.rad) > arb(before.y.rad))
 
     def _is_telling(self, value: PointValue) -> bool:
         """Does the size of the ball tell of more than a precision that was too low at first?"""
@@ -234,12 +281,13 @@ def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
         return prec
     if y.is_exact():
         return 0
-    goal = int(digits * 3.3219280948873626) + 2
-    if y.contains(0) and doubled:
+    goal = int(digits * _BITS_PER_DIGIT) + 2
+    if not y.contains(0):
+        return max(0, goal - int(y.rel_accuracy_bits()))
+    if doubled:
         return prec
-    if y.contains(0):  # if the solution is the recessive one, twice the growth of the others is lost
-        return max(prec, 2 * _lost(y, prec) + goal - prec)
-    return max(0, goal - int(y.rel_accuracy_bits()))
+    # if the solution is the recessive one, twice the growth of the others is lost
+    return max(prec, 2 * _lost(y, prec) + goal - prec)
 
 
 def _lost(y: acb, prec: int) -> int:
@@ -249,10 +297,12 @@ def _lost(y: acb, prec: int) -> int:
 
 
 def _growth(result: PointValue) -> int:
+    """By how many bits other solutions grow, as far as this value tells."""
     return _lost(result.state[0], result.route.bits) if result.y.contains_zero() else 0
 
 
 def _reason(result: PointValue) -> str:
+    """Why digits are missing, as far as the ball tells."""
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
         growth = _growth(result)

@@ -21,7 +21,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import acb, fmpq
 
@@ -52,25 +52,36 @@ _WORTH = 0.2
 
 
 @dataclass(frozen=True)
-class Disc:
-    """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the latter.
+class Stop:
+    """A point where the solution is asked for: the `number` in the order of the question, and the point in doubles (`near`)."""
 
-    A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.  `begin` is that
-    point for the first junction; None on the way back to the piece.
+    number: int
+    point: ExactPoint
+    near: complex
+
+    @classmethod
+    def all(cls, points: Sequence[ExactPoint]) -> list[Stop]:
+        """The stops at these points."""
+        return [cls(number, point, to_double(point)) for number, point in enumerate(points)]
+
+
+@dataclass(frozen=True)
+class Disc:
+    """One expansion: its frame, the junctions where it is entered and left, and the parameter `t_leave` of the latter.
+
+    A junction is a short dyadic point beside the point a + t (b - a) of the piece, 0 <= t <= 1; the disc contains both.
+    `begin` is that point for the first junction; None on the way back to the piece.
     """
 
     frame: Frame
     enter: ExactPoint
     leave: ExactPoint
-    stop: Any
+    t_leave: Any
     begin: ExactPoint | None
 
-    def served(
-        self, system: System, a: ExactPoint, targets: Sequence[tuple[int, complex, ExactPoint]]
-    ) -> Iterator[int]:
-        """The numbers of those targets, given with their doubles, to which the disc carries a solution from a as the straight
-        line does: in it, and without a singular point in the triangle of a, `begin` and the target, so that both ways are
-        homotopic; or the end of the way.
+    def served(self, system: System, a: ExactPoint, stops: Sequence[Stop]) -> Iterator[Stop]:
+        """Those stops to which the disc carries a solution from a as the straight line does: in it, and without a singular
+        point in the triangle of a, `begin` and the stop, so that both ways are homotopic; or the end of the way.
         """
         if self.begin is None:
             return
@@ -81,15 +92,14 @@ class Disc:
         corners = (centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1))
         free = self.begin == a or is_apart(system, a, *corners)
         near = to_double(centre)
-        for number, place, x in targets:
-            if self.stop == 1 and x == self.leave:
-                yield number
+        for stop in stops:
+            if self.t_leave == 1 and stop.point == self.leave:
+                yield stop
                 continue
-            is_inside = (
-                abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit
-            )  # `Frame.seen` checks it exactly
-            if is_inside and (free or is_apart(system, a, self.begin, x)):
-                yield number
+            rounding = _ROUNDED * (abs(stop.near) + abs(near))
+            is_inside = abs(stop.near - near) + rounding <= unit  # `Frame.seen` checks it exactly
+            if is_inside and (free or is_apart(system, a, self.begin, stop.point)):
+                yield stop
 
 
 def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:
@@ -219,7 +229,7 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
         else:
             yield disc
             guess = disc.frame.e
-            t = disc.stop
+            t = disc.t_leave
             enter = disc.leave
 
 
@@ -264,35 +274,49 @@ class StraightPiece:
         raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
 
     def _disc(self, t: Any, enter: ExactPoint, e: int) -> Disc | None:
-        """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
-        None if it doesn't fit."""
-        step = self.b - self.a
+        """The disc of scale 2^e that is entered at t; None if it doesn't fit."""
+        if _reaches_end((1 - t) ** 2 * (self.b - self.a).norm_squared(), e):
+            placed = _Placed(self.at((1 + t) / 2).rounded(e - 4), self.b, fmpq(1))
+        elif self.a.is_real() and self.b.is_real():
+            placed = self._on_axis(enter, e)
+        else:
+            placed = self._beside(t, e)
+        if not t < placed.t_leave <= 1:
+            return None
+        begin = self.at(t)
+        square = power_of_two(2 * e)
+        for point in (begin, self.at(placed.t_leave), enter, placed.leave):
+            if (point - placed.centre).norm_squared() > square:
+                return None
+        frame = fitting(self.system, placed.centre, e, _RATIO, self.growth)
+        return None if frame is None else Disc(frame, enter, placed.leave, placed.t_leave, begin)
+
+    def _on_axis(self, enter: ExactPoint, e: int) -> _Placed:
+        """One scale ahead, rounded towards the junction behind: a nearest point may lie beyond the scale from there."""
+        step = self.b.x - self.a.x
+        sign = 1 if step > 0 else -1
         unit = power_of_two(e)
         grain = power_of_two(e - 4)
-        size = step.norm_squared()
-        if _reaches_end((1 - t) ** 2 * size, e):
-            centre = self.at((1 + t) / 2).rounded(e - 4)
-            stop = fmpq(1)
-            leave = self.b
-        elif self.a.is_real() and self.b.is_real():
-            # rounded towards the junction behind: a nearest point may lie beyond the scale from there
-            sign = 1 if step.x > 0 else -1
-            centre = ExactPoint(sign * (((sign * enter.x + unit) / grain).floor() * grain))
-            leave = ExactPoint(centre.x + sign * unit)
-            stop = (leave.x - self.a.x) / step.x
-        else:  # short dyadic numbers, just below unit/|step| and twice as much
-            square = unit * unit / size
-            k = _exponent(square)
-            forward = (square / power_of_two(2 * k - 24)).floor().isqrt() * power_of_two(k - 12) * fmpq(15, 16)
-            centre = self.at(t + forward).rounded(e - 4)
-            grain = power_of_two(k - 8)
-            stop = t + (forward * fmpq(31, 16) / grain).floor() * grain
-            leave = self.at(stop).rounded(e - 4)
-        corners = (self.at(t), self.at(stop), enter, leave)
-        if stop <= t or stop > 1 or any((p - centre).norm_squared() > unit * unit for p in corners):
-            return None
-        frame = fitting(self.system, centre, e, _RATIO, self.growth)
-        return None if frame is None else Disc(frame, enter, leave, stop, corners[0])
+        centre = ExactPoint(sign * (((sign * enter.x + unit) / grain).floor() * grain))
+        leave = ExactPoint(centre.x + sign * unit)
+        return _Placed(centre, leave, (leave.x - self.a.x) / step)
+
+    def _beside(self, t: Any, e: int) -> _Placed:
+        """Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much."""
+        square = power_of_two(2 * e) / (self.b - self.a).norm_squared()
+        k = _exponent(square)
+        forward = (square / power_of_two(2 * k - 24)).floor().isqrt() * power_of_two(k - 12) * fmpq(15, 16)
+        grain = power_of_two(k - 8)
+        t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
+        return _Placed(self.at(t + forward).rounded(e - 4), self.at(t_leave).rounded(e - 4), t_leave)
+
+
+class _Placed(NamedTuple):
+    """Where a disc has its centre and where it would be left, with the parameter of the latter."""
+
+    centre: ExactPoint
+    leave: ExactPoint
+    t_leave: Any
 
 
 def _reaches_end(square: Any, e: int) -> bool:
