@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -99,7 +99,7 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     if explain and not _names_a_ball():
         _explain_all(as_json=as_json, latex=latex)
         return
-    place = _place(**given)
+    place = _place(given)
     rows = _answer(place, latex=latex)
     motion: list[AnswerRow] = []
     if given["simulate"] or given["plot"] is not None:
@@ -154,32 +154,42 @@ def _explain_all(*, as_json: bool, latex: bool) -> None:
         _print_derivation(derivation)
 
 
-def _place(*, ratio: str | None, mass: str | None, radius: str | None, sphere: str | None, **given: Any) -> Rolling:
+def _place(given: Mapping[str, Any]) -> Rolling:
     """The ball that is meant; raises `click.UsageError` for options that don't belong together."""
     from kovacic.ball import RollingBall
-    from kovacic.ball.body import InRoots, exact
+    from kovacic.ball.body import InRoots
     from kovacic.ball.theorems import read_ratio
 
-    if ratio is not None:
-        others = [mass, radius, sphere, given["a1"], given["a3"], given["plot"]]
-        if given["simulate"] or any(other is not None for other in others):
-            raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
-        return InRoots(read_ratio(ratio))
-    if mass is None or radius is None or sphere is None:
+    if given["ratio"] is not None:
+        _demand_ratio_alone(given)
+        return InRoots(read_ratio(given["ratio"]))
+    if any(given[name] is None for name in ("mass", "radius", "sphere")):
         raise click.UsageError("either --ratio, or --mass, --radius and --sphere")
     if all(given[name] is not None for name in _FORCE):
         raise click.UsageError("either --gravity or --potential")
-    A1 = given["a1"]
-    A3 = given["a3"]
-    if exact(given["offset"], "a") != 0 and None in (A1, A3):
+    ball = RollingBall(m=given["mass"], R=given["radius"], a=given["offset"], **_moments(given))
+    return ball.on_plane() if given["sphere"] == "plane" else ball.on_sphere(given["sphere"])
+
+
+def _demand_ratio_alone(given: Mapping[str, Any]) -> None:
+    """R/R1 says nothing of moments or of a motion."""
+    is_alone = all(given[name] is None for name in ("mass", "radius", "sphere", "a1", "a3", "plot"))
+    if given["simulate"] or not is_alone:
+        raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
+
+
+def _moments(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The moments of inertia A1 and A3; by default those of a homogeneous ball, if the ball can be one."""
+    from kovacic.ball.body import exact
+
+    found = {"A1": given["a1"], "A3": given["a3"]}
+    if exact(given["offset"], "a") != 0 and None in found.values():
         raise click.UsageError("a ball with --offset isn't homogeneous: give its moments too, --A1 and --A3")
-    of_homogeneous_ball = exact(mass, "m") * exact(radius, "R") ** 2 * 2 / 5
-    if A1 is None:
-        A1 = of_homogeneous_ball
-    if A3 is None:
-        A3 = of_homogeneous_ball
-    ball = RollingBall(m=mass, R=radius, a=given["offset"], A1=A1, A3=A3)
-    return ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
+    of_homogeneous_ball = exact(given["mass"], "m") * exact(given["radius"], "R") ** 2 * 2 / 5
+    for name, moment in found.items():
+        if moment is None:
+            found[name] = of_homogeneous_ball
+    return found
 
 
 def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:

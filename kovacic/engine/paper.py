@@ -137,27 +137,30 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     None outside the domain: exponents that are no square roots of constants, constants of a high degree, poles of a high
     order.
     """
-    places = problem.places
-    if max(place.order for place in places) > _HIGHEST_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
+    if not _is_in_domain(problem):
         return None
     roots = _Roots(problem.field)
-    points = _all_points(places, roots)
+    points = _all_points(problem.places, roots)
     choices = _all_choices(points, m, roots)
     if choices is None:
         return None
-
     total = prod(len(chosen) ** point.count for chosen, point in zip(choices, points, strict=True))
     if prod(map(len, choices)) > _MOST_FAMILIES:
-        return Search(m, points, choices, total, _naturals(choices, points, m), None)
+        return Search(m, points, choices, total, natural=_naturals(choices, points, m), families=None)
 
     every = _families(choices, points, m, roots.field)
-    natural = [family for family in every if _may_succeed(family, m)]
-    tried = _tried(natural, points, m, problem, roots.field, Symbol(variable))
-    shown = every if m == 1 and total <= _FEW_FAMILIES else natural
-    families = tuple(tried.get(id(family), family) for family in shown)
-    one_by_one = all(point.count == 1 for point in points)
-    number = len(natural) if one_by_one else _naturals(choices, points, m)
-    return Search(m, points, choices, total, number, families)
+    hopeful = [family for family in every if _may_succeed(family, m)]
+    are_one_by_one = all(point.count == 1 for point in points)
+    natural = len(hopeful) if are_one_by_one else _naturals(choices, points, m)
+    shown = every if m == 1 and total <= _FEW_FAMILIES else hopeful
+    trial = _Trial(problem, points, m, roots.field, Symbol(variable))
+    return Search(m, points, choices, total, natural, _tried(shown, trial))
+
+
+def _is_in_domain(problem: Problem) -> bool:
+    """Are the orders of the poles and the degree of the constants low enough?"""
+    highest = max(place.order for place in problem.places)
+    return highest <= _HIGHEST_ORDER and problem.field.absolute_degree <= _HIGHEST_DEGREE
 
 
 def _all_points(places: Sequence[Place], roots: _Roots) -> tuple[SingularPoint, ...]:
@@ -353,22 +356,21 @@ def _square_root(place: Place, count: int) -> tuple[Poly, list[Poly]]:
     return u[0], w
 
 
-def _tried(
-    families: Sequence[Family], points: Sequence[SingularPoint], m: int, problem: Problem, field: Field, x: Any
-) -> dict[int, Family]:
-    """Step 3: the families that were tried, by their ids: all of few, else those up to the first success."""
-    trial = _Trial(problem, points, m, field, x)
-    tried: dict[int, Family] = {}
+def _tried(families: Sequence[Family], trial: _Trial) -> tuple[Family, ...]:
+    """Step 3: with what came out for those that were tried; of few families these are all that may succeed, of more those up
+    to the first success."""
+    found = list(families)
     work = 0
-    for family in families:
+    for i, family in enumerate(families):
+        if not _may_succeed(family, trial.m):
+            continue
         work += trial.work(family)
         if work > _MOST_WORK:
             break
-        outcome = trial.outcome(family)
-        tried[id(family)] = outcome
-        if outcome.P is not None and len(families) > _FEW_FAMILIES:
+        found[i] = trial.outcome(family)
+        if found[i].P is not None and len(families) > _FEW_FAMILIES:
             break
-    return tried
+    return tuple(found)
 
 
 class _Trial:
@@ -403,9 +405,8 @@ class _Trial:
         X = self.field.poly([0, 1])
         d = self.degree(family)
         R = self._theta_numerator(family)
-        images = [
-            numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)
-        ]  # D^(m+1) L_(m+1)
+        # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
+        images = [numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]
         theta = self._theta(family)
         P = _null_vector(images)
         if P is not None or d > _MOST_UNKNOWNS:
@@ -463,9 +464,11 @@ def _conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tupl
     letter = next(c for c in ascii_letters if not any(name[0] == c for name in parameters))
     unknowns = symbols(f"{letter}:{len(images) - 1}")
     x = Symbol("x")
-    rows = range(1 + max(image.degree for image in images))
-    terms = (zip((image[i] for image in images), (*unknowns, Integer(1)), strict=True) for i in rows)
-    found = [_primitive(expand(Add(*(in_sympy(c, x) * a for c, a in row)))) for row in terms]
+    coefficients = (*unknowns, Integer(1))
+    found = []
+    for i in range(1 + max(image.degree for image in images)):
+        terms = [in_sympy(image[i], x) * a for image, a in zip(images, coefficients, strict=True)]
+        found.append(_primitive(expand(Add(*terms))))
     return unknowns, tuple(dict.fromkeys(e for e in found if e))
 
 

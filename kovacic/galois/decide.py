@@ -52,24 +52,31 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
 
 
 def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
-    """By a rational form F of degree 2; None stands for the first one that there is, if there is any."""
+    """By the rational forms of degree 2: none, y1^2 alone, y1 y2 alone, or all; F is one that is known, if any is."""
     residues = rational_residues(f.theta)
-    space: list[Form] = []  # all the rational forms, where F alone doesn't tell
+    are_all_rational = False
     if F is None or _is_square(problem, F):
-        found = invariants(problem, 2)
-        space = found if isinstance(found, list) else []
-    if F is None and space:
-        F = space[0].semi_invariant(problem)
-    is_square = F is not None and _is_square(problem, F)
+        forms = _quadratic_forms(problem)
+        are_all_rational = len(forms) == 3
+        if F is None and forms:
+            F = forms[0].semi_invariant(problem)
     if isinstance(residues, Ground):
         kind = GroupKind.BOREL if F is None else GroupKind.MULTIPLICATIVE
         return Group(kind, residues, form=F)
     n = lcm(1, *(r.denominator for r in residues))
-    if is_square and len(space) == 3:
+    has_two_omegas = F is not None and not _is_square(problem, F)
+    if has_two_omegas:
+        return Group(GroupKind.CYCLIC, Ground.RESIDUES, n, F)
+    if are_all_rational:
         return Group(GroupKind.CYCLIC, Ground.ALL_INVARIANT, n, F)
-    if F is None or is_square:  # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
-        return Group(GroupKind.ADDITIVE, Ground.RESIDUES, n, F)
-    return Group(GroupKind.CYCLIC, Ground.RESIDUES, n, F)
+    # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
+    return Group(GroupKind.ADDITIVE, Ground.RESIDUES, n, F)
+
+
+def _quadratic_forms(problem: Problem) -> list[Form]:
+    """A basis of the rational forms of degree 2."""
+    found = invariants(problem, 2)
+    return found if isinstance(found, list) else []
 
 
 def _is_square(problem: Problem, F: SemiInvariant) -> bool:
