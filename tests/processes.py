@@ -1,10 +1,15 @@
-"""Processes for tests, which end with the test, whatever becomes of it."""
+"""Processes for tests, which end with the test, whatever becomes of it, and what some of them do.
+
+A process imports the module of what it does: this one imports nothing that takes a while.
+"""
 
 from __future__ import annotations
 
 import subprocess
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 
@@ -16,3 +21,21 @@ def started(arguments: Sequence[str], **options: Any) -> Iterator[subprocess.Pop
             yield process
         finally:
             process.kill()
+
+
+def values(how: str, *found: Any) -> Iterator[Any]:
+    """Yields what is found; the end is "to the end", "an exception", or never."""
+    yield from found
+    if how == "an exception":
+        raise ZeroDivisionError
+    if how != "to the end":  # a file that says that all values were sent, and then for ever
+        Path(how).touch()
+        while True:
+            time.sleep(1)
+
+
+def talks(channel: Any) -> None:
+    """One answer, one more than what it gets, between words that are none."""
+    print("something that isn't meant for the parent", flush=True)
+    channel.send(channel.receive() + 1)
+    raise ArithmeticError("after that")

@@ -4,37 +4,21 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from build import parametrize
+from processes import talks, values
 
-from kovacic.process import Channel, Process, last_of
-
-
-def values(how: str, *found: Any) -> Iterator[Any]:
-    yield from found
-    if how == "an exception":
-        raise ZeroDivisionError
-    if how != "to the end":  # a file that says that all values were sent, and then for ever
-        Path(how).touch()
-        while True:
-            time.sleep(1)
-
-
-def talks(channel: Channel) -> None:
-    print("something that isn't meant for the parent", flush=True)
-    channel.send(channel.receive() + 1)
-    raise ArithmeticError("after that")
+from kovacic.process import Process, last_of
 
 
 FOUND = pytest.mark.parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))])
 
 
 @FOUND
-@parametrize("how", ["to the end", "an exception"], ordinary=1)
+@pytest.mark.parametrize("how", ["to the end", "an exception"])
 def test_the_last_value_before_the_end(how: str, found: tuple[Any, ...]) -> None:
     assert last_of(values, how, *found, seconds=60) == (found[-1] if found else None)
 
@@ -68,7 +52,6 @@ def test_nothing_is_started_without_time(seconds: float) -> None:
     assert last_of(values, "to the end", 1, seconds=seconds) is None
 
 
-@pytest.mark.long
 def test_what_a_process_prints_is_no_answer_and_its_last_words_are_kept() -> None:
     process = Process(talks)
     process.send(2)
