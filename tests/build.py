@@ -23,6 +23,7 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.cli.main import run
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution
 from kovacic.closed_form.jets import jet
@@ -34,6 +35,7 @@ from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System
 from kovacic.engine.places import analyse
 from kovacic.galois import Ground
+from kovacic.limits import Budget, bounded_work
 from kovacic.parameters import Conditions
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
@@ -44,6 +46,7 @@ __all__ = [
     "QQ",
     "AlgebraicField",
     "Atoms",
+    "Budget",
     "Conditions",
     "Equation",
     "ExactPoint",
@@ -57,6 +60,7 @@ __all__ = [
     "analyse",
     "as_problem",
     "ball_to_flint",
+    "bounded_work",
     "equation",
     "evaluate_states",
     "function",
@@ -66,6 +70,7 @@ __all__ = [
     "parametrize",
     "read_expression",
     "read_input",
+    "run",
     "sample",
     "verify",
 ]

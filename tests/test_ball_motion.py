@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import astuple, replace
 from fractions import Fraction
+from functools import cache
 
 import mpmath
 import newton_euler
@@ -59,6 +60,12 @@ def reference(sphere, start, times, *, g=1.0, slope=None):
     force = newton_euler.gravity(m, g, R1) if slope is None else newton_euler.central(slope, R, a, R1)
     body = newton_euler.Body(m, R, a, A1, A3, R1, force)
     return newton_euler.integrate(body, tuple(map(float, astuple(start))), times)
+
+
+@cache
+def usual(R1):
+    """The motion from the usual start under gravity, solved once."""
+    return solve_motion(put(BALLS["l > 0"], R1), START)
 
 
 def differences(motion, found, times):
@@ -144,7 +151,7 @@ STARTS = {
 }
 
 
-@parametrize("name", sorted(STARTS), ordinary=1, long=6)
+@parametrize("name", STARTS, ordinary=1, long=6)
 def test_every_start_has_its_motion(name):
     a, R1, (u, du, dv, n) = STARTS[name]
     moments = {"A1": "2/5", "A3": "2/5"} if a == 0 else {"A1": "1/4", "A3": "1/3"}
@@ -248,7 +255,7 @@ def long_way(motion, sphere, count, rest):
 
 
 @parametrize("name", sorted(BALLS), ordinary=1)
-@parametrize("R1", [3, "2/3", -3, None], ordinary=2, long=1)
+@parametrize("R1", [-3, "2/3", 3, None], ordinary=1, long=1)
 def test_the_closed_form_and_the_energy_hold_along_the_motion(name, R1):
     """omega_3 and n by the theorem, on either sign of l, against the integrated motion, and along the reference."""
     sphere = put(BALLS[name], R1)
@@ -273,7 +280,7 @@ def test_the_closed_form_and_the_energy_hold_along_the_motion(name, R1):
 @parametrize("R1", [3, -3, None], ordinary=1)
 def test_rolling_holds_late(R1):
     """At t = 100 the point of the ball at the contact is at rest: derivatives of the computed path by Chebyshev series."""
-    motion = solve_motion(put(BALLS["l > 0"], R1), START)
+    motion = usual(R1)
     nodes = np.cos((np.arange(64) + 0.5) * np.pi / 64)
     times = 100.5 + nodes / 2
     contact, attitude, s = motion.contact(times), motion.attitude(times), motion.contact_on_ball(times)
@@ -299,8 +306,8 @@ def pendulum(sphere, gap):
     return replace(START, u=2.0, du=-np.sqrt(2 * (V(0.0) - V(2.0)) / K11 * (1 - gap)), dv=0.0, n=0.0)
 
 
-@parametrize("R1", [3, "2/3"], ordinary=1)
-@parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2], ordinary=1, long=2)
+@parametrize("R1", [3, "2/3"], ordinary=0, long=1)
+@parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2], ordinary=0, long=2)
 def test_near_the_separatrix(R1, gap):
     """The ball just swings back before it stands upright, or just goes over: against Newton and Euler's equations."""
     sphere = BALLS["l > 0"].on_sphere(R1)
@@ -347,7 +354,7 @@ def test_motions_that_just_turn_are_periodic():
         assert motion.period is not None
 
 
-@parametrize("R1", [3, -3, "7/2", "-7/2"], ordinary=2)
+@pytest.mark.parametrize("R1", [3, "-7/2"])
 def test_the_start_is_where_the_state_says(R1):
     """u1 and v1 are the contact point's, inside too; the ball moves there along e_u as theta says."""
     sphere = BALLS["l > 0"].on_sphere(R1)
@@ -395,7 +402,7 @@ def test_what_is_refused():
     for value in (None, 1j, True, sp.Symbol("q"), [1.0], sp.I):
         with pytest.raises(InputError):
             solve_motion(SPHERE, replace(START, dv=value))
-    motion = solve_motion(SPHERE, START)
+    motion = usual(3)
     for late in (np.inf, np.nan):
         with pytest.raises(InputError, match="finite"):
             motion.u([0.0, late])

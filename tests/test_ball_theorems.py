@@ -280,7 +280,7 @@ def test_closed_form_and_group_of_every_ball(name):
             assert sp.im(form.n.subs({**at, X: x}).evalf(20)) == 0
 
 
-@parametrize("name", sorted(BALLS), ordinary=1, long=4)
+@parametrize("name", BALLS, ordinary=1, long=4)
 def test_a_wrong_ratio_in_a_closed_form_is_seen(name):
     right, wrong = ball(name).on_sphere(3), ball(name).on_sphere(4)
     assert not closed_form(wrong).solves(right)
@@ -333,7 +333,7 @@ ROOTS = (
 
 @parametrize("roots", ROOTS, ordinary=1, ids=str)
 def test_theorem_1_by_the_engine(roots):
-    for N in range(1, 51) if roots == ROOTS[0] else (1, 2, 3, 4, 7, 11, 12):
+    for N in (*range(1, 13), 49, 50) if roots == ROOTS[0] else (1, 2, 3, 4, 7, 11, 12):
         answer = kovacic.solve(thirteen(sp.Rational(N, 2), **roots))
         assert (answer.case, answer.riccati.degree, answer.verified, answer.group.name) == (1, 1, True, "mu_4"), N
 
@@ -341,7 +341,7 @@ def test_theorem_1_by_the_engine(roots):
 @parametrize("roots", ROOTS, ordinary=2, ids=str)
 def test_theorem_2_by_the_engine(roots):
     for q in range(3, 9) if roots == ROOTS[0] else (3, 5):
-        for p in range(1, 16) if roots == ROOTS[0] else (1, 4):
+        for p in range(1, 16, 3) if roots == ROOTS[0] else (1, 4):
             ratio = sp.Rational(p, q)
             answer = kovacic.solve(thirteen(ratio, **roots))
             expected = 1 if (2 * ratio).is_integer else 2

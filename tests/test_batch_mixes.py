@@ -119,7 +119,7 @@ def test_what_ends_an_input_too_early_is_raised_after_the_answers(pools: Pools, 
         yield Item(2, "x^2 + 17")
         raise OSError("the disk is gone")
 
-    records = pools(2).run(torn(), stream=stream)
+    records = pools(1).run(torn(), stream=stream)
     first_two = finished(lambda: [next(records), next(records)])
     assert verdicts(first_two) == [(1, "none"), (2, "case 1")]
     with pytest.raises(OSError, match="the disk is gone"):

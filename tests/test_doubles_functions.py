@@ -168,7 +168,7 @@ def test_the_measured_error_keeps_the_promise(S: Any, interval: Any, kind: type)
     assert careful.measured.worst <= 4
 
 
-@pytest.mark.parametrize(("S", "interval", "kind"), [row for row in PROMISES if row[2] is ProductForm])
+@parametrize(("S", "interval", "kind"), [row for row in PROMISES if row[2] is ProductForm], ordinary=9)
 def test_plain_and_careful_arithmetic_agree(S: Any, interval: Any, kind: type) -> None:
     """The constant factor included, and powers with their signs."""
     solution = kovacic.solve(S)
@@ -251,7 +251,7 @@ STRESS = [
     ("x^2 - 1", (0, 30), np.arange(15, 30, 0.7)),  # recessive
     ("-10^30", (0, 1e-12), 1e-15 * np.arange(3.3, 150, 7)),  # large coefficients
     ("2/x^2", (1, 10**31), 1e30 * np.arange(1.1, 9, 0.4)),  # huge x
-    ("-(400^2/4 - 1/4)/(1-x^2) - 3/(4*(1-x^2)^2)", (-1, 1), np.arange(-0.9, 0.9, 0.07)),  # large degree: T_200 or U_199
+    ("-(400^2/4 - 1/4)/(1-x^2) - 3/(4*(1-x^2)^2)", (-1, 1), np.arange(-0.9, 0.9, 0.23)),  # large degree: T_200 or U_199
 ]
 
 
@@ -348,7 +348,7 @@ def test_functions_take_scalars_lists_and_arrays_of_every_shape() -> None:
 # --- tables ----------------------------------------------------------------------------------------------------------
 
 
-@parametrize("size", [BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5], ordinary=2)
+@parametrize("size", [BLOCK + 1, BLOCK, 3 * BLOCK + 5], ordinary=1, long=1)
 def test_long_arrays_have_the_values_of_their_points(size: int) -> None:
     functions = [
         lambdify(kovacic.solve("x^2 - 11"), interval=(-3, 3), check=False),
@@ -545,9 +545,9 @@ def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
     ordinary=1,
 )
 def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
-    """Up to singular points, too; at 300 points against the certificate in balls, and the known functions."""
+    """Up to singular points, too; at 100 points against the certificate in balls, and the known functions."""
     solution = kovacic.solve(equation)
-    points = np.linspace(*interval, 302)[1:-1]
+    points = np.linspace(*interval, 102)[1:-1]
     for careful in (False, True):
         f = lambdify(solution, interval=interval, careful=careful, check=False)
         assert isinstance(f, ProductForm)

@@ -59,7 +59,7 @@ BESSEL_ORDERS = [
 
 
 @pytest.mark.parametrize("nu", BESSEL_ORDERS)
-@parametrize("x", [Fraction(1, 10), 3, 25, -2, 1 + 2j], ordinary=2)
+@parametrize("x", [3, Fraction(1, 10), 25, -2, 1 + 2j], ordinary=1, long=2)
 def test_bessel_functions_from_their_singular_point(nu: Fraction, x: Any) -> None:
     with ctx.workprec(300):
         v = number(nu)
@@ -68,8 +68,8 @@ def test_bessel_functions_from_their_singular_point(nu: Fraction, x: Any) -> Non
     agree(bessel(nu, -1), coordinates, x, lambda z: z.bessel_i(v))
 
 
-@pytest.mark.parametrize("n", [0, 1, 2, 5])
-@pytest.mark.parametrize("x", [Fraction(1, 10), 4, 1 - 1j])
+@pytest.mark.parametrize("n", [0, 1, 5])
+@pytest.mark.parametrize("x", [4, 1 - 1j])
 def test_logarithms_of_bessel_functions_of_the_second_kind(n: int, x: Any) -> None:
     """Y_n = -(n-1)!/pi (x/2)^-n + ... + 2/pi log(x/2) J_n - (psi(1) + psi(n + 1))/(pi n!) (x/2)^n + ..., K_n alike."""
     with ctx.workprec(300):
@@ -120,7 +120,7 @@ def test_gauss_from_zero_and_from_infinity(a: str, b: str, c: str, x: Any) -> No
 
 
 @pytest.mark.parametrize(("k", "mu"), [("1/3", "2/7"), ("0", "1/2"), ("5/2", "0"), ("-1", "1"), ("2", "3/2")])
-@pytest.mark.parametrize("x", [Fraction(1, 3), 6, 20, 1 + 1j])
+@pytest.mark.parametrize("x", [Fraction(1, 3), 1 + 1j])
 def test_whittaker_functions_from_zero(k: str, mu: str, x: Any) -> None:
     with ctx.workprec(300):
         kappa, m = number(Fraction(k)), number(Fraction(mu))
@@ -243,7 +243,7 @@ def test_a_solution_of_the_package_starts_at_its_singular_point() -> None:
     assert isinstance(answer.at(3, x0=0, which="regular"), Ball)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_the_tail_is_below_its_bound(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same basis with few bits and with many: the ball of the first contains that of the second."""
     rng = random.Random(seed)

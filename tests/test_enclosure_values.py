@@ -16,7 +16,7 @@ import mpmath
 import pytest
 from build import ExactPoint, System, ball_to_flint, evaluate_states, make_frame, parametrize
 from flint import acb, acb_poly, fmpq_poly
-from hypothesis import assume, example, given
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
@@ -48,6 +48,7 @@ def mp_close(ball: Ball, reference: mpmath.mpf, digits: int) -> bool:
 # --- balls -----------------------------------------------------------------------------------------------------------
 
 
+@settings(max_examples=20)
 @given(st.integers(), st.integers(-200, 200), st.integers(0), st.integers(-300, 100))
 def test_balls_survive_the_way_through_flint_and_pickle(m: int, e: int, r: int, k: int) -> None:
     with flint.ctx.workprec(2000):
@@ -64,6 +65,7 @@ def test_balls_survive_the_way_through_flint_and_pickle(m: int, e: int, r: int, 
     assert Fraction(r) * Fraction(2) ** k <= Fraction(ball.radius)
 
 
+@settings(max_examples=20)
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_a_float_goes_through_a_ball_unchanged(value: float) -> None:
     point = as_point(value, "x").re
@@ -175,6 +177,7 @@ def test_the_shifted_equation_is_the_equation(
     assert q[1] is None or q[1][0] == 0
 
 
+@settings(max_examples=20)
 @given(
     st.lists(st.integers(-9, 9), min_size=1, max_size=14), st.lists(st.integers(-9, 9), max_size=4), st.integers(-5, 5)
 )
@@ -187,7 +190,7 @@ def test_the_principal_part_at_a_pole(part: list[int], rest: list[int], at: int)
     assert [ball.unique_fmpz() for ball in found] == part
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(16))
 def test_the_bounds_of_a_disc_hold_along_a_ray(seed: int) -> None:
     rng = random.Random(seed)
     system = random_system(rng)
@@ -218,7 +221,7 @@ def test_the_bounds_of_a_disc_hold_along_a_ray(seed: int) -> None:
 
 
 @pytest.mark.parametrize("method", ["taylor", "closed form"])
-@parametrize("digits", [5, 15, 50, 150], ordinary=2)
+@parametrize("digits", [5, 150], ordinary=1)
 @pytest.mark.parametrize("x", ["-20", "-1/3", "2.5", "11"])
 def test_airy_functions(digits: int, x: str, method: Method) -> None:
     ball = evaluate(AIRY, x, x0=0, y0=1, dy0=0, digits=digits, method=method)
@@ -320,7 +323,7 @@ def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> N
     assert all(entry.radius <= 1e-30 * largest for row in fine for entry in row)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(8))
 def test_a_contractible_loop_is_the_identity(seed: int) -> None:
     rng = random.Random(1000 + seed)
     system = random_system(rng)
@@ -416,7 +419,7 @@ def test_many_points_come_back_in_the_order_asked_for() -> None:
     assert all(a.overlaps(b) for a, b in zip(chain, alone, strict=True))
 
 
-@parametrize("S", ["3/16/x^2", "1/(x^2 + 2*x)", "x + 1/x"], ordinary=1)
+@parametrize("S", ["3/16/x^2", "1/(x^2 + 2*x)", "x + 1/x"], ordinary=1, long=1)
 @pytest.mark.parametrize("solve", [str, kovacic.solve])
 def test_a_chain_visits_its_points_one_after_the_other(S: str, solve: Any) -> None:
     points = [1j, "-3/4", "-5/4", -1 - 1j, "-1/2", -1j, 1, 1j]  # back and forth, and once around 0
@@ -710,7 +713,7 @@ def test_a_right_hand_side_that_cannot_be_is_refused() -> None:
         connection_matrix("y'' + y = x", [0, 1])
 
 
-@pytest.mark.parametrize("k", range(12))
+@pytest.mark.parametrize("k", [0, 3, 6, 9])
 def test_a_complex_path_comes_to_its_end(k: int) -> None:
     """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
     a, b = ExactPoint(Fraction(59, 64), Fraction(47, 64)), ExactPoint(Fraction(-63, 64), Fraction(13, 32))

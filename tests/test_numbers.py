@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import sympy
 from build import parametrize
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
@@ -201,6 +201,7 @@ def test_the_same_number_of_every_kind_gives_the_same_value(value: Fraction) -> 
         assert kovacic.evaluate("x", [number], **START) == (expected,), kind
 
 
+@settings(max_examples=20)
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_a_double_is_its_binary_value_and_text_its_decimal_one(double: float) -> None:
     real = to_fmpq(Fraction(double))

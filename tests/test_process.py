@@ -13,7 +13,6 @@ from processes import talks, values
 
 from kovacic.process import Process, last_of
 
-
 FOUND = pytest.mark.parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))])
 
 

