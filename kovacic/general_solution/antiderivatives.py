@@ -6,13 +6,14 @@
 - Tangents, cotangents, secants, ... times functions whose residues aren't constant: the rest, and an `Integral` that stays.
 - Polynomials times exponentials and waves in x or exp(k x): Y' for Y'' = g, by undetermined coefficients.
 - All of these in log(x), a root of x, or an argument u of a function beside u'.
-- Rational functions of exp(k x), or of s = sin(theta) and c = cos(theta), theta = w x + phi, by partial fractions in
+- Rational functions of exp(k x), or of sines and cosines, by partial fractions.
 
-      c if g is odd in s,    s if g is odd in c,    tan(theta) if g(-s, -c) = g(s, c),    tan(theta/2) otherwise.
+`_RULES`, at the end, has them in the order in which they are tried on a term.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import reduce
 from math import lcm
@@ -20,12 +21,11 @@ from typing import Any
 
 import sympy
 from sympy import atan, cos, exp, log, sin, tan
-from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
 from kovacic.general_solution.special_integrals import dilogarithm, fresnel, in_complex_exponentials, incomplete_gamma
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.undetermined import undetermined
+from kovacic.general_solution.waves import beside_waves, by_coefficients, wave_changes
 from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import check_time
 
@@ -126,31 +126,52 @@ def _goes_by_parts(factor: Expr, x: Expr) -> bool:
     return factor.as_base_exp()[0].func in _BY_PARTS and factor.has(x)
 
 
+@dataclass(frozen=True)
+class _Rule:
+    """A way to integrate a term."""
+
+    #: What it finds.
+    claim: str
+    #: Is it for such a term of x?  A look at which functions there are.
+    concerns: Callable[[Expr, Expr], bool]
+    #: int g dx; None where it isn't found in this way.
+    integral: Callable[[Expr, Expr], Expr | None]
+
+
 def _of_term(term: Expr, x: Expr) -> Expr | None:
     """By the first rule that knows it."""
-    rules = (
-        _by_coefficients,
-        _in_logarithms,
-        _in_roots,
-        _in_an_argument,
-        _in_exponentials,
-        _in_waves,
-        _with_real_arguments,
-        integral_of_product,
-        fresnel,
-        _beside_waves,
-        _beside_tangents,
-        _powers_by_parts,
-        _in_a_linear_argument,
-        in_complex_exponentials,
-        incomplete_gamma,
-        _in_roots_of_x,
-    )
-    for rule in rules:
-        found = rule(term, x)
+    for rule in _RULES:
+        if not rule.concerns(term, x):
+            continue
+        found = rule.integral(term, x)
         if found is not None:
             return found
     return None
+
+
+# ------------------------------------------------------------------------------------------------ changes of variable
+
+
+def _changed(inner: Expr, t: Expr, u: Expr, x: Expr) -> Expr | None:
+    """int inner dt at t = u; None where x is left in it, or the integral isn't known."""
+    if inner.has(x):
+        return None
+    return _at(u, t, _known(inner, t))
+
+
+def _at(u: Expr, t: Expr, found: Expr | None) -> Expr | None:
+    """An integral that was found in t, for t = u."""
+    if found is None:
+        return None
+    return found.subs(t, u)
+
+
+def _known(integrand: Expr, t: Expr) -> Expr | None:
+    """As `antiderivative` in another variable: an `Integral` that stays would have that."""
+    found = _by_rules(integrand, t)
+    if found is None or found.has(sympy.Integral):
+        return None
+    return found
 
 
 def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
@@ -159,18 +180,12 @@ def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
     return powers.subs(t, log(u))
 
 
-def _by_coefficients(term: Expr, x: Expr) -> Expr | None:
-    """Y' for Y'' = g."""
-    found = undetermined(sympy.Integer(0), sympy.Integer(0), term, x)
-    if found is None:
-        return None
-    return sympy.expand(found.diff(x))
+def _has_logarithm_of_x(term: Expr, x: Expr) -> bool:
+    return bool(term.has(log(x)))
 
 
 def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
     """In t = log(x)."""
-    if not term.has(log(x)):
-        return None
     t = sympy.Dummy(real=True)
     inner = prepared(term.subs(x, exp(t)) * exp(t))
     if inner.has(log) or inner.has(x):
@@ -181,17 +196,23 @@ def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
     return in_powers(found, t, x)
 
 
-def _in_roots(term: Expr, x: Expr) -> Expr | None:
-    """In t with x = t^q, for the root of x that stands within functions, or beside waves."""
+def _index_within_functions(term: Expr, x: Expr) -> int:
+    """q for the root of x that stands within functions, or beside waves."""
     arguments = [f.args[0] for f in term.atoms(sympy.Function)]
     if term.has(sin, cos):
         arguments = [term]
-    q = lcm(*(_index_of_root(argument, x) for argument in arguments))
-    if q == 1:
-        return None
+    return lcm(*(_index_of_root(argument, x) for argument in arguments))
+
+
+def _has_root_within_functions(term: Expr, x: Expr) -> bool:
+    return _index_within_functions(term, x) > 1
+
+
+def _in_roots_within_functions(term: Expr, x: Expr) -> Expr | None:
+    """In t with x = t^q."""
+    q = _index_within_functions(term, x)
     t = sympy.Dummy(positive=True)
-    found = _known(_in_root(term, x, t, q), t)
-    return _at(sympy.root(x, q), t, found)
+    return _changed(_in_root(term, x, t, q), t, sympy.root(x, q), x)
 
 
 def _index_of_root(e: Expr, x: Expr) -> int:
@@ -205,49 +226,53 @@ def _in_root(integrand: Expr, x: Expr, t: Expr, q: int) -> Expr:
     return integrand.subs(x, t**q) * q * t ** (q - 1)
 
 
+def _has_root_of_x(term: Expr, x: Expr) -> bool:
+    return _index_of_root(term, x) > 1
+
+
 def _in_roots_of_x(term: Expr, x: Expr) -> Expr | None:
-    """A rational function of a root of x."""
+    """A rational function of t with x = t^q."""
     q = _index_of_root(term, x)
-    if q == 1:
-        return None
     t = sympy.Dummy(positive=True)
     found = integral_of_fraction(sympy.cancel(_in_root(term, x, t, q)), t)
     return _at(sympy.root(x, q), t, found)
 
 
-def _at(u: Expr, t: Expr, found: Expr | None) -> Expr | None:
-    """An integral that was found in t, for t = u."""
-    if found is None:
-        return None
-    return found.subs(t, u)
+def _has_roots_beside_functions(term: Expr, x: Expr) -> bool:
+    return bool(_functions(term)) and any(base.has(x) for base in radicands(term))
 
 
 def _in_a_linear_argument(term: Expr, x: Expr) -> Expr | None:
-    """In u = a x + b, where a root of that alone stands beside functions."""
+    """In u = a x + b, of which alone there are roots."""
     bases = {base for base in radicands(term) if base.has(x)}
-    if len(bases) != 1 or not _functions(term):
+    if len(bases) != 1:
         return None
-    (base,) = bases
-    if not base.is_Add or not base.is_polynomial(x) or sympy.degree(base, x) != 1:
+    (line,) = bases
+    if not _is_line(line, x):
         return None
     u = sympy.Dummy()
-    slope = base.diff(x)
-    inner = term.subs(x, sympy.expand(x - (base - u) / slope)) / slope
-    if inner.has(x):
-        return None
-    return _at(base, u, _known(inner, u))
+    slope = line.diff(x)
+    inner = term.subs(x, sympy.expand(x - (line - u) / slope)) / slope
+    return _changed(inner, u, line, x)
+
+
+def _is_line(e: Expr, x: Expr) -> bool:
+    """Is it a x + b with b != 0?"""
+    return bool(e.is_Add and e.is_polynomial(x) and sympy.degree(e, x) == 1)
+
+
+def _has_functions_of_functions(term: Expr, x: Expr) -> bool:
+    return bool(_arguments_with_functions(term, x))
 
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
     """In an argument u of a function, beside whose slope the term is one of u."""
-    u = sympy.Dummy()
-    for argument in sorted(_arguments_with_functions(term, x), key=str):
-        inner = (term / argument.diff(x)).subs(argument, u)
-        if inner.has(x):
-            continue
-        found = _known(inner, u)
+    t = sympy.Dummy()
+    for u in sorted(_arguments_with_functions(term, x), key=str):
+        inner = (term / u.diff(x)).subs(u, t)
+        found = _changed(inner, t, u, x)
         if found is not None:
-            return found.subs(u, argument)
+            return found
     return None
 
 
@@ -257,10 +282,8 @@ def _arguments_with_functions(term: Expr, x: Expr) -> set[Expr]:
     return {argument for argument in arguments if argument.has(x) and argument.has(exp, sin, cos, log)}
 
 
-def _known(integrand: Expr, t: Expr) -> Expr | None:
-    """As `antiderivative` in another variable: an `Integral` that stays would have that."""
-    found = _by_rules(integrand, t)
-    return None if found is None or found.has(sympy.Integral) else found
+def _has_exponentials(term: Expr, _: Expr) -> bool:
+    return bool(term.has(exp))
 
 
 def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
@@ -295,11 +318,14 @@ def _rate_of_variable(term: Expr, rates: dict[Expr, Expr]) -> Expr | None:
 def _in_one_exponential(integrand: Expr, u: Expr) -> Expr | None:
     """The integral of what is written in u = exp(k x)."""
     found = integral_of_fraction(integrand, u)
-    if found is None:
-        found = _by_coefficients(integrand, u)
-    if found is None and not integrand.has(log(u)):  # in t = log(u) exponentials would come back
-        found = _known(integrand, u)
-    return found
+    if found is not None:
+        return found
+    found = by_coefficients(integrand, u)
+    if found is not None:
+        return found
+    if integrand.has(log(u)):  # in t = log(u) exponentials would come back
+        return None
+    return _known(integrand, u)
 
 
 def _arguments_of_roots_and_logarithms(term: Expr) -> list[Expr]:
@@ -320,83 +346,30 @@ def _common_rate(rates: list[Expr]) -> Expr | None:
     return k
 
 
-@dataclass(frozen=True)
-class _Change:
-    """To a function u of theta: the integrand times dtheta/du, and s and c in u, for which x is written."""
-
-    integrand: Expr
-    waves: dict[Expr, Expr]
-    u: Expr
-
-    def integral(self, slope: Expr, x: Expr) -> Expr | None:
-        """In theta, whose derivative is `slope`; None where it isn't known in u."""
-        inner = self.integrand.subs(self.waves) / slope
-        found = integral_of_fraction(sympy.cancel(inner), x)
-        if found is None:  # beside a root of a wave
-            found = _known(inner, x)
-        if found is None:
-            return None
-        if self.u.func is not tan:
-            return TR2i(found.xreplace({x: self.u}))
-        angle = self.u.args[0]
-        u = sympy.Dummy()
-        known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
-        return TR2i(found.xreplace({x: u}).xreplace(known).xreplace({u: sin(angle) / cos(angle)}))
+def _has_waves(term: Expr, _: Expr) -> bool:
+    return bool(term.has(sin, cos))
 
 
 def _in_waves(term: Expr, x: Expr) -> Expr | None:
-    """In c, s or a tangent."""
-    waves = sorted(term.atoms(sin, cos), key=str)
-    theta = _common_angle(waves)
-    if theta is None:
-        return None
-    s = sympy.Dummy()
-    c = sympy.Dummy()
-    R = term.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
-    slope = theta.diff(x)
-    if R.has(x) or slope.has(x) or slope == 0:
-        return None
-    found = [change.integral(slope, x) for change in _changes(R, s, c, theta, x)]
-    return min((done for done in found if done is not None), key=size, default=None)
-
-
-def _common_angle(waves: list[Expr]) -> Expr | None:
-    """theta, of which the arguments of all waves are integer multiples; None where there is none."""
-    if not waves:
-        return None
-    first = waves[0].args[0]
-    ratios = [sympy.cancel(wave.args[0] / first) for wave in waves]
-    if not all(ratio.is_Rational for ratio in ratios):
-        return None
-    return first * reduce(sympy.gcd, ratios)
-
-
-def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
-    """sin(n theta) or cos(n theta) in s = sin(theta) and c = cos(theta)."""
-    n = int(sympy.cancel(wave.args[0] / theta))
-    if wave.func is cos:
-        return sympy.chebyshevt(abs(n), c)
-    return sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
-
-
-def _changes(R: Expr, s: Expr, c: Expr, theta: Expr, x: Expr) -> list[_Change]:
-    """The changes of variable that make R, a function of s and c, a rational function; u is x."""
-    root = sympy.sqrt(1 - x**2)
-    square = 1 + x**2
+    """In c, s or a tangent: the shortest result."""
     found = []
-    if sympy.cancel(R + R.xreplace({s: -s})) == 0:
-        found.append(_Change(-R / s, {s: root, c: x}, cos(theta)))
-    if sympy.cancel(R + R.xreplace({c: -c})) == 0:
-        found.append(_Change(R / c, {c: root, s: x}, sin(theta)))
-    if found:
+    for change in wave_changes(term, x):
+        integral = _rational_or_known(change.integrand, x)
+        if integral is not None:
+            found.append(change.back(integral, x))
+    return min(found, key=size, default=None)
+
+
+def _rational_or_known(integrand: Expr, u: Expr) -> Expr | None:
+    """By partial fractions, or, beside a root of a wave, by another rule."""
+    found = integral_of_fraction(sympy.cancel(integrand), u)
+    if found is not None:
         return found
-    if sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0:
-        return [_Change(R / square, {s: x / sympy.sqrt(square), c: 1 / sympy.sqrt(square)}, tan(theta))]
-    return [_Change(2 * R / square, {s: 2 * x / square, c: (1 - x**2) / square}, tan(theta / 2))]
+    return _known(integrand, u)
 
 
 def _with_real_arguments(term: Expr, x: Expr) -> Expr | None:
-    """exp(i w x) as cos(w x) + i sin(w x), beside waves."""
+    """exp(i w x) as cos(w x) + i sin(w x)."""
     waves = {}
     for e in term.atoms(exp):
         angle = sympy.expand(e.args[0] / sympy.I)
@@ -405,6 +378,9 @@ def _with_real_arguments(term: Expr, x: Expr) -> Expr | None:
     if not waves:
         return None
     return _in_waves(term.xreplace(waves), x)
+
+
+# ------------------------------------------------------------------------------------------------------------ by parts
 
 
 @dataclass(frozen=True)
@@ -421,23 +397,37 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     if not powers:
         return None
     if len(powers) == 1:
-        found = _of_one_function(powers[0], g, x)
-        if found is not None:
-            return found
+        return _beside_one_power(powers[0], g, x)
     G = _by_rules(g, x)
     if G is None:
         return None
-    if len(powers) == 1:
-        share = sympy.expand(G).coeff(powers[0].function)
-        if share != 0 and not share.has(x):
-            return _with_share(powers[0], share, g, x)
+    return _with_integrated(powers, G, x)
+
+
+def _beside_one_power(power: _Power, g: Expr, x: Expr) -> Expr | None:
+    """The same for l^m, where g may be near l'."""
+    found = _of_one_function(power, g, x)
+    if found is not None:
+        return found
+    G = _by_rules(g, x)
+    if G is None:
+        return None
+    share = sympy.expand(G).coeff(power.function)
+    if share != 0 and not share.has(x):
+        return _with_share(power, share, g, x)
+    return _with_integrated([power], G, x)
+
+
+def _with_integrated(powers: list[_Power], G: Expr, x: Expr) -> Expr | None:
+    """G l - int G l' dx for the product l of the powers."""
     if not _functions(G) <= _SIMPLE:
         return None
+    product = sympy.Mul(*(power.function**power.m for power in powers))
     rates = [power.m * _slope(power.function, x) / power.function for power in powers]  # l'/l, by factors
-    rest = _by_rules(sympy.Add(*(rate * inverse * G for rate in rates)), x)
+    rest = _by_rules(sympy.Add(*(rate * product * G for rate in rates)), x)
     if rest is None:
         return None
-    return sympy.expand(G * inverse) - rest
+    return sympy.expand(G * product) - rest
 
 
 def _natural_powers(inverse: Expr) -> list[_Power]:
@@ -480,23 +470,35 @@ def _of_one_function(power: _Power, g: Expr, x: Expr) -> Expr | None:
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
     """int R log(u) dx, where a partial fraction of R has a dilogarithm; None where none has."""
-    fractions = sympy.Add.make_args(sympy.apart(g, x))
-    known = {fraction: dilogarithm(logarithm.args[0], fraction, x) for fraction in fractions}
-    if all(found is None for found in known.values()):
+    known: dict[Expr, Expr | None] = {}
+    unknown = []
+    for fraction in sympy.Add.make_args(sympy.apart(g, x)):
+        known[fraction] = dilogarithm(logarithm.args[0], fraction, x)
+        if known[fraction] is None:
+            unknown.append(fraction)
+    if len(unknown) == len(known):
         return None
-    unknown = [fraction for fraction, found in known.items() if found is None]
-    known |= {fraction: _by_parts(logarithm, fraction, x) for fraction in unknown}
+    for fraction in unknown:
+        known[fraction] = _by_parts(logarithm, fraction, x)
     return sum_of(known.values())
 
 
-def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
-    """int P g dx = P G - int P' G dx for a polynomial P, as in x/cos(x)^2; g has no functions that go by parts themselves."""
-    factors = sympy.Mul.make_args(term)
-    P = sympy.Mul(*(factor for factor in factors if factor.is_polynomial(x)))
+def _polynomial_factor(term: Expr, x: Expr) -> Expr:
+    """The product of the factors that are polynomials."""
+    return sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if factor.is_polynomial(x)))
+
+
+def _has_polynomial_beside_simple_functions(term: Expr, x: Expr) -> bool:
+    """Is it P g with a polynomial P, and functions in g that don't go by parts themselves?"""
+    P = _polynomial_factor(term, x)
     g = term / P
-    if not P.has(x) or not g.has(x) or not _functions(g) <= _SIMPLE:
-        return None
-    G = _known(g, x)
+    return bool(P.has(x) and g.has(x)) and _functions(g) <= _SIMPLE
+
+
+def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
+    """int P g dx = P G - int P' G dx, as for x/cos(x)^2."""
+    P = _polynomial_factor(term, x)
+    G = _known(term / P, x)
     if G is None:
         return None
     rest = _beside_slope(P.diff(x), G, x)
@@ -513,65 +515,7 @@ def _beside_slope(slope: Expr, G: Expr, x: Expr) -> Expr | None:
     return sum_of(_of_term(term, x) for term in terms)
 
 
-def _beside_waves(term: Expr, x: Expr) -> Expr | None:
-    """int R cos(w x + b) dx for rational R, after partial fractions, by sine and cosine integrals."""
-    if not term.has(sin, cos) or term.has(exp, log, atan):
-        return None
-    singles = sympy.Add.make_args(sympy.expand(TR8(term)))
-    return sum_of(_beside_at_most_one_wave(single, x) for single in singles)
-
-
-def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
-    """The integral of R, or of R times a wave, by partial fractions."""
-    waves = term.atoms(sin, cos)
-    if len(waves) > 1:
-        return None
-    wave = next(iter(waves), sympy.Integer(1))
-    R = term / wave
-    if not R.is_rational_function(x) or R.has(sin, cos):
-        return None
-    fractions = sympy.Add.make_args(sympy.apart(R, x))
-    if not waves:
-        return sum_of(integral_of_product(fraction, x) for fraction in fractions)
-    return sum_of(_beside_one_wave(fraction, wave, x) for fraction in fractions)
-
-
-def _beside_one_wave(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
-    """The integral of a polynomial, or of a single pole, times a wave."""
-    slope = wave.args[0].diff(x)
-    if slope.has(x):
-        return None
-    found = _by_coefficients(fraction * wave, x)
-    if found is not None:
-        return found
-    return _at_a_pole(fraction, wave, slope, x)
-
-
-def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
-    """int f g/(x - c)^k dx for a constant f and a wave g: by parts down to k = 1, which is Si and Ci."""
-    base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
-    if not exponent.is_Integer or exponent >= 0 or base.diff(x).has(x):
-        return None
-    c = sympy.expand(x - base / base.diff(x))
-    k = -int(exponent)
-    factor = sympy.cancel(fraction * (x - c) ** k)
-    total = sympy.Integer(0)
-    while k > 1:
-        total -= factor * wave / ((k - 1) * (x - c) ** (k - 1))
-        factor = factor / (k - 1)
-        wave = wave.diff(x)
-        k -= 1
-    number, wave = wave.as_independent(x, as_Add=False)
-    return total + factor * number * _over_a_line(wave, c, slope, x)
-
-
-def _over_a_line(wave: Expr, c: Expr, slope: Expr, x: Expr) -> Expr:
-    """int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = slope (x - c), and p + pi/2 for the cosine."""
-    u = slope * (x - c)
-    phase = sympy.expand(wave.args[0].subs(x, c))
-    if wave.func is sin:
-        return cos(phase) * sympy.Si(u) + sin(phase) * sympy.Ci(u)
-    return -sin(phase) * sympy.Si(u) + cos(phase) * sympy.Ci(u)
+# ------------------------------------------------------------------------------------------------------------ tangents
 
 
 def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
@@ -579,20 +523,32 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     c = _only_wave_below(term)
     if c is None:
         return None
-    s = cos(c.args[0]) if c.func is sin else sin(c.args[0])
+    s = _other_wave(c)
     above = term * c
     if not above.is_polynomial(s, c):
         return None
     (_, q), rest = sympy.reduced(above, [s**2 + c**2 - 1, c], s, c)
-    if rest.has(log, atan):
-        return None
-    residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
-    if any(residue.has(sin, cos) or not residue.has(x) for residue in residues):
+    if not _leaves_an_integral(rest, s, x):
         return None
     found = _by_rules(q, x)
     if found is None:
         return None
     return found + sympy.Integral(rest / c, x)
+
+
+def _leaves_an_integral(rest: Expr, s: Expr, x: Expr) -> bool:
+    """Aren't the residues of a + b s at the zeros of c constant?  Then it has no elementary integral."""
+    if rest.has(log, atan):
+        return False
+    residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
+    return all(residue.has(x) and not residue.has(sin, cos) for residue in residues)
+
+
+def _other_wave(c: Expr) -> Expr:
+    """The cosine for a sine, and the other way round."""
+    if c.func is sin:
+        return cos(c.args[0])
+    return sin(c.args[0])
 
 
 def _only_wave_below(term: Expr) -> Expr | None:
@@ -602,3 +558,34 @@ def _only_wave_below(term: Expr) -> Expr | None:
     if len(waves) != 1:
         return None
     return waves[0]
+
+
+# --------------------------------------------------------------------------------------------------------------- rules
+
+
+def _any(_term: Expr, _x: Expr) -> bool:
+    return True
+
+
+def _has_waves_alone(term: Expr, x: Expr) -> bool:
+    return _has_waves(term, x) and not term.has(exp, log, atan)
+
+
+_RULES = (
+    _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", _any, by_coefficients),
+    _Rule("int f(x, log(x)) dx = int f(exp(t), t) exp(t) dt", _has_logarithm_of_x, _in_logarithms),
+    _Rule("int f(x^(1/q)) dx = int f(t) q t^(q - 1) dt", _has_root_within_functions, _in_roots_within_functions),
+    _Rule("int f(u) u' dx = int f(u) du", _has_functions_of_functions, _in_an_argument),
+    _Rule("int f(exp(k x)) dx = int f(u)/(k u) du", _has_exponentials, _in_exponentials),
+    _Rule("int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent", _has_waves, _in_waves),
+    _Rule("the same with exp(i u) = cos(u) + i sin(u)", _has_exponentials, _with_real_arguments),
+    _Rule("products of powers and exponentials of rational functions", _any, integral_of_product),
+    _Rule("int P sin(q) dx for quadratic q: Fresnel functions", _has_waves, fresnel),
+    _Rule("int R cos(u) dx for linear u: Si and Ci", _has_waves_alone, beside_waves),
+    _Rule("int q + (a + b s)/c dx where the second part isn't elementary", _has_waves, _beside_tangents),
+    _Rule("int P g dx = P G - int P' G dx", _has_polynomial_beside_simple_functions, _powers_by_parts),
+    _Rule("int f(sqrt(u), u) dx for u = a x + b", _has_roots_beside_functions, _in_a_linear_argument),
+    _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
+    _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", _any, incomplete_gamma),
+    _Rule("int R(x^(1/q)) dx: partial fractions in t = x^(1/q)", _has_root_of_x, _in_roots_of_x),
+)
