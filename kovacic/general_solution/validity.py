@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -87,16 +87,19 @@ def validity(solution: Any) -> Validity:
     False
     """
     value, x = _value_and_variable(solution)
-    needed = dict.fromkeys(_needs(value))
-    real: list[Expr] = []
-    nonzero: list[Expr] = []
-    for relation in needed:
-        if _is_on_parameters(relation, x):
-            nonzero += _exceptions(relation.lhs)
-        elif relation != sympy.true:
-            real.append(relation)
-    nonzero += _exceptions(_wronskian(value, x))
-    return Validity(_without_weaker(real), tuple(dict.fromkeys(nonzero)))
+    needed = _apart(_needs(value), x)
+    exceptions: list[Expr] = []
+    for e in (*needed.nonzero, _wronskian(value, x)):
+        exceptions += _exceptions(e)
+    return Validity(_without_weaker(needed.on_x), tuple(dict.fromkeys(exceptions)))
+
+
+@dataclass(frozen=True)
+class _Relations:
+    """Those on x, and expressions in parameters alone that aren't zero."""
+
+    on_x: list[Expr]
+    nonzero: list[Expr]
 
 
 def _value_and_variable(solution: Any) -> tuple[Expr, Expr]:
@@ -107,6 +110,18 @@ def _value_and_variable(solution: Any) -> tuple[Expr, Expr]:
     if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
         raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
     return value, arguments[0]
+
+
+def _apart(relations: Iterable[Expr], x: Expr) -> _Relations:
+    """Relations, each once; `true` says nothing."""
+    on_x = []
+    nonzero = []
+    for relation in dict.fromkeys(relations):
+        if _is_on_parameters(relation, x):
+            nonzero.append(relation.lhs)
+        elif relation != sympy.true:
+            on_x.append(relation)
+    return _Relations(on_x, nonzero)
 
 
 def _is_on_parameters(relation: Expr, x: Expr) -> bool:
@@ -124,15 +139,29 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
 
 
 def _needs(e: Expr) -> Iterator[Expr]:
-    """Relations that make the parts of an expression real and finite."""
+    """Relations that make the parts of an expression real and finite, by the first need of each part."""
     if isinstance(e, sympy.Integral):
         return
     for argument in e.args:
         yield from _needs(argument)
-    if e.is_Pow and not isinstance(e, sympy.exp):
-        yield from _needs_of_power(e.base, e.exp)
-    elif isinstance(e, sympy.log) or _is_branched(e):
-        yield _positive(e.args[-1])
+    for need in _NEEDS:
+        if need.concerns(e):
+            yield need.relation(e)
+            return
+
+
+# ------------------------------------------------------------------------------------------------------ needs of parts
+
+
+@dataclass(frozen=True)
+class _Need:
+    """What parts of one kind need."""
+
+    claim: str
+    #: Is it such a part?
+    concerns: Callable[[Expr], bool]
+    #: What makes it real and finite.
+    relation: Callable[[Expr], Expr]
 
 
 def _positive(e: Expr) -> Expr:
@@ -142,6 +171,17 @@ def _positive(e: Expr) -> Expr:
     return e > 0
 
 
+def _not_negative(e: Expr) -> Expr:
+    """e >= 0, which SymPy refuses to write for what is known not to be real."""
+    if e.is_extended_real is False:
+        return sympy.false
+    return e >= 0
+
+
+def _is_logarithm(e: Expr) -> bool:
+    return isinstance(e, sympy.log)
+
+
 def _is_branched(e: Expr) -> bool:
     """Is it one of Bessel's functions with a branch point at 0?"""
     if isinstance(e, sympy.besselj | sympy.besseli):
@@ -149,29 +189,37 @@ def _is_branched(e: Expr) -> bool:
     return isinstance(e, _BRANCHED)
 
 
-def _needs_of_power(base: Expr, exponent: Expr) -> Iterator[Expr]:
-    """No zero under a line, no negative number under an even root; no numbers, and no powers with an integer n."""
-    is_symbolic_integer = exponent.is_integer and not exponent.is_Integer
-    if base.is_number or is_symbolic_integer:
-        return
-    if not exponent.is_Rational:
-        yield _positive(base)
-        return
-    is_below_the_line = exponent < 0
-    is_even_root = exponent.q % 2 == 0
-    if is_even_root and is_below_the_line:
-        yield _positive(base)
-    elif is_even_root:
-        yield _not_negative(base)
-    elif is_below_the_line:
-        yield sympy.Ne(base, 0)
+def _is_power(e: Expr) -> bool:
+    """A power that may not be real or finite: not of a number, nor with a symbol that is an integer, nor exp."""
+    if not e.is_Pow or isinstance(e, sympy.exp):
+        return False
+    is_symbolic_integer = e.exp.is_integer and not e.exp.is_Integer
+    return not (e.base.is_number or is_symbolic_integer)
 
 
-def _not_negative(e: Expr) -> Expr:
-    """e >= 0, which SymPy refuses to write for what is known not to be real."""
-    if e.is_extended_real is False:
-        return sympy.false
-    return e >= 0
+def _is_general_power(e: Expr) -> bool:
+    return _is_power(e) and not e.exp.is_Rational
+
+
+def _is_even_root(e: Expr) -> bool:
+    return _is_power(e) and e.exp.is_Rational and e.exp.q % 2 == 0
+
+
+def _is_below_the_line(e: Expr) -> bool:
+    return _is_power(e) and e.exp.is_Rational and e.exp < 0
+
+
+_NEEDS = (
+    _Need("log(u): u > 0", _is_logarithm, lambda e: _positive(e.args[-1])),
+    _Need("J_n(u) and the like with a branch point at 0: u > 0", _is_branched, lambda e: _positive(e.args[-1])),
+    _Need("u^e, where e isn't rational: u > 0", _is_general_power, lambda e: _positive(e.base)),
+    _Need("1/sqrt(u): u > 0", lambda e: _is_even_root(e) and _is_below_the_line(e), lambda e: _positive(e.base)),
+    _Need("sqrt(u): u >= 0", _is_even_root, lambda e: _not_negative(e.base)),
+    _Need("1/u: u != 0", _is_below_the_line, lambda e: sympy.Ne(e.base, 0)),
+)
+
+
+# ---------------------------------------------------------------------------------------------------------- exceptions
 
 
 def _wronskian(value: Expr, x: Expr) -> Expr:
@@ -183,6 +231,11 @@ def _wronskian(value: Expr, x: Expr) -> Expr:
     W = y1 * y2.diff(x) - y1.diff(x) * y2
     if size(W) > _LARGEST or W.has(*constants):
         return sympy.S.One
+    return _elementary_value(W, x)
+
+
+def _elementary_value(W: Expr, x: Expr) -> Expr:
+    """That at the first point where it is finite and elementary, and isn't zero; 1 without such a point."""
     for point in (0, 1):
         found = finite_value(W, x, sympy.Integer(point))
         if found is None or found.is_zero:
@@ -199,10 +252,19 @@ def _is_elementary(e: Expr) -> bool:
 def _exceptions(value: Expr) -> Iterator[Expr]:
     """The factors with parameters that may be zero, each once and without a sign."""
     for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(value))):
-        base = factor
-        if factor.is_Pow:
-            base = factor.base
-        if base.could_extract_minus_sign():
-            base = -base
+        base = _without_sign(_base(factor))
         if base.free_symbols:
             yield base
+
+
+def _base(factor: Expr) -> Expr:
+    """What is zero where a factor, a power perhaps, is."""
+    if factor.is_Pow:
+        return factor.base
+    return factor
+
+
+def _without_sign(e: Expr) -> Expr:
+    if e.could_extract_minus_sign():
+        return -e
+    return e
