@@ -24,8 +24,9 @@ from kovacic.closed_form.check import value_at as value_of_fraction
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.jumps import break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import JUMPING, Apart, break_points, in_steps, on_piece, taken_apart
+from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import ball, sample_value, samples
 from kovacic.reading.change_of_variable import function_of_x

@@ -18,7 +18,8 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from kovacic.equation import EULER, PI, Equation, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, exact
-from kovacic.general_solution.steps import JUMPING, in_steps
+from kovacic.general_solution.jumps import in_steps
+from kovacic.general_solution.steps import JUMPING
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.parser import listed

@@ -1,0 +1,343 @@
+"""Functions that jump, or whose slopes do, as sums of steps H(x - a); and what they are between the jumps.
+
+- |u| = u sign(u), sign(u) = 2 H(u) - 1, max(u, v) = v + (u - v) H(u - v).
+- A function given by cases is the sum of its cases times their indicators.
+- For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.
+
+`_KINDS`, at the end, has what is done with each of these functions.  What holds at single points doesn't matter.  x is real.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from sympy import DiracDelta, Heaviside
+from sympy.logic.boolalg import And, Or
+
+from kovacic.general_solution.steps import JUMPING, place_of, taken_apart, with_single_steps
+
+Expr = Any  # SymPy publishes no types
+#: The largest degree of a polynomial whose sign is asked for.
+_LARGEST_DEGREE = 8
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """What is done with functions of these classes."""
+
+    classes: tuple[Any, ...]
+    #: The function of x in terms of steps; None where the zeros of its parts aren't known.
+    in_steps: Callable[[Expr, Expr], Expr | None]
+    #: Expressions whose zeros separate the cases.
+    borders: Callable[[Expr], list[Expr]]
+    #: What the function of x is near a rational point that is no break.
+    near: Callable[[Expr, Expr, Expr], Expr]
+
+
+def _kind(e: Expr) -> _Kind:
+    """That of a function that jumps."""
+    return next(kind for kind in _KINDS if isinstance(e, kind.classes))
+
+
+# ------------------------------------------------------------------------------------------------------ in terms of steps
+
+
+def in_steps(right: Expr, x: Expr) -> Expr:
+    """The same with Heaviside(x - a) and DiracDelta(x - a, n) alone, where that is possible; what isn't possible stays.
+
+    >>> x = sympy.Symbol("x")
+    >>> in_steps(abs(x - 1), x)
+    2*x*Heaviside(x - 1) - x - 2*Heaviside(x - 1) + 1
+    """
+    found = right
+    for _ in sympy.preorder_traversal(right):  # from the innermost ones outwards: not more often than there are parts
+        changed = _innermost_rewritten(found, x)
+        if not changed:
+            break
+        found = found.xreplace(changed)
+    if not found.has(*JUMPING):
+        return found
+    return with_single_steps(sympy.expand(found))
+
+
+def _innermost_rewritten(e: Expr, x: Expr) -> dict[Expr, Expr]:
+    """The innermost functions that jump, with what they are in terms of steps, where that is another expression."""
+    changed = {}
+    for jump in _innermost_jumps(e, x):
+        other = _kind(jump).in_steps(jump, x)
+        if other is not None and other != jump:
+            changed[jump] = other
+    return changed
+
+
+def _innermost_jumps(e: Expr, x: Expr) -> list[Expr]:
+    """The functions that jump and aren't simple, without those that have others within them."""
+    jumping = [part for part in e.atoms(*JUMPING) if part.has(x) and not _is_simple(part, x)]
+    inner = []
+    for part in jumping:
+        others = [other for other in jumping if other != part]
+        if not part.has(*others):
+            inner.append(part)
+    return inner
+
+
+def _is_simple(e: Expr, x: Expr) -> bool:
+    """Is it H(x - a) or delta^(n)(x - a)?"""
+    if isinstance(e, DiracDelta):
+        return True
+    return isinstance(e, Heaviside) and e.args[0].diff(x) == 1
+
+
+def above(u: Expr, x: Expr) -> Expr | None:
+    """1 where u > 0 and 0 where u < 0; None where the zeros of u aren't known.
+
+    >>> x = sympy.Symbol("x")
+    >>> above(4 - x**2, x)
+    -Heaviside(x - 2) + Heaviside(x + 2)
+    """
+    u = sympy.expand(u)
+    steps = [step for step in u.atoms(Heaviside) if step.has(x)]
+    if steps:
+        return _above_in_pieces(u, sorted(steps, key=str), x)
+    slope = u.diff(x)
+    is_line = not slope.has(x)
+    if is_line and slope.is_positive:
+        return Heaviside(x - sympy.expand(x - u / slope))
+    if is_line and slope.is_negative:
+        return 1 - Heaviside(x - sympy.expand(x - u / slope))
+    if not u.is_polynomial(x) or u.free_symbols != {x}:
+        return None
+    return _above_polynomial(sympy.Poly(u, x), x)
+
+
+def _above_polynomial(u: Any, x: Expr) -> Expr | None:
+    """For a polynomial over Q: a step at each zero of odd order."""
+    is_rational = u.domain.is_QQ or u.domain.is_ZZ
+    if not is_rational or u.degree() > _LARGEST_DEGREE:
+        return None
+    roots = sympy.real_roots(u, multiple=True)
+    is_positive = u.LC() * (-1) ** u.degree() > 0  # far to the left
+    total = sympy.Integer(bool(is_positive))
+    crossings = [root for root in dict.fromkeys(roots) if roots.count(root) % 2]
+    for root in crossings:
+        if is_positive:
+            total -= Heaviside(x - root)
+        else:
+            total += Heaviside(x - root)
+        is_positive = not is_positive
+    return total
+
+
+def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
+    """For u with steps at numbers: on each piece in turn."""
+    places: dict[Expr, Expr] = {}
+    for step in steps:
+        place = place_of(step, x)
+        if place is None or not place.a.is_number:
+            return None
+        places[step] = place.a
+    breaks = sorted(set(places.values()), key=lambda point: float(point.evalf()))
+    begins = [sympy.Integer(1), *(Heaviside(x - point) for point in breaks)]
+    ends = [*begins[1:], sympy.Integer(0)]
+    total = sympy.Integer(0)
+    for k in range(len(breaks) + 1):
+        passed = breaks[:k]
+        values = {step: sympy.Integer(a in passed) for step, a in places.items()}
+        on = above(u.xreplace(values), x)
+        if on is None:
+            return None
+        total += (begins[k] - ends[k]) * on
+    return _reduced(total, x)
+
+
+def _reduced(total: Expr, x: Expr) -> Expr:
+    """With single steps in the place of products of steps at numbers."""
+    apart = taken_apart(total, x)
+    assert apart is not None
+    return sympy.Add(apart.plain, *(step.g * Heaviside(x - step.a) for step in apart.steps))
+
+
+# ------------------------------------------------------------------------------------------------- between the jumps
+
+
+def break_points(expression: Expr, x: Expr) -> list[Expr]:
+    """The points where functions of an expression jump, as far as they are known."""
+    found: dict[Expr, None] = {}
+    for e in expression.atoms(*JUMPING):
+        for u in _kind(e).borders(e):
+            found |= dict.fromkeys(_zeros(u, x))
+    return [*found]
+
+
+def _zeros(u: Expr, x: Expr) -> list[Expr]:
+    """Where u changes its sign, as far as that is known."""
+    if not u.has(x):
+        return []
+    on = above(u, x)
+    if on is None:
+        return []
+    return [sympy.expand(x - step.args[0]) for step in on.atoms(Heaviside)]
+
+
+def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
+    """What an expression is near a rational point that is no break: without functions that jump there."""
+    return expression.replace(
+        lambda e: isinstance(e, JUMPING) and e.has(x),
+        lambda e: _kind(e).near(e, x, point),
+    )
+
+
+# ------------------------------------------------------------------------------------------------------------- steps
+
+
+def _step(e: Expr, x: Expr) -> Expr | None:
+    return above(e.args[0], x)
+
+
+def _step_near(e: Expr, x: Expr, point: Expr) -> Expr:
+    return (1 + _sign_near(e, x, point)) / 2
+
+
+def _argument(e: Expr) -> list[Expr]:
+    return [e.args[0]]
+
+
+# ---------------------------------------------------------------------------------------------------- signs and moduli
+
+
+def _sign(e: Expr, x: Expr) -> Expr | None:
+    """sign(u) = 2 H(u) - 1."""
+    on = above(e.args[0], x)
+    if on is None:
+        return None
+    return 2 * on - 1
+
+
+def _sign_near(e: Expr, x: Expr, point: Expr) -> Expr:
+    return sympy.sign(e.args[0].subs(x, point))
+
+
+def _modulus(e: Expr, x: Expr) -> Expr | None:
+    """|u| = u sign(u)."""
+    sign = _sign(e, x)
+    if sign is None:
+        return None
+    return e.args[0] * sign
+
+
+def _modulus_near(e: Expr, x: Expr, point: Expr) -> Expr:
+    return _sign_near(e, x, point) * e.args[0]
+
+
+# ------------------------------------------------------------------------------------------------------------- impulses
+
+
+def _unchanged(e: Expr, _x: Expr) -> Expr:
+    return e
+
+
+def _zero_near(_e: Expr, _x: Expr, _point: Expr) -> Expr:
+    return sympy.Integer(0)
+
+
+# -------------------------------------------------------------------------------------------------- largest and smallest
+
+
+def _extremum(e: Expr, x: Expr) -> Expr | None:
+    """The largest or the smallest, of two after the other."""
+    best, *others = e.args
+    for other in others:
+        on = above(_advantage(e, best, other), x)
+        if on is None:
+            return None
+        best = other + (best - other) * on
+    return best
+
+
+def _advantage(e: Expr, first: Expr, second: Expr) -> Expr:
+    """What is positive where a maximum, or a minimum, is the first one."""
+    if isinstance(e, sympy.Max):
+        return first - second
+    return second - first
+
+
+def _differences(e: Expr) -> list[Expr]:
+    found = []
+    for k, first in enumerate(e.args):
+        found += [first - other for other in e.args[:k]]
+    return found
+
+
+def _extremum_near(e: Expr, x: Expr, point: Expr) -> Expr:
+    best = e.subs(x, point)
+    return next(argument for argument in e.args if argument.subs(x, point) == best)
+
+
+# ---------------------------------------------------------------------------------------------------------------- cases
+
+
+def _cases(e: Expr, x: Expr) -> Expr | None:
+    """The sum of the cases times the indicators of their conditions, without those before."""
+    total = sympy.Integer(0)
+    rest = sympy.Integer(1)
+    for value, condition in e.args:
+        on = _indicator(condition, x)
+        if on is None:
+            return None
+        total += value * on * rest
+        rest *= 1 - on
+    return total
+
+
+def _borders_of_cases(e: Expr) -> list[Expr]:
+    relations = set().union(*(condition.atoms(sympy.core.relational.Relational) for _, condition in e.args))
+    return [relation.lhs - relation.rhs for relation in relations]
+
+
+def _case_near(e: Expr, x: Expr, point: Expr) -> Expr:
+    return next(value for value, condition in e.args if condition.subs(x, point) == True)  # noqa: E712
+
+
+def _indicator(condition: Expr, x: Expr) -> Expr | None:
+    """1 where a condition holds, and 0 where it doesn't, but for single points; None where that isn't known."""
+    if condition in (True, False):
+        return sympy.Integer(bool(condition))
+    if isinstance(condition, And):
+        return _product(_indicator(part, x) for part in condition.args)
+    if isinstance(condition, Or):
+        return _complement(_product(_complement(_indicator(part, x)) for part in condition.args))
+    if isinstance(condition, sympy.Eq | sympy.Ne) and condition.has(x):
+        return sympy.Integer(isinstance(condition, sympy.Ne))
+    if isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
+        return above(condition.lhs - condition.rhs, x)
+    if isinstance(condition, sympy.StrictLessThan | sympy.LessThan):
+        return above(condition.rhs - condition.lhs, x)
+    return None
+
+
+def _complement(on: Expr | None) -> Expr | None:
+    """That of the opposite."""
+    if on is None:
+        return None
+    return 1 - on
+
+
+def _product(indicators: Iterable[Expr | None]) -> Expr | None:
+    """Where all of the conditions hold; None where one isn't known."""
+    known = [*indicators]
+    if None in known:
+        return None
+    return sympy.Mul(*known)
+
+
+_KINDS = (
+    _Kind((sympy.Piecewise,), _cases, _borders_of_cases, _case_near),
+    _Kind((sympy.Max, sympy.Min), _extremum, _differences, _extremum_near),
+    _Kind((sympy.Abs,), _modulus, _argument, _modulus_near),
+    _Kind((sympy.sign,), _sign, _argument, _sign_near),
+    _Kind((Heaviside,), _step, _argument, _step_near),
+    _Kind((DiracDelta,), _unchanged, _argument, _zero_near),
+)
