@@ -1,6 +1,6 @@
 """What words about one parameter say, read once: "positive integer", "noninteger", ">=1/2", "!=1", "<sqrt(2)".
 
-A class of numbers is a `Coset` s + m Z.  A bound is a `Bound`, with a rational end, or an `End`, a ball with a real number.
+A class of numbers is a `Coset` s + m Z.  A bound is a `Bound`, with a rational end, or a `RealBound`, whose end is a ball.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class End:
+class RealBound:
     """A bound, rational or not: the numbers lie on this side, 1 above and -1 below, of a real number, a ball."""
 
     sign: int
@@ -111,7 +111,7 @@ class Facts:
     excluded: frozenset[Fraction]
     rational_bounds: tuple[Bound, ...]
     #: The bounds that aren't rational.
-    ends: tuple[End, ...]
+    ends: tuple[RealBound, ...]
 
     @property
     def coset(self) -> Coset | None:
@@ -153,7 +153,7 @@ class Facts:
         """May the parameter be a number in a complex ball, by the bounds?"""
         if not ball.imag.contains(0):
             return False
-        ends = [End(bound.sign, ball_of(bound.end)) for bound in self.bounds]
+        ends = [RealBound(bound.sign, ball_of(bound.end)) for bound in self.bounds]
         return not any(end.excludes(ball.real) for end in (*ends, *self.ends))
 
 
@@ -207,9 +207,9 @@ def _matches(pattern: re.Pattern[str], words: Iterable[str]) -> list[re.Match[st
     return [match for match in map(pattern.fullmatch, words) if match is not None]
 
 
-def _ends(words: Iterable[str]) -> list[End]:
+def _ends(words: Iterable[str]) -> list[RealBound]:
     """The bounds among the words that aren't rational."""
-    return [End(_direction(match[1]), _real_number(match[2])) for match in _matches(_ALGEBRAIC, words)]
+    return [RealBound(_direction(match[1]), _real_number(match[2])) for match in _matches(_ALGEBRAIC, words)]
 
 
 def _direction(relation: str) -> int:

@@ -12,7 +12,7 @@ from kovacic.parametric.functions import Coset, common_divisor, degrees
 
 
 @dataclass(frozen=True)
-class LinearForm:
+class LinearCombination:
     """constant + the sum of factor * parameter, by the parameter's name."""
 
     constant: Fraction
@@ -43,7 +43,7 @@ class Line:
         return Coset((values.start - self.constant) / self.factor, values.step / abs(self.factor))
 
 
-def linear_of(form: FunctionPoly) -> LinearForm | None:
+def linear_of(form: FunctionPoly) -> LinearCombination | None:
     """An element of Q(t) as a linear form; None for anything else."""
     if not form.den.is_constant() or form.num.total_degree() > 1:
         return None
@@ -56,7 +56,7 @@ def linear_of(form: FunctionPoly) -> LinearForm | None:
             factors[form.field.names[exponents.index(1) - 1]] = value
         else:
             constant = value
-    return LinearForm(constant, factors)
+    return LinearCombination(constant, factors)
 
 
 def line_of(form: FunctionPoly) -> Line | None:
