@@ -24,6 +24,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from enum import Enum, auto
 from fractions import Fraction
 from itertools import combinations
 
@@ -107,7 +108,8 @@ def is_fuchsian(problem: NumericProblem) -> bool:
     """Are all singular points, with infinity, regular?"""
     num = problem.system.num
     den = problem.system.den
-    return all(multiplicity <= 2 for _, multiplicity in problem.poles(64)) and (not num or len(num) - len(den) <= -2)
+    is_infinity_regular = not num or len(num) - len(den) <= -2
+    return is_infinity_regular and all(multiplicity <= 2 for _, multiplicity in problem.poles(64))
 
 
 def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
@@ -119,7 +121,7 @@ def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> 
             return _enumerate(generators, angles, group)
         if not generators:
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
-        return _families(_words(generators), group, fuchsian)
+        return _by_conditions(_words(generators), group, fuchsian)
 
 
 def _inverse(m: acb_mat) -> acb_mat:
@@ -151,6 +153,15 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
     return enumeration.verdict()
 
 
+class _Element(Enum):
+    """What the ball of an element tells: 2 isn't its trace, or may be; or it is, and the element is the identity or isn't."""
+
+    OTHER = auto()
+    UNCLEAR = auto()
+    IDENTITY = auto()
+    UNIPOTENT = auto()
+
+
 class _Enumeration:
     """The elements of the monodromy group that are known, under the claim that it is the group with these angles."""
 
@@ -167,12 +178,11 @@ class _Enumeration:
         angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
         if not angles:
             return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
-        quotients = [candidate * _inverse(element) for element in self.elements]
-        equal = [_is_identity(quotient, self.traces) for quotient in quotients]
-        if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
+        quotients = {self._kind(candidate * _inverse(element)) for element in self.elements}
+        if _Element.UNIPOTENT in quotients:
             return Agreement(False, f"the monodromy group has a unipotent element, unlike {self.group}")
-        is_known = True in equal
-        is_unclear = None in equal and not is_known
+        is_known = _Element.IDENTITY in quotients
+        is_unclear = _Element.UNCLEAR in quotients and not is_known
         if is_unclear or len(angles) > 1:
             return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
         if is_known:
@@ -183,6 +193,15 @@ class _Enumeration:
             return Agreement(False, f"the monodromy group has more elements than {self.group}")
         return None
 
+    def _kind(self, element: acb_mat) -> _Element:
+        """Which an element is whose trace is one of these."""
+        trace = element.trace()
+        if not trace.overlaps(_TWO):
+            return _Element.OTHER
+        if any(trace.overlaps(value) for angle, value in self.traces.items() if angle):
+            return _Element.UNCLEAR
+        return _Element.IDENTITY if _may_be_identity(element) else _Element.UNIPOTENT
+
     def verdict(self) -> Agreement:
         """That on all elements: no product of generators is a new one."""
         count = len(self.elements)
@@ -190,15 +209,6 @@ class _Enumeration:
             return Agreement(False, f"the monodromy group has {count} elements, with other traces than {self.group}")
         plural = "element" if count == 1 else "elements"
         return Agreement(True, f"the monodromy group has {count} {plural}, with the traces of {self.group}")
-
-
-def _is_identity(element: acb_mat, traces: dict[Fraction, acb]) -> bool | None:
-    """Is an element the identity, if its trace is one of these?  None where the ball leaves that open."""
-    trace = element.trace()
-    if not trace.overlaps(_TWO):
-        return False
-    others = [value for angle, value in traces.items() if angle]
-    return None if any(trace.overlaps(value) for value in others) else True
 
 
 @dataclass(frozen=True)
@@ -225,7 +235,7 @@ class _Possible:
 
     def torsion(self) -> bool:
         """Is it possible that all the eigenvalues are roots of unity?"""
-        return all(any(_may_have_order(word, k) for k in range(1, _HIGHEST_ORDER + 1)) for word in self.words)
+        return all(_may_have_finite_order(word) for word in self.words)
 
     def primitive(self) -> bool:
         """Is one of the three finite groups possible?"""
@@ -234,7 +244,7 @@ class _Possible:
         return any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
 
 
-def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
+def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     """An infinite group (or a large one): the conditions (1)."""
     possible = _Possible.of(words)
     contradiction = _contradiction(possible, group, fuchsian)
@@ -283,6 +293,11 @@ def _may_be_smaller(possible: _Possible, group: Group) -> bool:
     return True  # of the others nothing is tried
 
 
+def _may_have_finite_order(m: acb_mat) -> bool:
+    """Can the eigenvalues be roots of unity of an order that is tried?"""
+    return any(_may_have_order(m, k) for k in range(1, _HIGHEST_ORDER + 1))
+
+
 def _may_have_order(m: acb_mat, k: int) -> bool:
     """Can the eigenvalues be k-th roots of unity?  With balls that isn't refuted for a large k."""
     if k >= _LARGEST_POWER:
@@ -294,7 +309,8 @@ def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
     if n > _LARGEST:
         return False
-    return any(_have_order(words, n // p, p) for p in range(2, n + 1) if n % p == 0 and _is_prime(p))
+    prime_divisors = [p for p in range(2, n + 1) if n % p == 0 and _is_prime(p)]
+    return any(_have_order(words, n // p, p) for p in prime_divisors)
 
 
 def _is_prime(p: int) -> bool:

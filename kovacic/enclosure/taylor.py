@@ -115,32 +115,53 @@ def _recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: i
     return _complex_recurrence(p, q, w, start, small)
 
 
+class _Series:
+    """Real numbers a_n and b_n, behind `pad` zeros."""
+
+    __slots__ = ("a", "b", "pad")
+
+    def __init__(self, pad: int, zero: Any) -> None:
+        self.pad = pad
+        self.a = [zero] * (pad + 2)
+        self.b = [zero] * (pad + 2)
+
+    def known(self, p_back: list[Any], q_back: list[Any]) -> Any:
+        """sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j), where a_(n+1) is the last one; p_0 and q_1 are the last ones."""
+        a = self.a
+        total = sum(map(mul, p_back, a[len(a) - 1 - len(p_back) : -1]))
+        if q_back:
+            total -= sum(map(mul, q_back, self.b[-len(q_back) :]))
+        return total
+
+    def add(self, term: Any, k: int) -> None:
+        """a_(n+2), with k = (n + 1)(n + 2)."""
+        self.a.append(term)
+        self.b.append(term * k)
+
+    @property
+    def terms(self) -> list[Any]:
+        """a_0, a_1, ..."""
+        return self.a[self.pad :]
+
+
 def _real_recurrence(p: list[int], q: list[int], w: int, start: int, small: int) -> list[Any]:
-    dp = len(p)
-    dq = len(q) - 1
     p_back = _numbers(p[::-1], w)
     q_back = _numbers(q[:0:-1], w)
     one, zero, q_0 = _numbers([1 << w, 0, q[0]], w)
-    pad = max(dp, dq) + 2
-    a = [zero] * (pad + 2)
-    b = [zero] * (pad + 2)
-    a[pad + start] = one
+    pad = max(len(p_back), len(q_back)) + 2
+    series = _Series(pad, zero)
+    series.a[pad + start] = one
     n = 0
     quiet = 0
     while quiet <= pad:
         if n % _CHECKED == 0:
             _check_terms(n, w)
-        i = pad + n
         k = (n + 1) * (n + 2)
-        total = sum(map(mul, p_back, a[i - dp + 1 : i + 1]))
-        if dq:
-            total -= sum(map(mul, q_back, b[i + 2 - dq : i + 2]))
-        term = total // (q_0 * k)
-        a.append(term)
-        b.append(term * k)
+        term = series.known(p_back, q_back) // (q_0 * k)
+        series.add(term, k)
         quiet = quiet + 1 if -small < term < small else 0
         n += 1
-    return a[pad:]
+    return series.terms
 
 
 def _complex_recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
@@ -150,33 +171,24 @@ def _complex_recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, 
     q_re, q_im = (_numbers((part or [0] * (dq + 1))[:0:-1], w) for part in q)
     one, zero, q_0 = _numbers([1 << w, 0, q[0][0]], w)
     pad = max(dp, dq) + 2
-    a_re = [zero] * (pad + 2)
-    a_im = [zero] * (pad + 2)
-    b_re = [zero] * (pad + 2)
-    b_im = [zero] * (pad + 2)
-    a_re[pad + start] = one
+    real = _Series(pad, zero)
+    imag = _Series(pad, zero)
+    real.a[pad + start] = one
     n = 0
     quiet = 0
     while quiet <= pad:
         if n % _CHECKED == 0:
             _check_terms(n, w)
-        i = pad + n
         k = (n + 1) * (n + 2)
-        x = a_re[i - dp + 1 : i + 1]
-        y = a_im[i - dp + 1 : i + 1]
-        s = b_re[i + 2 - dq : i + 2]
-        t = b_im[i + 2 - dq : i + 2]
-        re = sum(map(mul, p_re, x)) - sum(map(mul, p_im, y)) - sum(map(mul, q_re, s)) + sum(map(mul, q_im, t))
-        im = sum(map(mul, p_re, y)) + sum(map(mul, p_im, x)) - sum(map(mul, q_re, t)) - sum(map(mul, q_im, s))
+        re = real.known(p_re, q_re) - imag.known(p_im, q_im)
+        im = imag.known(p_re, q_re) + real.known(p_im, q_im)
         re = re // (q_0 * k)
         im = im // (q_0 * k)
-        a_re.append(re)
-        a_im.append(im)
-        b_re.append(re * k)
-        b_im.append(im * k)
+        real.add(re, k)
+        imag.add(im, k)
         quiet = quiet + 1 if -small < re < small and -small < im < small else 0
         n += 1
-    return a_re[pad:], a_im[pad:]
+    return real.terms, imag.terms
 
 
 def _check_terms(n: int, w: int) -> None:
