@@ -178,19 +178,28 @@ class _Expander:
 
 def _rules_near(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:
     """The table for the point to which the argument of a function tends, and for the side."""
-    large, constant, _ = inner.parts
-    if large:
-        m, c, _ = inner.leading()
-        if m.growth or m.k or not c.is_real:
-            raise _unknown(e)
-        return _AT_INFINITY if c.is_positive else _AT_MINUS_INFINITY
-    if constant == 1 and isinstance(e, sympy.hyper):
+    parts = inner.parts
+    if parts.large:
+        return _rules_at_infinity(e, inner)
+    if parts.constant == 1 and isinstance(e, sympy.hyper):
         return _AT_ONE
-    if constant != 0:
+    if parts.constant != 0:
         raise _unknown(e)
-    if e.func in _BELOW_ZERO and inner.leading()[1].is_negative:
+    if e.func in _BELOW_ZERO and inner.leading().coefficient.is_negative:
         return _BELOW_ZERO
     return _AT_ZERO
+
+
+def _rules_at_infinity(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:
+    """For an argument whose largest term is a real multiple of a power."""
+    first = inner.leading()
+    m = first.monomial
+    is_real_power = not m.growth and not m.k and first.coefficient.is_real
+    if not is_real_power:
+        raise _unknown(e)
+    if first.coefficient.is_positive:
+        return _AT_INFINITY
+    return _AT_MINUS_INFINITY
 
 
 def _unknown(e: Expr) -> UnknownBehaviour:

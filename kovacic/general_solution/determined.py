@@ -29,6 +29,9 @@ from kovacic.general_solution.zero import agree
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
 Growth = tuple[tuple[Expr, Expr], ...]
+#: Sizes of monomials that don't tend to 0 [`ExpansionTerm.size`].
+_OSCILLATING = 0
+_UNBOUNDED = 1
 
 
 @dataclass(frozen=True)
@@ -84,14 +87,14 @@ def _applied(condition: Condition, function: Expr, x: Expr) -> Expr:
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
     orders = _orders_at_one_point(question.conditions[:2], limits)
-    if orders not in ((0, 1), (1, 0)):
+    signs = {(0, 1): 1, (1, 0): -1}
+    if orders not in signs:
         return None
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
     if determinant.is_Rational:
         return determinant
-    sign = 1 if orders == (0, 1) else -1
     point = question.conditions[0].points[0]
-    W = sign * question.own(value_at(basis.wronskian, basis.x, point))
+    W = signs[orders] * question.own(value_at(basis.wronskian, basis.x, point))
     is_known = W.has(sympy.mathieuc)  # by theory, for functions that can't be evaluated
     if is_known or agree(W, determinant):
         return W
@@ -115,31 +118,33 @@ def _orders_at_one_point(conditions: Sequence[Condition], limits: dict[Expr, App
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
     """Where the condition is one on a limit; None for values at ordinary points.  Raises `InputError` for what is both."""
     at_limits = [term for term in condition.terms if term.point in limits]
-    if at_limits:
-        place = at_limits[0].point
-        if len(condition.terms) > 1 or at_limits[0].coefficient != 1:
-            said = f"{place} is a singular point, or infinite"
-            raise InputError(f"{condition.text}: {said}; there, y and y' are given apart", hint="write y(0) = bounded")
-        return limits[place]
+    if not at_limits:
+        _check_value(condition)
+        return None
+    place = at_limits[0].point
+    if len(condition.terms) > 1 or at_limits[0].coefficient != 1:
+        said = f"{place} is a singular point, or infinite"
+        raise InputError(f"{condition.text}: {said}; there, y and y' are given apart", hint="write y(0) = bounded")
+    return limits[place]
+
+
+def _check_value(condition: Condition) -> None:
+    """Raises `InputError` where y is bounded at an ordinary point."""
     if condition.value is None:
         point = condition.terms[0].point
         raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
-    return None
 
 
 def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, question: Question, place: Approach) -> Limit:
     """`functions` are y1, y2, y0 in the user's symbols."""
     (term,) = condition.terms
     x = question.x
-    is_bound = condition.value is None
     meant = [e.diff(x, term.order) for e in functions]
     try:
         found = [behaviour(e, x, place) for e in meant]
-        rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=not is_bound)]
+        rows = _rows_of_limit(condition, found)
     except UnknownBehaviour as unknown:
         raise NotImplementedError(f"undecided: the solutions' behaviour at {place.point}: {unknown}") from None
-    if not is_bound:
-        rows.append(_coefficients(CONSTANT, found, condition.value))
     whole = None
     if any(_is_irregular(expansion) for expansion in found):
         whole = _growth(question.own(basis.wronskian), x, place)
@@ -151,9 +156,20 @@ def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, questi
     return Limit(tuple(rows), _said(of_basis, place))
 
 
+def _rows_of_limit(condition: Condition, found: Sequence[Expansion]) -> list[Row]:
+    """That no monomial occurs that mustn't, and for a value that the constant term is the value."""
+    is_bound = condition.value is None
+    rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=not is_bound)]
+    if not is_bound:
+        rows.append(_coefficients(CONSTANT, found, condition.value))
+    return rows
+
+
 def _said(reasons: Sequence[str | None], place: Approach) -> dict[int, str]:
     """Why solutions mustn't be part of y, by their indices."""
-    t = "1/|x|" if place.is_infinite else f"|x - {place.point}|"
+    t = f"|x - {place.point}|"
+    if place.is_infinite:
+        t = "1/|x|"
     return {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(reasons) if reason}
 
 
@@ -165,7 +181,7 @@ def _is_irregular(expansion: Expansion) -> bool:
 def _growth(wronskian: Expr, x: Expr, place: Approach) -> Growth | None:
     """The exponential part of the Wronskian, None where it isn't known."""
     try:
-        return behaviour(wronskian, x, place).leading()[0].growth
+        return behaviour(wronskian, x, place).leading().monomial.growth
     except (UnknownBehaviour, NotImplementedError):
         return None
 
@@ -180,7 +196,9 @@ def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Exp
 
     The coefficients of the smaller ones follow: the series after one exponential is determined up to a factor.
     """
-    least = 0 if oscillating else 1
+    least = _UNBOUNDED
+    if oscillating:
+        least = _OSCILLATING
     seen: set[ExpansionTerm] = set()
     for expansion in found:
         large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least)]
@@ -196,7 +214,7 @@ def _follows(m: ExpansionTerm, large: Sequence[ExpansionTerm]) -> bool:
 
 
 def _is_large(m: ExpansionTerm, least: int) -> bool | None:
-    """Is it unbounded (1), or not small (0)?  None where the assumptions don't tell."""
+    """Is its size this, or more?  None where the assumptions don't tell."""
     try:
         return m.size >= least
     except UnknownBehaviour:
@@ -209,7 +227,9 @@ def _is_before(first: ExpansionTerm, second: ExpansionTerm) -> bool:
 
 def _uncertainty(expansion: Expansion, whole: Growth | None, condition: Condition) -> str | None:
     """Why the expansion may have other terms that don't tend to 0; None if it hasn't."""
-    least = 1 if condition.value is None else 0
+    least = _OSCILLATING
+    if condition.value is None:
+        least = _UNBOUNDED
     for error in expansion.errors:
         if not _is_known(error, expansion, whole) and _is_large(error, least) is not False:
             return f"terms beyond {error} aren't known"
@@ -231,4 +251,4 @@ def _is_known(error: ExpansionTerm, expansion: Expansion, whole: Growth | None) 
     if series.power(sympy.Integer(2)).growth == whole:
         return False
     is_among_terms = any(m.growth == error.growth for m in expansion.terms)
-    return is_among_terms and bool(_is_large(series, 1))
+    return is_among_terms and bool(_is_large(series, _UNBOUNDED))

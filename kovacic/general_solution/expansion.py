@@ -156,7 +156,10 @@ class Expansion:
     def __add__(self, other: Expansion) -> Expansion:
         terms = dict(self.terms)
         for m, c in other.terms.items():
-            terms[m] = sympy.expand(terms[m] + c) if m in terms else c
+            if m in terms:
+                terms[m] = sympy.expand(terms[m] + c)
+            else:
+                terms[m] = c
         return Expansion(terms, (*self.errors, *other.errors))
 
     def __mul__(self, other: Expansion) -> Expansion:
@@ -173,7 +176,7 @@ class Expansion:
         return Expansion(terms, [m * monomial for m in self.errors])
 
     @property
-    def parts(self) -> tuple[dict[ExpansionTerm, Expr], Expr, Expansion]:
+    def parts(self) -> ExpansionParts:
         """What doesn't tend to 0, the constant apart; the constant; what tends to 0."""
         if any(error.size >= 0 for error in self.errors):
             raise UnknownBehaviour("too few terms", deeper=True)
@@ -186,56 +189,83 @@ class Expansion:
                 large[m] = c
             else:
                 small[m] = c
-        return large, self.terms.get(CONSTANT, _ZERO), Expansion(small, self.errors)
+        return ExpansionParts(large, self.terms.get(CONSTANT, _ZERO), Expansion(small, self.errors))
 
-    def leading(self) -> tuple[ExpansionTerm, Expr, Expansion]:
-        """m, c and d with self = c m (1 + d), where d tends to 0."""
+    def leading(self) -> LeadingTerm:
+        """The term that is larger than all others.  Raises `UnknownBehaviour` where there is none that is known."""
         terms = {m: c for m, c in self.terms.items() if when_zero(c) is not Zero.ALWAYS}
         everything = [*terms, *self.errors]
         for m, c in terms.items():
             if all(other is m or other.is_smaller(m) for other in everything):
                 others = {n: d for n, d in terms.items() if n is not m}
-                return m, c, Expansion(others, self.errors).times(1 / c, m.inverse)
+                rest = Expansion(others, self.errors).times(1 / c, m.inverse)
+                return LeadingTerm(m, c, rest)
         raise UnknownBehaviour("no term is larger than all others", deeper=bool(self.errors))
 
     def power(self, r: Expr, depth: int) -> Expansion:
         """The principal power with a constant exponent."""
         if r.is_Integer and 0 <= r <= depth:
-            total = Expansion.constant(_ONE)
-            for _ in range(int(r)):
-                total = total * self
-            return total
-        m, c, rest = self.leading()
+            return self._natural_power(int(r))
+        first = self.leading()
         coefficients = [sympy.binomial(r, k) for k in range(depth)]
-        return _series(rest, coefficients).times(c**r, m.power(r))
+        return _series(first.rest, coefficients).times(first.coefficient**r, first.monomial.power(r))
+
+    def _natural_power(self, n: int) -> Expansion:
+        total = Expansion.constant(_ONE)
+        for _ in range(n):
+            total = total * self
+        return total
 
     def log(self, depth: int) -> Expansion:
-        m, c, rest = self.leading()
+        """log(c m (1 + d)) = log(c) + log(m) + log(1 + d)."""
+        first = self.leading()
+        m = first.monomial
         if m.k:
             raise UnknownBehaviour("the logarithm of a logarithm")
         coefficients = [_ZERO, *(sympy.Rational((-1) ** (k + 1), k) for k in range(1, depth))]
         exponent = Expansion({ExpansionTerm(e=-p): a for p, a in m.growth})
-        return _series(rest, coefficients) + exponent + Expansion({LOG: m.e, CONSTANT: sympy.log(c)})
+        logarithms = Expansion({LOG: m.e, CONSTANT: sympy.log(first.coefficient)})
+        return _series(first.rest, coefficients) + exponent + logarithms
 
     def exp(self, depth: int) -> Expansion:
-        large, constant, small = self.parts
+        """The exponential: a monomial for each large term, and a series for what tends to 0."""
+        parts = self.parts
         factor = CONSTANT
-        for m, c in large.items():
+        for m, c in parts.large.items():
             factor = factor * _exponential(m, c)
         coefficients = [1 / sympy.factorial(k) for k in range(depth)]
-        return _series(small, coefficients).times(sympy.exp(constant), factor)
+        return _series(parts.small, coefficients).times(sympy.exp(parts.constant), factor)
 
     def taylor(self, function: Callable[[Expr], Expr], depth: int) -> Expansion | None:
         """f of it, where it tends to a point at which f is analytic: None where a derivative isn't finite there."""
-        large, constant, small = self.parts
-        if large:
+        parts = self.parts
+        if parts.large:
             return None
-        if not small.terms and not small.errors:
+        is_constant = not parts.small.terms and not parts.small.errors
+        if is_constant:
             depth = 1
-        coefficients = _taylor_coefficients(function, constant, depth)
+        coefficients = _taylor_coefficients(function, parts.constant, depth)
         if coefficients is None:
             return None
-        return _series(small, coefficients)
+        return _series(parts.small, coefficients)
+
+
+@dataclass(frozen=True)
+class ExpansionParts:
+    """large + constant + small, where `small` tends to 0, and no term of `large` does."""
+
+    large: dict[ExpansionTerm, Expr]
+    constant: Expr
+    small: Expansion
+
+
+@dataclass(frozen=True)
+class LeadingTerm:
+    """c m (1 + d) for a coefficient c, a monomial m and a rest d that tends to 0."""
+
+    monomial: ExpansionTerm
+    coefficient: Expr
+    rest: Expansion
 
 
 def _exponential(m: ExpansionTerm, c: Expr) -> ExpansionTerm:

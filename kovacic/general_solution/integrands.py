@@ -53,10 +53,11 @@ def _is_inverse_root(power: Expr) -> bool:
 
 def _expanded_terms(expression: Expr) -> float:
     """How many terms SymPy writes at most: those of the expression, and of all that stands under roots and in functions."""
-    inner = (
-        base for part in expression.atoms(sympy.Pow, sympy.Function) if not part.is_polynomial() for base in part.args
-    )
-    return _terms(expression) + sum(map(_terms, inner))
+    total = _terms(expression)
+    for part in expression.atoms(sympy.Pow, sympy.Function):
+        if not part.is_polynomial():
+            total += sum(map(_terms, part.args))
+    return total
 
 
 def _terms(expression: Expr) -> float:
@@ -100,10 +101,17 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
         return None
     if _turns_at_zero(term, x):
         turned = integral_of_product(term.subs(x, -x), x)
-        return None if turned is None else -turned.subs(x, -x)
+        if turned is None:
+            return None
+        return -turned.subs(x, -x)
     rate = ratfunc(_rate(term, x), x)
     if rate is None:
         return None
+    return _integral_by_rate(rate, term, x)
+
+
+def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
+    """int g dx for g = K h with h'/h = rate: K int h dx."""
     atoms = Atoms(x, beyond_zeros=_is_real_far_away(term, x))
     h = product(rate)
     scale, shown = factors(h, atoms)
@@ -112,10 +120,10 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     found = integral(h, atoms)
     if found is None:
         return None
-    constant = _constant_value(term / (scale * sympy.Mul(*shown)), x)
-    if constant is None:
+    K = _constant_value(term / (scale * sympy.Mul(*shown)), x)
+    if K is None:
         return None
-    return sympy.expand(constant * found)
+    return sympy.expand(K * found)
 
 
 def _has_other_functions(term: Expr, x: Expr) -> bool:

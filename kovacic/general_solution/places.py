@@ -6,8 +6,8 @@ the other.  At a singular point and at infinity, a condition is one on a limit, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -52,14 +52,31 @@ def _logarithms(value: Expr) -> list[Expr]:
     return [sympy.log(value)]
 
 
-#: x with f(x) = value in a period, for the functions f that are variables of equations; and the period.
-_INVERSES: dict[Any, tuple[Any, Any]] = {
-    sympy.exp: (_logarithms, 2 * sympy.pi * sympy.I),
-    sympy.cosh: (lambda value: [sympy.acosh(value), -sympy.acosh(value)], None),
-    sympy.sinh: (lambda value: [sympy.asinh(value)], None),
-    sympy.cos: (lambda value: [sympy.acos(value), -sympy.acos(value)], 2 * sympy.pi),
-    sympy.sin: (lambda value: [sympy.asin(value), sympy.pi - sympy.asin(value)], 2 * sympy.pi),
-    sympy.tan: (lambda value: [sympy.atan(value)], sympy.pi),
+@dataclass(frozen=True)
+class _Inverse:
+    """The x with f(x) = value, up to a period if there is one."""
+
+    values: Callable[[Expr], list[Expr]]
+    period: Expr | None = None
+
+    def real_step(self, slope: Expr) -> Expr | None:
+        """How far apart the x with one value of f(slope x + c) are; None where that isn't real."""
+        if self.period is None:
+            return None
+        step = self.period / slope
+        if not step.is_real:
+            return None
+        return abs(step)
+
+
+#: Those of the functions f that are variables of equations.
+_INVERSES: dict[Any, _Inverse] = {
+    sympy.exp: _Inverse(_logarithms, 2 * sympy.pi * sympy.I),
+    sympy.cosh: _Inverse(lambda value: [sympy.acosh(value), -sympy.acosh(value)]),
+    sympy.sinh: _Inverse(lambda value: [sympy.asinh(value)]),
+    sympy.cos: _Inverse(lambda value: [sympy.acos(value), -sympy.acos(value)], 2 * sympy.pi),
+    sympy.sin: _Inverse(lambda value: [sympy.asin(value), sympy.pi - sympy.asin(value)], 2 * sympy.pi),
+    sympy.tan: _Inverse(lambda value: [sympy.atan(value)], sympy.pi),
 }
 #: The most singular points of an interval that are looked at.
 _MOST_POINTS = 200
@@ -145,11 +162,11 @@ def _apart(point: Expr, points: Sequence[Expr]) -> InputError:
 
 def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
-    for point in given_points(question):
-        if point not in limits:
-            return point
-    finite = [approach for approach in limits.values() if not approach.is_infinite]
+    ordinary = [point for point in given_points(question) if point not in limits]
+    if ordinary:
+        return ordinary[0]
     poles = [*_rational_poles(question)]
+    finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:
         return _beyond(next(iter(limits.values())), poles)
     place = finite[-1]
@@ -185,9 +202,15 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
         return
     first = sympy.Min(*points)
     last = sympy.Max(*points)
+    for pole in _poles_between(question, first, last):
+        raise _apart(pole, points)
+
+
+def _poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
+    """The singular points without parameters between two points."""
     for pole in [*_rational_poles(question), *_changed_poles(question, first, last)]:
         if pole.is_number and first < pole < last:
-            raise _apart(pole, points)
+            yield pole
 
 
 def _is_real_number(point: Expr) -> bool:
@@ -208,7 +231,8 @@ def _keeps_entire(e: Expr, x: Expr) -> bool:
     """Is it x, a sum, a product, a natural power or such a function: analytic everywhere if its arguments are?"""
     if e.is_Pow and not isinstance(e, sympy.exp):
         return bool(e.exp.is_Integer and e.exp > 0)
-    return e == x or e.is_Add or e.is_Mul or isinstance(e, _ENTIRE)
+    is_sum_or_product = e.is_Add or e.is_Mul
+    return e == x or is_sum_or_product or isinstance(e, _ENTIRE)
 
 
 def _rational_poles(question: Question) -> Iterator[Expr]:
@@ -264,18 +288,23 @@ def _poles_of_a_power(question: Question) -> Iterator[Expr]:
 
 def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
     """The x between two points with f(k x + c) = root; for a function with a period that isn't real, of each kind one."""
-    inverse, period = _INVERSES[value.func]
+    inverse = _INVERSES[value.func]
     inner = value.args[0]
     slope = inner.diff(x)
-    step = None if period is None else period / slope
-    candidates = [sympy.expand((base - inner.subs(x, 0)) / slope) for base in inverse(root)]
-    for x0 in candidates:
-        if not x0.is_number or abs(sympy.im(x0).evalf(30)) > 1e-20:
+    step = inverse.real_step(slope)
+    for base in inverse.values(root):
+        x0 = sympy.expand((base - inner.subs(x, 0)) / slope)
+        if not _is_nearly_real(x0):
             continue
-        if step is None or not step.is_real:
+        if step is None:
             yield x0
         else:
-            yield from _repeated(x0, abs(step), first, last)
+            yield from _repeated(x0, step, first, last)
+
+
+def _is_nearly_real(point: Expr) -> bool:
+    """Is it a number, real up to what may be rounded?"""
+    return bool(point.is_number and abs(sympy.im(point).evalf(30)) <= 1e-20)
 
 
 def _repeated(x0: Expr, step: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
@@ -298,7 +327,7 @@ def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
 def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
     """Have the coefficients limits at the point?"""
     try:
-        return all(not behaviour(rate, x, Approach(point)).parts[0] for rate in rates)
+        return all(not behaviour(rate, x, Approach(point)).parts.large for rate in rates)
     except (UnknownBehaviour, NotImplementedError):
         return False
 

@@ -62,8 +62,11 @@ class Question:
     def own(self, expression: Expr) -> Expr:
         """The expression in the user's symbols for the parameters, with what letters stand for."""
         # A replacement of symbols by themselves would build the whole expression anew.
-        own = expression.xreplace(self._own) if self._own else expression
-        return own.xreplace(self.meanings) if self.meanings else own
+        if self._own:
+            expression = expression.xreplace(self._own)
+        if self.meanings:
+            expression = expression.xreplace(self.meanings)
+        return expression
 
     @cached_property
     def _own(self) -> dict[Expr, Expr]:
@@ -186,46 +189,75 @@ class _Read:
     letters: tuple[tuple[str, Expr], ...] = ()
 
 
-def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read:
-    applied = func if isinstance(func, AppliedUndef) else None
-    name = func if applied is None else applied.func  # y of y(x)
-    if func is not None and not isinstance(name, UndefinedFunction):
+@dataclass(frozen=True)
+class _Sought:
+    """The unknown function as the user gives it: `applied` is y(x), `name` is y; None what isn't given."""
+
+    applied: Any = None
+    name: Any = None
+
+    def function(self, unknown: str, variable: str) -> Expr:
+        """y(x), with these names for what isn't given."""
+        if self.applied is not None:
+            return self.applied
+        name = self.name
+        if name is None:
+            name = sympy.Function(unknown)
+        return name(sympy.Symbol(variable))
+
+    def function_in(self, eq: Any) -> Expr:
+        """y(x) in a SymPy equation."""
+        if self.applied is not None:
+            return self.applied
+        if self.name is not None:
+            return _applied_in(eq, self.name)
+        return _only_function(eq)
+
+
+def _sought(func: Any) -> _Sought:
+    """From y(x), y or None.  Raises `InputError` for anything else."""
+    if func is None:
+        return _Sought()
+    if isinstance(func, AppliedUndef):
+        applied = func
+        name = func.func
+    else:
+        applied = None
+        name = func
+    if not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
+    return _Sought(applied, name)
+
+
+def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read:
+    """An equation that has been read, a text, or a SymPy equation.  Raises `InputError` for anything else."""
+    sought = _sought(func)
     if isinstance(eq, Equation):
-        return _Read(eq, applied or _function(name, eq.unknown, eq.variable))
+        return _Read(eq, sought.function(eq.unknown, eq.variable))
     if isinstance(eq, str):
-        return _read_text(eq, applied, name, var, limits)
+        return _read_text(eq, sought, var, limits)
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
-    function = applied or _unknown_in(eq, name)
+    function = sought.function_in(eq)
     parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=function, equation=True)
     assert parsed.equation is not None
     return _Read(parsed.equation, function, parsed.letters)
 
 
-def _read_text(text: str, applied: Any, name: Any, var: str | None, limits: Limits) -> _Read:
+def _read_text(text: str, sought: _Sought, var: str | None, limits: Limits) -> _Read:
     """An equation as text; the unknown function may be given as y(x), or as y."""
-    if applied is not None:
-        var = str(applied.args[0])
-    unknown = None if name is None else str(name)
+    if sought.applied is not None:
+        var = str(sought.applied.args[0])
+    unknown = None
+    if sought.name is not None:
+        unknown = str(sought.name)
     parsed = read_input(text, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True)
     equation = parsed.equation
     assert equation is not None
     variable = equation.variable
     if equation.change is not None:
         variable = equation.change.variable
-    return _Read(equation, applied or _function(name, equation.unknown, variable), parsed.letters)
-
-
-def _function(name: Any, unknown: str, variable: str) -> Expr:
-    """y(x), where y may be given by the user."""
-    function = sympy.Function(unknown) if name is None else name
-    return function(sympy.Symbol(variable))
-
-
-def _unknown_in(eq: Any, name: Any) -> Expr:
-    """y(x) in a SymPy equation, where y may be given."""
-    return _only_function(eq) if name is None else _applied_in(eq, name)
+    return _Read(equation, sought.function(equation.unknown, variable), parsed.letters)
 
 
 def _with_steps(equation: Equation, x: Expr) -> Equation:
@@ -260,7 +292,9 @@ def _renamed(eq: Expr) -> dict[Expr, Expr]:
 
 
 def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
-    return given.xreplace(renamed) if isinstance(given, sympy.Basic) else given
+    if isinstance(given, sympy.Basic):
+        return given.xreplace(renamed)
+    return given
 
 
 def _letter(name: str, meaning: Expr) -> Expr:

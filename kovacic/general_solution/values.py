@@ -83,15 +83,17 @@ def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
             return None
         limits.append(limit)
     right, left = limits
-    return right if agree(right, left) else None
+    if agree(right, left):
+        return right
+    return None
 
 
 def _limit_from(expression: Expr, x: Expr, place: Approach) -> Expr | None:
     """The limit from one side; None without, or where it isn't known."""
     try:
-        large, constant, _ = behaviour(expression, x, place).parts
+        parts = behaviour(expression, x, place).parts
     except (UnknownBehaviour, NotImplementedError):
         return None
-    if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in large.values()):
+    if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in parts.large.values()):
         return None
-    return constant
+    return parts.constant
