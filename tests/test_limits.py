@@ -12,6 +12,7 @@ import sympy
 import transform
 from build import QQ, Atoms, Conditions, ExactPoint, FunctionField, RatFunc, System, analyse, parametrize
 from clocks import controlled
+from flint import acb_poly
 from sympy.abc import n, x
 
 import kovacic
@@ -19,6 +20,7 @@ from kovacic import LimitExceeded, Limits, Solution
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.cli.main import run
 from kovacic.enclosure.frame import least_growth
+from kovacic.enclosure.log_derivative import LogDerivative
 from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.limits import Budget, check_time, limited, may_be_late, watched_seconds
@@ -229,6 +231,8 @@ def test_every_place_looks_at_the_clock() -> None:
 
 
 LONG = QQ.poly([Fraction(k % 7 - 3, k % 3 + 1) for k in range(200)] + [1])
+LONG_FRACTION = RatFunc(QQ.poly([1, 2]), LONG)
+ZEROS = complex_zeros(LONG.rep.numer())
 OVER_A = FunctionField(("a",))
 STEPS: dict[str, Callable[[], object]] = {
     "a polynomial as an expression": lambda: Atoms(x).poly(LONG),
@@ -242,6 +246,7 @@ STEPS: dict[str, Callable[[], object]] = {
     "factors over Q(a)": lambda: OVER_A.factor(OVER_A.poly([OVER_A.generator("a"), 1])),
     "factors without a over Q(a)": lambda: OVER_A.factor(OVER_A.poly([1, 0, 1])),
     "zeros": lambda: complex_zeros(LONG.rep.numer()),
+    "partial fractions in balls": lambda: LogDerivative.of(LONG_FRACTION, lambda f: acb_poly(f.rep), ZEROS),
 }
 
 
@@ -400,10 +405,38 @@ def test_an_expansion_is_foreseen_wherever_sums_are_multiplied(power: str, outsi
     """3^12 terms, under roots, in powers of roots and in functions; few terms aren't refused."""
 
     def integrand(count: int) -> sympy.Expr:
-        bases = [x**5 + k * x + 1 for k in range(1, count + 1)]
+        bases = [x**5 + sympy.sin(k * x) + 1 for k in range(1, count + 1)]
         return sympy.Mul(*bases) ** sympy.Rational(power) * sympy.sympify(outside.replace("^", "**"))
 
     with controlled(), Budget(Limits(seconds=1)).watched():
         assert prepared(integrand(2)) != 0
         with pytest.raises(LimitExceeded, match="expanding an integrand"):
             prepared(integrand(12))
+
+
+@pytest.mark.parametrize("kind", ["root", "function", "exponential"])
+def test_an_expansion_is_foreseen_where_a_long_factor_stands_in_many_terms(kind: str) -> None:
+    """400 terms, each of them with a factor of a hundred parts; a shorter factor isn't refused."""
+
+    def integrand(count: int) -> sympy.Expr:
+        inside = sympy.Add(*[k * x**k for k in range(1, count + 1)])
+        factor = {
+            "root": sympy.sqrt(inside),
+            "function": sympy.hyper((1,), (2,), inside),
+            "exponential": sympy.exp(inside),
+        }
+        waves = [sympy.Add(*[f(k * x) for k in range(1, 21)]) for f in (sympy.sin, sympy.cos)]
+        return sympy.Mul(*waves) * factor[kind]
+
+    with controlled(), Budget(Limits(seconds=1)).watched():
+        assert prepared(integrand(1)) != 0
+        with pytest.raises(LimitExceeded, match="expanding an integrand"):
+            prepared(integrand(40))
+
+
+@pytest.mark.parametrize("outside", ["1", "sin(x)", "exp(x^2)"])
+def test_a_product_of_polynomials_is_no_long_expansion(outside: str) -> None:
+    """Powers of the variable are gathered: 31 terms, and not 2^30."""
+    product = sympy.Mul(*[x + k for k in range(1, 31)]) * sympy.sympify(outside.replace("^", "**"))
+    with controlled(), Budget(Limits(seconds=1)).watched():
+        assert len(sympy.Add.make_args(prepared(product))) == 31

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb, ctx, fmpz
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
@@ -150,14 +150,29 @@ def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
 
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
-    line = acb_poly([zeta, 1])
-    top = num(line)
-    bottom = den(line).coeffs()[k:]  # the first k coefficients are exactly zero
+    check_time()
+    top = _taylor(num, zeta, k)
+    bottom = _taylor(den, zeta, 2 * k)[k:]  # the first k coefficients are exactly zero
     found: list[acb] = []
     for n in range(k):  # not by FLINT's series, which end after `flint.ctx.cap` terms
         rest = sum((c * found[n - j] for j, c in enumerate(bottom[1 : n + 1], start=1)), acb(0))
         found.append((top[n] - rest) / bottom[0])
     return tuple(reversed(found))
+
+
+def _taylor(poly: acb_poly, point: acb, count: int) -> list[acb]:
+    """The first coefficients in powers of x - point: by derivatives while they are few, since FLINT computes all of them."""
+    if 4 * count >= poly.length():
+        whole = poly(acb_poly([point, 1]))
+        return [whole[n] for n in range(count)]
+    found: list[acb] = []
+    derivative = poly
+    factorial = fmpz(1)
+    for n in range(count):
+        found.append(derivative(point) / factorial)
+        derivative = derivative.derivative()
+        factorial *= n + 1
+    return found
 
 
 def integral(function: Callable[[acb, bool], acb], a: acb, b: acb) -> acb:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -17,14 +16,14 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
+from kovacic.general_solution.expanded_size import expanded_size
 from kovacic.general_solution.substitution import size
 from kovacic.limits import check_duration
 from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
-#: SymPy's time for a term of what it expands; and from which on terms and exponent of a power aren't counted.
-_TERM_SECONDS = 2e-5
-_MANY = 10**4
+#: SymPy's time for a subexpression of what it expands.
+_PART_SECONDS = 2e-5
 #: The longest constant with parameters that is written in one form, in subexpressions.
 _LONGEST = 200
 #: The numbers that are parameters in coefficients.
@@ -37,11 +36,12 @@ def prepared(integrand: Expr) -> Expr:
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
-    check_duration(_TERM_SECONDS * _expanded_terms(integrand), "expanding an integrand")
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator.
     kept = {power: sympy.Dummy() for power in integrand.atoms(sympy.Pow) if _is_inverse_root(power)}
     back = {letter: power for power, letter in kept.items()}
-    return sympy.expand(integrand.xreplace(kept), power_exp=False).xreplace(back)
+    rest = integrand.xreplace(kept)
+    check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
+    return sympy.expand(rest, power_exp=False).xreplace(back)
 
 
 def _is_inverse_root(power: Expr) -> bool:
@@ -49,35 +49,6 @@ def _is_inverse_root(power: Expr) -> bool:
     e = power.exp
     is_fraction = e.is_Rational and not e.is_Integer
     return bool(power.base.is_Add and is_fraction and e < -1)
-
-
-def _expanded_terms(expression: Expr) -> float:
-    """How many terms SymPy writes at most: those of the expression, and of all that stands under roots and in functions."""
-    total = _terms(expression)
-    for part in expression.atoms(sympy.Pow, sympy.Function):
-        if not part.is_polynomial():
-            total += sum(map(_terms, part.args))
-    return total
-
-
-def _terms(expression: Expr) -> float:
-    """How many terms the expanded product has at most; u^(7/3) is expanded as u^2 u^(1/3)."""
-    if expression.is_Add:
-        return sum(map(_terms, expression.args))
-    if expression.is_Mul:
-        return math.prod(map(_terms, expression.args))
-    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
-        return _terms_of_power(_terms(expression.base), int(expression.exp))
-    return 1.0
-
-
-def _terms_of_power(n: float, k: int) -> float:
-    """That many monomials of degree k in n terms: binomial(n + k - 1, k)."""
-    if n == 1:
-        return 1.0
-    if n * k >= _MANY:
-        return math.inf
-    return float(math.comb(int(n) + k - 1, k))
 
 
 def sum_of(integrals: Iterable[Expr | None]) -> Expr | None:
