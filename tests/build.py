@@ -23,7 +23,8 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.cli.main import run
+from kovacic.cli.main import COMMANDS, run
+from kovacic.cli.main import main as run_and_exit
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution
 from kovacic.closed_form.jets import jet
@@ -43,6 +44,7 @@ from kovacic.verify import verify
 from kovacic.views.plot import sample
 
 __all__ = [
+    "COMMANDS",
     "QQ",
     "AlgebraicField",
     "Atoms",
@@ -71,6 +73,7 @@ __all__ = [
     "read_expression",
     "read_input",
     "run",
+    "run_and_exit",
     "sample",
     "verify",
 ]

@@ -8,9 +8,9 @@ import shlex
 from pathlib import Path
 
 import pytest
+from build import run
 
 import kovacic
-from kovacic.cli import main
 from kovacic.enclosure.states import journey_of
 
 ROOT = Path(kovacic.__file__).parent.parent
@@ -38,7 +38,7 @@ def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str])
     program, *arguments = shlex.split(command)
     assert program == "kovacic"
     journey_of.cache_clear()  # a command is a process of its own: an earlier one's precision would change the radius
-    main.run(arguments)
+    run(arguments)
     shown = capsys.readouterr()
     found = shown.out + shown.err
     assert found == output, f"{command}\nprints\n{found}"

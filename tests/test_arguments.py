@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, sample
 
 import kovacic
 from kovacic import InputError, Limits
@@ -127,8 +127,6 @@ def test_what_isnt_used_is_refused(case: str) -> None:
 
 
 def test_the_decaying_solution_is_drawn_with_the_value_that_was_given() -> None:
-    from kovacic.views.plot import sample
-
     once, thrice = (sample("x", 0, 1, x0=0, which="decaying", y0=y0, points=2).arcs[0].y[0] for y0 in (1, 3))
     assert abs(thrice - 3 * once) < 1e-7
 

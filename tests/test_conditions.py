@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, Conditions, FunctionField, parametrize
+from build import QQ, Conditions, FunctionField, parametrize, run
 from clocks import controlled
 from flint import fmpz_mat
 from hypothesis import given, settings
@@ -35,9 +35,18 @@ from tests.strategies import parametric_equations
 F = Fraction
 
 
+class Answers(dict[str, Conditions]):
+    """Those of the families, by name, each when it is asked for first."""
+
+    def __missing__(self, name: str) -> Conditions:
+        (family,) = (family for family in FAMILIES if family.name == name)
+        self[name] = kovacic.conditions(family.S, var="x")
+        return self[name]
+
+
 @pytest.fixture(scope="module")
 def answers() -> dict[str, Conditions]:
-    return {family.name: kovacic.conditions(family.S, var="x") for family in FAMILIES}
+    return Answers()
 
 
 @parametrize("family", FAMILIES, ordinary=3, ids=lambda family: family.name)
@@ -250,7 +259,7 @@ def test_a_polynomial_of_degree_two_in_all_its_coefficients() -> None:
 def test_a_pole_of_high_order_is_moved_to_infinity() -> None:
     answer = kovacic.conditions("(x^2 + mu*(x-t)^2)/(x-t)^6", var="x")
     assert answer.complete is True
-    assert answer.check(100)
+    assert answer.check(30)
 
 
 def test_known_spectra_of_bound_states(answers: dict[str, Conditions]) -> None:
@@ -281,7 +290,7 @@ def test_the_group_of_a_region() -> None:
     assert group(yoshida, {"lam": F(1, 3)}) == "dicyclic"
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@parametrize("family", FAMILIES, ordinary=6, ids=lambda family: family.name)
 def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: dict[str, Conditions]) -> None:
     """The names of groups that a family's text doesn't mention don't occur."""
     answer = answers[family.name]
@@ -440,7 +449,7 @@ def test_hypersurfaces_from_which_no_parameter_is_eliminated(
     for values in points:
         point = dict(zip(answer.parameters, values, strict=True))
         assert answer.case_at(point) == answer.solve_at(point).case, point
-    assert answer.check(60)
+    assert answer.check(30)
 
 
 @pytest.mark.long
@@ -470,7 +479,7 @@ def test_a_polynomial_of_high_degree() -> None:
 
 
 @given(matrices=st.integers(0, 10**9))
-@settings(max_examples=30)
+@settings(max_examples=12)
 def test_constant_pivots_lower_the_rank_by_one_each(matrices: int) -> None:
     random = Random(matrices)
     field = FunctionField(("a", "b"))
@@ -585,7 +594,7 @@ MORE = [
 @parametrize("S", MORE, ordinary=2)
 def test_other_families_agree_with_the_engine(S: str) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=2)
-    report = answer.check(40)
+    report = answer.check(20)
     assert report, report.disagreements
     assert answer.complete is True or "not proven" in str(answer.complete)
 
@@ -593,6 +602,7 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
 @parametrize(
     ("S", "points"),
     [
+        ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
         # a b = c d is solved for one of them where its coefficient isn't zero; at these points it is.
         (
             "(a*b-c*d)*x^2 + a*x + d",
@@ -601,7 +611,6 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
         ("(a*b-c*d)*x^4 + a*x^2 + b/x^2 + d", [(5, 0, 0, 5), (4, 0, 0, 10), (0, 0, 0, 1), (1, 2, 2, 1)]),
         ("(a*b-c)*x^2 + a/x^2 + b", [(0, 0, 0), (2, 0, 0), (0, 3, 0), (2, 1, 2)]),
         ("(a*b-c*a-d)*x^2 + c*x + b", [(0, 1, 2, 0), (0, 1, 0, 0), (3, 1, 1, 0), (3, 0, 0, 0)]),
-        ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
     ],
     ordinary=1,
     long=2,
@@ -641,8 +650,6 @@ def test_integer_symbols_of_sympy() -> None:
 
 
 def test_command(capsys: pytest.CaptureFixture[str]) -> None:
-    from kovacic.cli.main import run
-
     assert run(["conditions", "--check", "20", "x^4 + mu*x"]) == 0
     assert "mu = +-2 mod 6: case 1" in capsys.readouterr().out
     assert run(["conditions", "--json", "--var", "x", "(4*n^2-1)/(4*x^2) - 1"]) == 0
@@ -701,7 +708,7 @@ def test_a_name_alone_is_the_variable() -> None:
 def test_assumptions_refute_single_values() -> None:
     S = "(b+2)*x^4 + x^2 + b*x"
     assert any(str(region.statement) == "b = -2" for region in kovacic.conditions(S, var="x", max_degree=1).regions)
-    for what in ("noninteger", "positive", "irrational", "odd", "half-integer"):
+    for what in ("noninteger", "positive", "odd"):
         answer = kovacic.conditions(S, var="x", assume={"b": what}, max_degree=1)
         assert not any(str(region.statement) == "b = -2" for region in answer.regions)
 

@@ -27,7 +27,9 @@ def test_shell_sessions(page: str, command: str, output: str, capsys: pytest.Cap
     check_command(command, output, capsys)
 
 
-@parametrize("page", PAGES, ordinary=2, long=13, ids=lambda page: str(page.relative_to(ROOT)))
+@parametrize(
+    "page", sorted(PAGES, key=lambda page: page.name != "input.md"), ordinary=1, long=13, ids=lambda page: page.name
+)
 def test_python_sessions(page: Path) -> None:
     check_python(page)
 

@@ -71,7 +71,7 @@ def test_general_solutions(left: sympy.Expr) -> None:
     assert residual(left, solution) < 1e-20
 
 
-@parametrize("left", EQUATIONS[:3] + EQUATIONS[6:10], ordinary=2, ids=str)
+@parametrize("left", EQUATIONS[:3] + EQUATIONS[6:10], ordinary=1, ids=str)
 def test_checkodesol_agrees(left: sympy.Expr) -> None:
     assert sympy.checkodesol(left, dsolve(sympy.Eq(left, 0)), y(x)) == (True, 0)
 
@@ -255,8 +255,10 @@ def test_no_liouvillian_solution_is_a_proven_reason() -> None:
 
 
 def riccati_residual(p: str, q: str, r: str, value: sympy.Expr) -> sympy.Expr:
+    """Of w' = p + q w + r w^2, at a point, by 30 digits."""
     P, Q, R = (read_expression(text) for text in (p, q, r))
-    return sympy.simplify(value.diff(x) - P - Q * value - R * value**2)
+    rest = value.diff(x) - P - Q * value - R * value**2
+    return sympy.N(rest.subs({C1: Rational(5, 3), x: Rational(7, 3)}), 30, chop=1e-25)
 
 
 @parametrize(
@@ -423,7 +425,7 @@ def test_floats_are_decimals(value: object) -> None:
         ("y'' + pi^2*y = sin(pi*x)", {}),
         ("e*y'' - y = exp(exp(-1/2)*x)", {}),
     ],
-    ordinary=2,
+    ordinary=1,
 )
 def test_normal_forms_with_constant_coefficients(text: str, values: dict) -> None:
     """Undetermined coefficients for u with y = G u, and for Euler's equations: no integration."""
@@ -471,10 +473,10 @@ def test_steps_and_impulses(left: str, right: str) -> None:
         a, b, c = (read_expression(part.to_str("x")) for part in (equation.a, equation.b, equation.c))
         rest = a * value.diff(x, 2) + b * value.diff(x) + c * value - force
         assert abs(sympy.N(rest.subs(x, side + Rational(1, 3)), 30)) < 1e-20
-        slopes.append((sympy.simplify(value.subs(x, 1)), sympy.simplify(value.diff(x).subs(x, 1))))
-    assert sympy.simplify(slopes[1][0] - slopes[0][0]) == 0
+        slopes.append((value.subs(x, 1), value.diff(x).subs(x, 1)))
+    assert abs(sympy.N(slopes[1][0] - slopes[0][0], 30)) < 1e-20
     impulse = sympy.integrate(forcing, (x, 0, 2)) if "Dirac" in right else 0
-    assert sympy.simplify(slopes[1][1] - slopes[0][1] - impulse) == 0
+    assert abs(sympy.N(slopes[1][1] - slopes[0][1] - impulse, 30)) < 1e-20
 
 
 def test_values_at_an_impulse_are_those_before_it() -> None:
@@ -569,9 +571,9 @@ def test_one_exponential() -> None:
 @parametrize(
     "text",
     [
+        "y'' - 2*y' + y = exp(x)/(x^2-1)^2",
         "y'' = (x+1)^2*exp(4/(3*(x+1)))/(4*x+1)^5",
         "y'' - y = exp(x)/(x+1)^3",
-        "y'' - 2*y' + y = exp(x)/(x^2-1)^2",
         "x^2*y'' + x*y' - y = 1/(x+1)^3",
     ],
     ordinary=1,

@@ -15,11 +15,10 @@ import published
 import pytest
 import strategies
 import sympy
-from build import QQ, RatFunc, analyse, parametrize
+from build import QQ, RatFunc, analyse, parametrize, run
 from hypothesis import given, settings
 
 import kovacic
-from kovacic.cli.main import run
 from kovacic.engine.paper import Search, _Roots, in_sympy, is_natural, search
 from kovacic.limits import CLOCK, Budget
 from kovacic.views.explain import rational_form

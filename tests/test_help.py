@@ -9,9 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from build import parametrize
-
-from kovacic.cli import main
+from build import COMMANDS, parametrize, run, run_and_exit
 
 GIVEN = {"generate": "x^2 + 3\nx\n"}  # what programs of the user's print
 FILES = {"equations.jsonl": '"x^2 + 3"\n{"S": "x", "id": 7}\n'}
@@ -19,7 +17,7 @@ FILES = {"equations.jsonl": '"x^2 + 3"\n{"S": "x", "id": 7}\n'}
 
 def shown(capsys: pytest.CaptureFixture[str], *command: str) -> str:
     capsys.readouterr()
-    assert main.run([*command, "--help"]) == 0
+    assert run([*command, "--help"]) == 0
     return capsys.readouterr().out
 
 
@@ -28,7 +26,7 @@ def examples(text: str) -> list[str]:
     return found if Path("/proc/self/statm").exists() else [text.replace("--memory 500 ", "") for text in found]
 
 
-def run(example: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> str:
+def output_of(example: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> str:
     """The last output of a pipeline in which commands of ours are called one after the other."""
     output = ""
     for stage in re.split(r" \| ", example):
@@ -38,7 +36,7 @@ def run(example: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mo
             if ">" in arguments:
                 *arguments, _, target = arguments
             monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(output.encode()), encoding="utf-8"))
-            assert main.run(arguments) in (0, 3)
+            assert run(arguments) in (0, 3)
             output = capsys.readouterr().out
             if target is not None:
                 Path(target).write_text(output, encoding="ascii")  # in which every encoding agrees
@@ -53,7 +51,7 @@ LONG = [pytest.param("ball", 1, 4, marks=pytest.mark.slow)]
 
 @parametrize(
     ("command", "first", "last"),
-    [*((name, 0, 1 if name == "ball" else None) for name in main.COMMANDS), *LONG],
+    [*((name, 0, 1 if name == "ball" else None) for name in COMMANDS), *LONG],
     ordinary=0,
     long=6,
 )
@@ -72,14 +70,14 @@ def test_the_examples_run(
     for name, text in FILES.items():
         Path(name).write_text(text, encoding="utf-8")
     for example in found:
-        output = run(example, capsys, monkeypatch)
+        output = output_of(example, capsys, monkeypatch)
         written = [word for word in shlex.split(example) if re.search(r"\.(html|json|jsonl|png)$", word)]
         assert output or written, example
         for name in written:
             assert Path(name).stat().st_size > 0, example
 
 
-@pytest.mark.parametrize("command", ["", *main.COMMANDS])
+@pytest.mark.parametrize("command", ["", *COMMANDS])
 def test_help_fits_on_a_screen_of_80_columns(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert max(map(len, shown(capsys, *filter(None, [command])).splitlines())) <= 80
 
@@ -87,7 +85,7 @@ def test_help_fits_on_a_screen_of_80_columns(command: str, capsys: pytest.Captur
 def test_the_examples_of_the_program_run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     found = examples(shown(capsys))
     assert len(found) == 2
-    assert all(run(example, capsys, monkeypatch) for example in found)
+    assert all(output_of(example, capsys, monkeypatch) for example in found)
 
 
 @pytest.mark.long
@@ -107,7 +105,7 @@ def test_files_and_pipes_are_utf_8_whatever_the_system_s_encoding_is(
         for name, stream in zip(("stdin", "stdout", "stderr"), streams, strict=True):
             monkeypatch.setattr(sys, name, stream)
         with pytest.raises(SystemExit) as ending:
-            main.main(command)
+            run_and_exit(command)
         output = streams[1].buffer.getvalue().decode("utf-8")
         assert ending.value.code == (0 if wanted else 2)
         assert wanted in output

@@ -64,9 +64,10 @@ FAMILIES = {
 @pytest.mark.parametrize(
     ("name", "largest"),
     [
-        ("hydrogen", 2),
+        ("Legendre", 2),
+        pytest.param("hydrogen", 2, marks=pytest.mark.long),
         *(
-            pytest.param(name, 5, marks=pytest.mark.slow if k % 3 else pytest.mark.long)
+            pytest.param(name, 5, marks=pytest.mark.slow if k % 4 else pytest.mark.long)
             for k, name in enumerate(FAMILIES)
         ),
     ],

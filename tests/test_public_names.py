@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import ast
+import re
 from collections import defaultdict
 from pathlib import Path
 from typing import Any
@@ -55,9 +55,8 @@ def test_a_class_is_known_by_its_name_alone() -> None:
         home = path.relative_to(package).parts[0]
         if home in ("verify", "checker.py"):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ClassDef):
-                homes[node.name].append(path.name)
+        for name in re.findall(r"^ *class (\w+)[(:]", path.read_text(encoding="utf-8"), re.MULTILINE):
+            homes[name].append(path.name)
     assert not {name: found for name, found in homes.items() if len(found) > 1}
 
 

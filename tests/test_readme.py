@@ -5,9 +5,8 @@ from __future__ import annotations
 import shlex
 
 import pytest
+from build import run
 from documents import README, blocks, check_command, check_links, check_python, sessions
-
-from kovacic.cli import main
 
 SESSIONS = sessions(README)
 
@@ -33,7 +32,7 @@ def test_python_sessions() -> None:
 def test_the_equation_of_the_first_command_is_solved(capsys: pytest.CaptureFixture[str]) -> None:
     command = blocks("sh")[0]
     arguments = shlex.split(command[command.index("kovacic solve") :])[1:]
-    assert main.run(arguments) == 0
+    assert run(arguments) == 0
     assert "case 3" in capsys.readouterr().out
 
 

@@ -8,10 +8,9 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, run
 
 import kovacic
-from kovacic.cli.main import main
 from tests.test_symmetric_conditions import moved, pulled_back
 
 R = sympy.Rational
@@ -159,9 +158,7 @@ def test_regions_without_known_solutions_and_pickles(capsys: pytest.CaptureFixtu
     assert answer.regions[0].solution() == ()
     bessel = kovacic.conditions("(4*n^2-1)/(4*x^2) - 1", var="x")
     assert pickle.loads(pickle.dumps(bessel)).regions[0].solution() == bessel.regions[0].solution()
-    with pytest.raises(SystemExit) as status:
-        main(["conditions", "--explain", "(4*n^2-1)/(4*x^2) - 1"])
-    assert status.value.code == 0
+    assert run(["conditions", "--explain", "(4*n^2-1)/(4*x^2) - 1"]) == 0
     assert "where n - 1/2 is a natural number" in capsys.readouterr().out
 
 

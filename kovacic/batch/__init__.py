@@ -5,10 +5,6 @@ Texts, or files of them, go in; a `Record` with a line of JSON for every one of 
     files    files into items; the answers   pool     items into records, with limits that hold
     scan     grids of parameters, a map      worker   what the processes of the pool do
     backends chunks through Dask or Ray
-
->>> import kovacic
->>> [record.case for record in kovacic.solve_many(["x^2 + 3", "x", "-3/(16*x^2) + 1/x"], jobs=1)]
-[1, None, 2]
 """
 
 from __future__ import annotations
@@ -76,11 +72,13 @@ def solve_many(
     Examples
     --------
     >>> import kovacic
-    >>> for record in kovacic.solve_many(["x^2 + 3", "x", "x^2 +"], jobs=1):
-    ...     print(record.number, record.label)
-    1 case 1
-    2 none
-    3 bad input
+    >>> good, none, bad = kovacic.solve_many(["x^2 + 3", "x", "x^2 +"], jobs=1)
+    >>> good.number, good.label, good.case, good.error, good.data["status"], str(good.solution.omega)
+    (1, 'case 1', 1, None, 'liouvillian', '(x**2 + 1)/x')
+    >>> none.label, none.case
+    ('none', None)
+    >>> bad.label, bad.case, bad.error
+    ('bad input', None, "the expression ends after '+'")
     """
     from kovacic.batch.files import item_from
 

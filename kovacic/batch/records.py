@@ -79,14 +79,7 @@ class Record:
         Its line in schema 1, with the keys `line` (the number) and those of the input, such as "id", before it.  Without an
         answer, `status` is "error" and `error` has `type` and `message`, and for a bad input `position` and `hint`.
 
-    Examples
-    --------
-    >>> import kovacic
-    >>> good, bad = kovacic.solve_many(["x^2 + 3", "x^2 +"], jobs=1)
-    >>> good.number, good.label, good.case, good.error, good.data["status"], str(good.solution.omega)
-    (1, 'case 1', 1, None, 'liouvillian', '(x**2 + 1)/x')
-    >>> bad.label, bad.case, bad.error
-    ('bad input', None, "the expression ends after '+'")
+    The examples of `kovacic.solve_many` show some.
     """
 
     number: int

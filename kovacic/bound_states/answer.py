@@ -145,7 +145,7 @@ class Spectrum:
         Parameters
         ----------
         values : mapping
-            A real number for each parameter, by name: {"b": 3}; needed where there are parameters.
+            A real number for each parameter, by name: {"w": 3}; needed where there are parameters.
         count : int
             The most of each formula: 10 by default.
 
@@ -157,9 +157,9 @@ class Spectrum:
         Examples
         --------
         >>> import kovacic
-        >>> morse = kovacic.spectrum("exp(-2*x) - 2*b*exp(-x)", assume={"b": "positive"})
-        >>> [state.energy for state in morse.states({"b": 3})]
-        [-25/4, -9/4, -1/4]
+        >>> oscillator = kovacic.spectrum("w^2*x^2", assume={"w": "positive"})
+        >>> [state.energy for state in oscillator.states({"w": 3}, count=3)]
+        [3, 9, 15]
         """
         count = whole(count, "count")
         at = self._symbols_at(values or {})

@@ -258,16 +258,16 @@ def plot(
     The solutions of an answer, the solution with given values, and a picture in a file:
 
     >>> import io, kovacic
-    >>> figure = plot(kovacic.solve("x^2 + 3"), -1, 1)
+    >>> figure = plot(kovacic.solve("x^2 + 3"), -1, 1, points=20)
     >>> [line.get_label()[:2] for line in figure.axes[0].get_lines()][:2]
     ['y1', 'y2']
-    >>> figure = plot("a*x", -5, 1, x0=0, y0=1, dy0=0, params={"a": 1}, title="Airy")
+    >>> figure = plot("a*x", -5, 1, x0=0, y0=1, dy0=0, params={"a": 1}, title="Airy", points=20)
     >>> figure.axes[0].get_title()
     'Airy'
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     figure = plot("-1", 0, 6, output=Path(folder, "wave.svg"))
+    ...     figure = plot("-1", 0, 6, output=Path(folder, "wave.svg"), points=20)
     ...     Path(folder, "wave.svg").exists()
     True
     """
