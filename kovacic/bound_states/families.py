@@ -107,11 +107,18 @@ def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelF
             for spot, delta in zip(frame.spots, values, strict=True):
                 conditions += ends.conditions(frame.domain, spot, delta)
             if possible(conditions, ends.signs):
-                from kovacic.bound_states.waves import jacobi_wave
+                yield _jacobi_family(frame, roots, values, energy=found.energy, conditions=conditions, signs=ends.signs)
 
-                wave, norm = jacobi_wave(frame, roots, values, ends.signs)
-                zeros = _zeros(frame, values, ends.signs)
-                yield LevelFamily(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
+
+def _jacobi_family(
+    frame: SingularFrame, roots: list[Root], deltas: list[Any], *, energy: Any, conditions: list[Any], signs: Signs
+) -> LevelFamily:
+    """The family with these exponent differences."""
+    from kovacic.bound_states.waves import jacobi_wave
+
+    wave, norm = jacobi_wave(frame, roots, deltas, signs)
+    zeros = _zeros(frame, deltas, signs)
+    return LevelFamily(energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
 
 
 def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
@@ -119,20 +126,20 @@ def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
 
     A pair of complex conjugate roots has one sign, since n is real.
     """
-    pair = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
-    if len(pair) == 1:
+    are_complex = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
+    if len(are_complex) == 1:
         return  # n isn't real
-    if len(pair) == 3:
+    if len(are_complex) == 3:
         raise Uncovered("no exponent is real")
     options = [_signed(k, spots, roots) for k in range(len(roots))]
-    if pair:
-        _, second = pair
-        options[second] = [roots[second].value]
+    if not are_complex:
+        yield from map(list, product(*options))
+        return
+    first, second = are_complex
+    options[second] = [None]  # the conjugate of the first one
     for chosen in product(*options):
         choice = [*chosen]
-        if pair:
-            first, second = pair
-            choice[second] = conjugate(choice[first])
+        choice[second] = conjugate(choice[first])
         yield choice
 
 
@@ -195,12 +202,7 @@ def _zeros_for(spot: Spot, delta: Any, signs: Signs) -> Any:
 
 def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """Equation (2)."""
-    z = frame.z
-    square = sympy.cancel(frame.S * z**2)
-    if sympy.denom(square).has(z) or sympy.degree(sympy.numer(square), z) != 2:
-        raise Uncovered("the equation isn't Whittaker's")
-    parts = sympy.Poly(square, z)
-    q, r, b = (parts.coeff_monomial(z**k) for k in (2, 1, 0))
+    q, r, b = _whittaker_coefficients(frame)
     _check_ends(frame)
     origin = next((spot for spot in frame.spots if spot.point == 0), Spot(sympy.Integer(0), 1 + 4 * b, 0))
     root_of_q = Root.of(sympy.factor(q), E)
@@ -223,6 +225,17 @@ def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
                 wave, norm = laguerre_wave(frame, origin, rate, difference, ends.signs)
                 zeros = _zeros_for(origin, difference, ends.signs)
                 yield LevelFamily(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
+
+
+def _whittaker_coefficients(frame: SingularFrame) -> tuple[Any, Any, Any]:
+    """q, r and b of S_z = q + r/z + b/z^2."""
+    z = frame.z
+    square = sympy.cancel(frame.S * z**2)
+    if sympy.denom(square).has(z) or sympy.degree(sympy.numer(square), z) != 2:
+        raise Uncovered("the equation isn't Whittaker's")
+    parts = sympy.Poly(square, z)
+    q, r, b = (parts.coeff_monomial(z**k) for k in (2, 1, 0))
+    return q, r, b
 
 
 def _decay(frame: SingularFrame, kappa: Any) -> list[Any]:

@@ -21,16 +21,14 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
     roots = {symbol: square for symbol, square in squares.items() if not _radicals(square)}
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
-    found: list[Any] = []
+    solved = [_solved(c, signs) for c in _paired(left, signs)]
+    squared = [_squared(c, roots) for c in solved]
+    found = []
+    for condition, square in zip(solved, squared, strict=True):
+        found.append(condition.xreplace(meanings) if square is None else _solved(square, signs))
     implied = {sympy.true}
-    for condition in _paired(left, signs):
-        solved = _solved(condition, signs)
-        squared = _squared(solved, roots)
-        if squared is None:
-            found.append(solved.xreplace(meanings))
-        else:
-            found.append(_solved(squared, signs))
-            implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
+    if any(square is not None for square in squared):
+        implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
     return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
 
 
@@ -126,21 +124,34 @@ def _solved(condition: Any, signs: Signs) -> Any:
         return condition
     is_strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
     rest = _without_signs(condition.gts - condition.lts, signs)
-    number, factor = rest.as_coeff_Mul()
-    base, exponent = factor.as_base_exp()
-    if is_strict and exponent == -1:  # 1/p > 0 where p > 0
-        rest = sympy.expand(number * base)
+    if is_strict:
+        rest = _turned(rest)
     for unknown in (n, *sorted(rest.free_symbols - {n}, key=str)):
-        if _degree(rest, unknown) != 1:
-            continue
-        slope = rest.coeff(unknown, 1)
-        sign = signs.sign(slope)
-        if sign is not None:
-            bound = shortest(sympy.factor(-rest.coeff(unknown, 0) / slope))
-            return _beyond(unknown, bound, sign, is_strict=is_strict)
+        solved = _solved_for(unknown, rest, signs, is_strict=is_strict)
+        if solved is not None:
+            return solved
     if _degree(rest, n) == 2:
         return _solved_for_square(rest, signs, is_strict=is_strict)
     return _beyond(rest, 0, 1, is_strict=is_strict)
+
+
+def _turned(positive: Any) -> Any:
+    """c p in the place of c/p, which is positive where that is."""
+    number, factor = positive.as_coeff_Mul()
+    base, exponent = factor.as_base_exp()
+    return sympy.expand(number * base) if exponent == -1 else positive
+
+
+def _solved_for(unknown: Any, rest: Any, signs: Signs, *, is_strict: bool) -> Any:
+    """rest > 0, or >= 0, for an unknown in which it is linear with a slope of a known sign; None for another one."""
+    if _degree(rest, unknown) != 1:
+        return None
+    slope = rest.coeff(unknown, 1)
+    sign = signs.sign(slope)
+    if sign is None:
+        return None
+    bound = shortest(sympy.factor(-rest.coeff(unknown, 0) / slope))
+    return _beyond(unknown, bound, sign, is_strict=is_strict)
 
 
 def _degree(expression: Any, unknown: Any) -> Any:

@@ -15,7 +15,7 @@ Any other relation isn't used: what holds for generic values of letters holds fo
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import Any, NamedTuple
@@ -160,43 +160,41 @@ class _LetterTable:
 
     def replaced(self, parts: Sequence[Expr], kernels: Sequence[Expr]) -> tuple[Expr, ...]:
         """The expressions with letters in the place of these constants."""
-        related = {kernel: _by_others(kernel, kernels) for kernel in kernels}
-        changed = {kernel: other for kernel, other in related.items() if other != kernel}
-        if changed:
-            return tuple(part.xreplace(changed) for part in parts)
-        powers: dict[Expr, list[Expr]] = {}
-        replacements: Meanings = {}
+        depending = _depending(kernels)
+        if depending:
+            return tuple(part.xreplace(depending) for part in parts)
+        values: Meanings = {}
         for kernel in kernels:
-            base = kernel.as_base_exp()[0]
-            if kernel.is_Pow or base is sympy.E:
-                powers.setdefault(base, []).append(kernel)
-            else:
-                replacements[kernel] = self.letter(kernel)
+            if not _is_power(kernel):
+                values[kernel] = self.letter(kernel)
         symbols: Meanings = {}
-        for base, of_base in powers.items():
-            self._powers_of(base, of_base, replacements, symbols)
+        for base, powers in _by_bases(kernels).items():
+            found = self._powers_of(base, powers, replaced=symbols)
+            values |= found.powers
+            symbols |= found.symbols
         without_squares = [_without_squares(part, kernels) for part in parts]
-        return tuple(part.xreplace(replacements).xreplace(symbols) for part in without_squares)
+        return tuple(part.xreplace(values).xreplace(symbols) for part in without_squares)
 
-    def _powers_of(self, base: Expr, powers: Sequence[Expr], replacements: Meanings, symbols: Meanings) -> None:
+    def _powers_of(self, base: Expr, powers: Sequence[Expr], *, replaced: Meanings) -> _PowersInLetters:
         """base^(sum of r m), r rational and m monomials, by letters for base^(u m) with rational u.
 
-        A base that is linear in a symbol becomes a power of the letter, and so does the symbol (`symbols`), each once.
+        A base that is linear in a symbol which isn't `replaced` yet becomes a power of the letter, and so does the symbol.
         """
         exponents = {power: _monomials(power) for power in powers}
-        rates: dict[Expr, list[Expr]] = {}
-        for terms in exponents.values():
-            for monomial, rate in terms.items():
-                rates.setdefault(monomial, []).append(rate)
-        line = _solved_for(base, symbols) if sympy.S.One in rates else None
+        rates = _rates(exponents.values())
+        line = None
+        if sympy.S.One in rates:
+            line = _solved_for(base, replaced)
         if line is not None:
-            rates[sympy.S.One].append(sympy.S.One)
+            rates[sympy.S.One].append(sympy.S.One)  # that of the base itself
         roots = {monomial: self._root_of(base, monomial, of_monomial) for monomial, of_monomial in rates.items()}
+        found: Meanings = {}
         for power, terms in exponents.items():
-            replacements[power] = sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
-        if line is not None:
-            value = roots[sympy.S.One].power(sympy.S.One)
-            symbols[line.symbol] = sympy.expand((value - line.rest) / line.slope)
+            found[power] = sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
+        if line is None:
+            return _PowersInLetters(found, {})
+        value = roots[sympy.S.One].power(sympy.S.One)
+        return _PowersInLetters(found, {line.symbol: line.symbol_for(value)})
 
     def _root_of(self, base: Expr, monomial: Expr, rates: Sequence[Expr]) -> _RootLetter:
         """A letter by which base^(r m) is rational for each of the rates r of a monomial m."""
@@ -204,6 +202,13 @@ class _LetterTable:
         if monomial != 1 and not base.is_negative:
             unit /= 2  # so that the root, which solutions often have, is rational
         return _RootLetter(self.letter(base ** (unit * monomial)), unit)
+
+
+class _PowersInLetters(NamedTuple):
+    """What `powers` of one base are in letters, and the symbol that follows from a letter, if there is one."""
+
+    powers: Meanings
+    symbols: Meanings
 
 
 class _RootLetter(NamedTuple):
@@ -223,6 +228,43 @@ class _LinearForm(NamedTuple):
     symbol: Expr
     slope: Expr
     rest: Expr
+
+    def symbol_for(self, value: Expr) -> Expr:
+        """The symbol, if the form has this value."""
+        return sympy.expand((value - self.rest) / self.slope)
+
+
+def _depending(kernels: Sequence[Expr]) -> Meanings:
+    """The constants that depend on others in a known way, in terms of these."""
+    found: Meanings = {}
+    for kernel in kernels:
+        by_others = _by_others(kernel, kernels)
+        if by_others != kernel:
+            found[kernel] = by_others
+    return found
+
+
+def _is_power(kernel: Expr) -> bool:
+    """Is it a power of a constant, or of Euler's number?"""
+    return bool(kernel.is_Pow or kernel.as_base_exp()[0] is sympy.E)
+
+
+def _by_bases(kernels: Sequence[Expr]) -> dict[Expr, list[Expr]]:
+    """The powers among the constants, by their bases."""
+    found: dict[Expr, list[Expr]] = {}
+    for kernel in kernels:
+        if _is_power(kernel):
+            found.setdefault(kernel.as_base_exp()[0], []).append(kernel)
+    return found
+
+
+def _rates(exponents: Iterable[dict[Expr, Expr]]) -> dict[Expr, list[Expr]]:
+    """The rational factors of each monomial in the exponents."""
+    found: dict[Expr, list[Expr]] = {}
+    for terms in exponents:
+        for monomial, rate in terms.items():
+            found.setdefault(monomial, []).append(rate)
+    return found
 
 
 def _monomials(power: Expr) -> dict[Expr, Expr]:
@@ -319,5 +361,8 @@ def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
         cosine = _COSINES.get(wave.func)
         if cosine is not None and cosine.function(*wave.args) in kernels:
             squares[wave] = cosine.sign * (1 - cosine.function(*wave.args) ** 2)
-    powers = {p for p in part.atoms(sympy.Pow) if p.base in squares and p.exp.is_Integer}
-    return part.xreplace({p: p.base ** (p.exp % 2) * squares[p.base] ** (p.exp // 2) for p in powers})
+    lower: Meanings = {}
+    for power in part.atoms(sympy.Pow):
+        if power.base in squares and power.exp.is_Integer:
+            lower[power] = power.base ** (power.exp % 2) * squares[power.base] ** (power.exp // 2)
+    return part.xreplace(lower)
