@@ -21,7 +21,17 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, holds_on
 from kovacic.parametric.restriction import hypersurface, over_all
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, alternatives_of, both, either
+from kovacic.parametric.statements import (
+    ALWAYS,
+    Both,
+    Either,
+    Statement,
+    Vanishes,
+    all_of,
+    alternatives_of,
+    both,
+    either,
+)
 
 #: Regions above which not all are compared: general Heun has some hundreds.
 _MANY = 100
@@ -122,12 +132,25 @@ def _is_redundant(
     charts = _within(region.statement, everything)
     known = [one.statement for one in before]
     for other in after:
-        if _says_the_same(other, region):
-            if _covered(charts, [other.statement]):
-                return True
-        elif not _is_apart(other, region) and not _is_said_within(known, other.statement, charts):
-            return False
+        says_so = _is_said_by(other, region, charts, known)
+        if says_so is not None:
+            return says_so
     return is_generic
+
+
+def _is_said_by(
+    other: ParameterRegion, region: ParameterRegion, charts: list[ParameterPoint], known: Sequence[Statement]
+) -> bool | None:
+    """True where another region says the same of all charts of a region, False where it says another thing of some value.
+
+    None where it says nothing of them, but for values at which a known statement holds, or only something of some.
+    """
+    if _says_the_same(other, region):
+        is_whole = _covered(charts, [other.statement])
+        return True if is_whole else None
+    if _is_apart(other, region) or _is_said_within(known, other.statement, charts):
+        return None
+    return False
 
 
 def _is_variety(statement: Statement) -> bool:
@@ -180,7 +203,7 @@ def _field(statement: Statement) -> FunctionField | None:
         return function
 
     statement.rewritten(noted)
-    return found[0] if found else None
+    return next(iter(found), None)
 
 
 def _left_to_say(other: Statement, charts: list[ParameterPoint]) -> Statement:
@@ -194,7 +217,7 @@ def _left_to_say(other: Statement, charts: list[ParameterPoint]) -> Statement:
         left += _left_of_part(part, chart, field)
     if not left:
         return other
-    return both(*left) if len(left) > 1 else left[0]
+    return all_of(left)
 
 
 def _left_of_part(part: Statement, chart: ParameterPoint, field: FunctionField) -> list[Statement]:
@@ -361,17 +384,17 @@ def _is_among(said: Collection[Statement], statement: Statement, chart: Paramete
 
 def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[Statement]:
     """Those that don't begin with a function that vanishes at some values of the chart at most."""
-    is_zero: dict[FunctionPoly, bool] = {}
+    holds: dict[Statement, bool] = {}
     found = []
     for statement in statements:
         first = next(iter(both(statement).parts), None)
-        if isinstance(first, Vanishes):
-            function = first.function
-            if function not in is_zero:
-                is_zero[function] = holds_on(first, chart, NOTHING_ASSUMED)
-            if not is_zero[function]:
-                continue
-        found.append(statement)
+        if not isinstance(first, Vanishes):
+            found.append(statement)
+            continue
+        if first not in holds:
+            holds[first] = holds_on(first, chart, NOTHING_ASSUMED)
+        if holds[first]:
+            found.append(statement)
     return found
 
 
@@ -390,7 +413,9 @@ def _is_true(statement: Statement) -> bool:
 def _covers(statement: Statement, chart: ParameterPoint) -> bool:
     """Does it provably hold at all values of the chart?"""
     is_point = chart.field.ground == QQ
-    return statement.holds(chart) if is_point else holds_on(statement, chart, NOTHING_ASSUMED)
+    if is_point:
+        return statement.holds(chart)
+    return holds_on(statement, chart, NOTHING_ASSUMED)
 
 
 def _within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:
@@ -422,13 +447,19 @@ def _where_possible(statement: Statement, chart: ParameterPoint) -> list[Paramet
     if isinstance(statement, Vanishes):
         return _where_zero(chart.at(statement.function), chart)
     if isinstance(statement, Congruence):
-        equation = chart.at(statement.equation)
-        return [] if statement.holds_for(equation) is False else _without_unknown(equation, chart)
+        return _where_congruent(statement, chart)
     if isinstance(statement, Schwarz):
-        chart.at(statement.cubic)
+        chart.at(statement.cubic)  # is it defined there?
     if isinstance(statement, Natural) and statement.factors is not None:
         return _union((_without_unknown(chart.at(factor), chart) for factor in statement.factors), chart)
     return [chart]
+
+
+def _where_congruent(statement: Congruence, chart: ParameterPoint) -> list[ParameterPoint]:
+    equation = chart.at(statement.equation)
+    if statement.holds_for(equation) is False:
+        return []
+    return _without_unknown(equation, chart)
 
 
 def _union(parts: Iterable[list[ParameterPoint]], chart: ParameterPoint) -> list[ParameterPoint]:

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from typing import NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, adjoined_square_root
 from kovacic.algebra.function_field import FunctionPoly
@@ -87,29 +88,42 @@ class Exponents:
         return P, rest
 
 
+class ExponentRoot(NamedTuple):
+    """sqrt(square), of which multiples k occur with an integer k, |k| <= largest."""
+
+    square: Poly
+    largest: int
+
+
 @dataclass(frozen=True)
 class Numbers:
     """What the exponents allow as a degree of P, or as the number of zeros of a form: constant + sum of k times a root.
 
-    `roots` has the square of each root, and the largest |k|, k an integer; with `only_signs` k is 1 or -1.
+    With `only_signs` each k is 1 or -1.
     """
 
     constant: Fraction
-    roots: tuple[tuple[Poly, int], ...]
+    roots: tuple[ExponentRoot, ...]
     only_signs: bool = False
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
     """The degrees of P in exp(int theta) P; None where the exponents differ at conjugate points."""
-    roots: list[tuple[Poly, int]] = []
-    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    roots: list[ExponentRoot] = []
+    singular = _singular(problem)
     for place in singular:
-        square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
+        square = _square_of_difference(place)
         if square is None or square.degree > 0:
             return None
-        roots += [(square / 4, 1)] * place.degree
+        roots += [ExponentRoot(square / 4, 1)] * place.degree
     weights = sum(place.weight * place.degree for place in singular)
     return Numbers(1 - Fraction(weights) / 2, tuple(roots), only_signs=True)
+
+
+def _square_of_difference(place: Place) -> Poly | None:
+    if place.kind is Kind.REGULAR:
+        return place.delta_squared
+    return irregular_difference_squared(place)
 
 
 def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
@@ -117,16 +131,15 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
 
     Exponents that differ at conjugate poles are left out.
     """
-    roots: list[tuple[Poly, int]] = []
+    roots: list[ExponentRoot] = []
     room = m
     for place in problem.places:
-        is_regular = place.kind is Kind.REGULAR
-        square = place.delta_squared
-        if is_regular and square is None:
+        if place.kind is Kind.REGULAR and place.delta_squared is None:
             continue
-        if is_regular and square is not None and problem.field.rational_value(square) is None:
+        square = _square_with_parameters(place)
+        if square is not None:
             largest = m // 2 * place.degree
-            roots.append((square, largest))
+            roots.append(ExponentRoot(square, largest))
             room -= largest
             continue
         valuation = least_valuation(place, m, logarithms=False)
@@ -134,6 +147,16 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
             return None
         room -= valuation * place.degree
     return Numbers(Fraction(room), tuple(roots))
+
+
+def _square_with_parameters(place: Place) -> Poly | None:
+    """The square of the exponent difference at a regular point, where it isn't a number."""
+    square = place.delta_squared
+    if place.kind is not Kind.REGULAR or square is None:
+        return None
+    if square.field.rational_value(square) is not None:
+        return None
+    return square
 
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
@@ -217,7 +240,9 @@ def choices(problem: Problem) -> list[Exponents] | None:
 def local_parts(problem: Problem) -> list[list[LocalPart]] | None:
     """One or two at each singular point, over one field; None as in `choices_of_degree`."""
     places = _places(problem)
-    return None if places is None else places.parts
+    if places is None:
+        return None
+    return places.parts
 
 
 def is_too_large(field: Field) -> bool:
@@ -345,7 +370,9 @@ def form_images(problem: Problem, m: int) -> list[Poly] | None:
 def form_conditions(problem: Problem, m: int) -> RankConditions:
     """Where there are more rational forms of degree m than generically."""
     images = form_images(problem, m)
-    return RankConditions() if images is None else rank_conditions(images, problem.field)
+    if images is None:
+        return RankConditions()
+    return rank_conditions(images, problem.field)
 
 
 def has_form(problem: Problem, m: int) -> bool:

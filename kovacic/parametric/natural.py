@@ -190,7 +190,9 @@ class Natural(Statement):
         if problem.field.ground == QQ:  # no parameter is left
             return [RankConditions(deficient=_has_solution(problem.S, number))]
         found = with_degree(problem, number)
-        return [RankConditions(system=None)] if found is None else [conditions for _, conditions in found]
+        if found is None:
+            return [RankConditions(system=None)]
+        return [conditions for _, conditions in found]
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
@@ -208,27 +210,36 @@ class Natural(Statement):
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
-        found: dict[str, dict[str, None]] = {}
-        for determinant in self.determinants(number):
-            where = equation_written(determinant.exponents)
-            found.setdefault(where, {})[str(determinant)] = None
-        places: dict[str, list[str]] = {}
-        for where, texts in found.items():
-            places.setdefault(" or ".join(texts), []).append(where)
-        values = [*places]
-        if len(places) > 1:
-            values = [f"{value} where {' or '.join(wheres)}" for value, wheres in places.items()]
-        text = ", ".join(values)
+        values = self._values_of_determinants(number)
+        texts = [*values]
+        if len(values) > 1:
+            texts = [f"{value} where {' or '.join(wheres)}" for value, wheres in values.items()]
+        text = ", ".join(texts)
         if len(text) > _WRITTEN_OUT:
             text = f"{text[:_WRITTEN_OUT]}..."
         return f"Delta_{number} = {text}"
 
+    def _values_of_determinants(self, number: int) -> dict[str, list[str]]:
+        """What Delta is, each with the equations for the exponents where it is that."""
+        at_exponents: dict[str, dict[str, None]] = {}
+        for determinant in self.determinants(number):
+            where = equation_written(determinant.exponents)
+            at_exponents.setdefault(where, {})[str(determinant)] = None
+        values: dict[str, list[str]] = {}
+        for where, texts in at_exponents.items():
+            values.setdefault(" or ".join(texts), []).append(where)
+        return values
+
     def sample(self, random: Random) -> list[FunctionPoly]:
-        factor = random.choice(self.factors) if self.factors else None
-        if factor is None or not any(degrees(factor)):
+        if not self.factors:
+            return []
+        factor = random.choice(self.factors)
+        if not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
-        found = self._that_can_vanish(number) if self.m == 1 else []
+        found: list[Determinant] = []
+        if self.m == 1:
+            found = self._that_can_vanish(number)
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
@@ -241,7 +252,9 @@ class Natural(Statement):
         return [determinant for determinant in self.determinants(number) if determinant.factors or determinant.system]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
-        return False if self._possible(assumptions) == () else None
+        if self._possible(assumptions) == ():
+            return False
+        return None
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         return replace(self, factors=self._possible(assumptions))
@@ -257,8 +270,10 @@ class Natural(Statement):
         factors = self.factors
         if factors is not None and not any(any(degrees(factor)) for factor in factors):
             return self._with_these_numbers([-f[0] / f[1] for f in factors])
-        what = "" if self.m == 1 else f" for an invariant of degree {self.m}"
-        return f"{self._numbers_written()}, `{self.letter} in N`, and `Delta_{self.letter} = 0`{what}"
+        text = f"{self._numbers_written()}, `{self.letter} in N`, and `Delta_{self.letter} = 0`"
+        if self.m == 1:
+            return text
+        return f"{text} for an invariant of degree {self.m}"
 
     def _with_these_numbers(self, zeros: Sequence[Poly]) -> str:
         """That P, or an invariant, with so many zeros exists, where there are no parameters in the equations."""
@@ -285,10 +300,10 @@ class Natural(Statement):
     def _by_exponents(self) -> str | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
         problem = analyse(self.S, Budget())
-        numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
+        numbers = self._allowed(problem)
         if numbers is None:
             return None
-        roots = [_in_parentheses(root_written(square)) for square, _ in numbers.roots]
+        roots = [_in_parentheses(root_written(root.square)) for root in numbers.roots]
         distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         if numbers.only_signs:
             return f"`{written(distance, self.letter)} = +-{' +- '.join(roots)}`"
@@ -298,16 +313,27 @@ class Natural(Statement):
             solved = self._solved_for_a_parameter(numbers, letters[0], has_zero=has_constant)
             if solved is not None:
                 return solved
-        terms = [str(numbers.constant)]
-        bounds = []
-        for k, root, (_, largest) in zip(letters, roots, numbers.roots, strict=True):
-            # a factor comes first: 2*k*sqrt(a) for k*2*sqrt(a)
-            terms.append(re.sub(r"^(\w+)\*(\d+)\*", r"\2*\1*", f"{k}*{root}"))
-            bounds.append(f"`{k}` from -{largest} to {largest}")
-        said = f"`{self.letter} = {' + '.join(terms)}` for integers {', '.join(bounds)}"
+        said = self._as_sum(numbers, roots, letters)
         if has_constant:
             return said
-        return f"{said}, not 0" if len(letters) == 1 else f"{said}, not all 0"
+        which = "0" if len(letters) == 1 else "all 0"
+        return f"{said}, not {which}"
+
+    def _allowed(self, problem: Problem) -> Numbers | None:
+        """What the exponents allow as degrees of P, or as numbers of zeros of an invariant."""
+        if self.m == 1:
+            return degrees_of_solutions(problem)
+        return zeros_of_forms(problem, self.m)
+
+    def _as_sum(self, numbers: Numbers, roots: Sequence[str], letters: Sequence[str]) -> str:
+        """The number as a constant plus integers times roots, with the bounds of the integers."""
+        terms = [str(numbers.constant)]
+        bounds = []
+        for k, root, exponent in zip(letters, roots, numbers.roots, strict=True):
+            # a factor comes first: 2*k*sqrt(a) for k*2*sqrt(a)
+            terms.append(re.sub(r"^(\w+)\*(\d+)\*", r"\2*\1*", f"{k}*{root}"))
+            bounds.append(f"`{k}` from -{exponent.largest} to {exponent.largest}")
+        return f"`{self.letter} = {' + '.join(terms)}` for integers {', '.join(bounds)}"
 
     def _letters_beside(self, names: Sequence[str], count: int) -> list[str]:
         """So many names of integers that are neither parameters nor d."""
@@ -321,10 +347,10 @@ class Natural(Statement):
 
         None where there is none.  `has_zero`: j can be 0.
         """
-        ((root_square, largest),) = numbers.roots
-        names = parameters_of(root_square.field)
+        (root,) = numbers.roots
+        names = parameters_of(root.square.field)
         field = FunctionField((*names, j))
-        square = over_parameters(root_square).value_at([field.generator(name) for name in names], field)
+        square = over_parameters(root.square).value_at([field.generator(name) for name in names], field)
         d = field.poly([0, 1])
         equation = over_parameters((d - numbers.constant) ** 2 - field.generator(j) ** 2 * square)
         solved = families(equation, (*self.fixed, j))
@@ -334,7 +360,7 @@ class Natural(Statement):
         if _has_others(f.num, j) or _has_others(f.den, j):
             return None  # where numerator and denominator vanish for some parameters, more would have to be said
         least = 0 if has_zero else 1
-        return f"{Notation(self.letter).equals(name, f)} for an integer `{j}` from {least} to {largest}"
+        return f"{Notation(self.letter).equals(name, f)} for an integer `{j}` from {least} to {root.largest}"
 
 
 class _Given(NamedTuple):
@@ -354,7 +380,9 @@ def _has_others(part: Poly, j: str) -> bool:
 def _in_parentheses(text: str) -> str:
     """A sum in parentheses, where it isn't within some."""
     outside = re.sub(r"[({][^()]*[)}]", "", text)
-    return f"({text})" if re.search(r" [+-] ", outside) else text
+    if re.search(r" [+-] ", outside):
+        return f"({text})"
+    return text
 
 
 def _has_no_natural_root(factor: FunctionPoly, assumptions: Assumptions) -> bool:

@@ -49,22 +49,32 @@ from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, bo
 _F = Fraction
 #: The largest denominator in Schwarz's table.
 LARGEST = 5
-#: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
-_SCHWARZ: dict[int, tuple[Structure, tuple[Fraction, Fraction, Fraction], bool]] = {
-    2: (Structure.TETRAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 3)), False),
-    3: (Structure.TETRAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 3)), True),
-    4: (Structure.OCTAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 4)), False),
-    5: (Structure.OCTAHEDRAL, (_F(2, 3), _F(1, 4), _F(1, 4)), True),
-    6: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 5)), False),
-    7: (Structure.ICOSAHEDRAL, (_F(2, 5), _F(1, 3), _F(1, 3)), True),
-    8: (Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 5), _F(1, 5)), True),
-    9: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 5)), True),
-    10: (Structure.ICOSAHEDRAL, (_F(3, 5), _F(1, 3), _F(1, 5)), True),
-    11: (Structure.ICOSAHEDRAL, (_F(2, 5), _F(2, 5), _F(2, 5)), True),
-    12: (Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 5)), True),
-    13: (Structure.ICOSAHEDRAL, (_F(4, 5), _F(1, 5), _F(1, 5)), True),
-    14: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 3)), True),
-    15: (Structure.ICOSAHEDRAL, (_F(3, 5), _F(2, 5), _F(1, 3)), True),
+
+
+class _SchwarzRow(NamedTuple):
+    """The structure, the exponent differences modulo 1, and whether the sum of their integer parts must be even."""
+
+    structure: Structure
+    differences: tuple[Fraction, Fraction, Fraction]
+    is_even: bool
+
+
+#: Schwarz's rows, by their numbers.
+_SCHWARZ = {
+    2: _SchwarzRow(Structure.TETRAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 3)), False),
+    3: _SchwarzRow(Structure.TETRAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 3)), True),
+    4: _SchwarzRow(Structure.OCTAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 4)), False),
+    5: _SchwarzRow(Structure.OCTAHEDRAL, (_F(2, 3), _F(1, 4), _F(1, 4)), True),
+    6: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 5)), False),
+    7: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 5), _F(1, 3), _F(1, 3)), True),
+    8: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 5), _F(1, 5)), True),
+    9: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 5)), True),
+    10: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(3, 5), _F(1, 3), _F(1, 5)), True),
+    11: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 5), _F(2, 5), _F(2, 5)), True),
+    12: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 5)), True),
+    13: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(4, 5), _F(1, 5), _F(1, 5)), True),
+    14: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 3)), True),
+    15: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(3, 5), _F(2, 5), _F(1, 3)), True),
 }
 
 
@@ -101,12 +111,12 @@ def _is_reducible(differences: Sequence[Fraction | None]) -> bool:
 def _table() -> dict[tuple[int, ...], Structure]:
     """Schwarz's rows, for the exponent differences modulo 2 in sixtieths, sorted."""
     table: dict[tuple[int, ...], Structure] = {}
-    for structure, row, parity in _SCHWARZ.values():
-        for whole in product((0, 1), repeat=3):
-            if parity and sum(whole) % 2:
+    for row in _SCHWARZ.values():
+        for integers in product((0, 1), repeat=3):
+            if row.is_even and sum(integers) % 2:
                 continue
-            values = [r + q for r, q in zip(row, whole, strict=True)]
-            table.update(dict.fromkeys(_keys_with_signs(values), structure))
+            values = [r + q for r, q in zip(row.differences, integers, strict=True)]
+            table.update(dict.fromkeys(_keys_with_signs(values), row.structure))
     return table
 
 
@@ -164,14 +174,18 @@ class Schwarz(Statement):
         names = differences(self.cubic)
         if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
             return _two_half_integers(names)
-        rows = [number for number, row in _SCHWARZ.items() if row[0] in self.structures]
-        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
+        rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
+        which = "row 1 (two half-integers)"
+        if rows:
+            which = f"rows {rows[0]}-{rows[-1]}"
         return f"the exponent differences {_listed(names)} are in Schwarz's {which}"
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
         for difference in map(_root, roots(self.cubic)):
-            known = None if difference is None else values_at_integers(difference, LARGEST)
+            if difference is None:
+                continue
+            known = values_at_integers(difference, LARGEST)
             if known is not None and assumptions.is_integer(known.name):
                 return self._at_values(known.name, known.values, assumptions)
         return self
@@ -192,37 +206,46 @@ class Schwarz(Statement):
         """The same for fewer parameters, said in all of them."""
         cubic = surface.at(self.cubic)
         if not isinstance(cubic, FunctionPoly):
-            differences = [*map(rational_square_root, roots(cubic))]
-            return ALWAYS if kimura(differences) in self.structures else NEVER
+            return self._at_numbers(cubic)
         single = _one_function(cubic)
         if single is None:
             return over_all(Schwarz(cubic, self.structures), self.cubic.field)
         return over_all(either(*(_classes(single, structure) for structure in self.structures)), self.cubic.field)
 
-    def resolved(self) -> tuple[list[str], list[tuple[Structure, list[str]]]]:
+    def _at_numbers(self, cubic: Poly) -> Statement:
+        """The same where no parameter is left."""
+        differences = [*map(rational_square_root, roots(cubic))]
+        if kimura(differences) in self.structures:
+            return ALWAYS
+        return NEVER
+
+    def resolved(self) -> ResolvedDifferences:
         """The classes modulo 1 or 2, up to signs, of two differences beside a constant one, with their names.
 
         Else no names, and the rows of Schwarz's table.
         """
         constants = _split(self.cubic).constants
         names = _without_numbers(differences(self.cubic))
-        if len(constants) != 1 or constants[0] is None or len(names) != 2:
-            return [], self._rows_of_the_table()
+        is_pair_beside_one = len(constants) == 1 and len(names) == 2
+        if not is_pair_beside_one or constants[0] is None:
+            return ResolvedDifferences([], self._rows_of_the_table())
         found = self._pairs_beside(constants[0])
         lattice = "2*Z"
         if _is_symmetric(found):
             lattice = "Z"
             found = [pair for pair in found if max(pair.u, pair.v) <= 30]
         found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
-        return names, [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
+        rows = [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
+        return ResolvedDifferences(names, rows)
 
     def _rows_of_the_table(self) -> list[tuple[Structure, list[str]]]:
         """The differences modulo 1, and whether the sum of the integers must be even."""
         found = []
-        for structure, row, is_even in _SCHWARZ.values():
-            if structure in self.structures:
-                parity = "even" if is_even else "any"
-                found.append((structure, [f"`{', '.join(map(str, row))}`", parity]))
+        for row in _SCHWARZ.values():
+            if row.structure in self.structures:
+                residues = ", ".join(map(str, row.differences))
+                parity = "even" if row.is_even else "any"
+                found.append((row.structure, [f"`{residues}`", parity]))
         return found
 
     def _pairs_beside(self, third: Fraction) -> list[_DifferencePair]:
@@ -238,6 +261,13 @@ class Schwarz(Statement):
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
             return Schwarz(self.cubic, (*self.structures, *other.structures))
         return None
+
+
+class ResolvedDifferences(NamedTuple):
+    """The names of exponent differences, and what they are for each structure; without names, rows of Schwarz's table."""
+
+    names: list[str]
+    rows: list[tuple[Structure, list[str]]]
 
 
 def _class(sixtieths: int, lattice: str) -> str:
@@ -377,19 +407,24 @@ def _rational(names: Iterable[str]) -> str:
 
 def _imprimitive_group(split: _Split) -> str:
     """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
-    halves: list[Fraction | None] = []
-    others: list[Fraction | None] = []
-    for difference in split.constants:
-        if difference is not None and difference.denominator == 2:
-            halves.append(difference)
-        else:
-            others.append(difference)
-    beside = [*others, *halves[2:]]
+    beside = _beside_two_half_integers(split.constants)
     if len(split.constants) >= 2 and beside:
         return "the infinite dihedral group" if beside[0] is None else "dicyclic"
     if len(split.constants) == 2 and split.variable is not None:
         return f"dicyclic where `{root_written(split.variable)}` is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
+
+
+def _beside_two_half_integers(constants: Sequence[Fraction | None]) -> list[Fraction | None]:
+    """The differences without two half-integers, those that aren't half-integers first."""
+    halves: list[Fraction | None] = []
+    others: list[Fraction | None] = []
+    for difference in constants:
+        if difference is not None and difference.denominator == 2:
+            halves.append(difference)
+        else:
+            others.append(difference)
+    return [*others, *halves[2:]]
 
 
 def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
@@ -503,20 +538,21 @@ class _OneFunction:
     def structure(self, w: Fraction) -> Structure | None:
         """By Kimura's theorem, with this value of the function."""
         differences = [line.at(w) for line in self.lines if line is not None]
-        return Structure.REDUCIBLE if _is_reducible(differences) else kimura(differences)
+        if _is_reducible(differences):
+            return Structure.REDUCIBLE
+        return kimura(differences)
 
 
 def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     """The exponent differences by one function of the parameters, where they are."""
-    field = cubic.field
     squares = roots(cubic)
-    free = [over_parameters(square) for square in squares if field.rational_value(square) is None]
+    free = [over_parameters(square) for square in squares if not _is_number(square)]
     if not free or len(squares) < 3:
         return None
     root = _root(free[0])
     lines: list[_DifferenceLine | None] = []
     for square in squares:
-        if field.rational_value(square) is not None:
+        if _is_number(square):
             lines.append(_constant_line(square))
             continue
         line = _line(square, free[0], root)
@@ -526,23 +562,34 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     return _OneFunction(free[0], root, tuple(lines))
 
 
+def _is_number(value: Poly) -> bool:
+    """Is it a rational number, whatever the parameters are?"""
+    return value.field.rational_value(value) is not None
+
+
 def _root(square: Poly) -> FunctionPoly | None:
     """The square root, where it is a rational function of the parameters."""
     root = square.field.sqrt(square)
-    return None if root is None else over_parameters(root)
+    if root is None:
+        return None
+    return over_parameters(root)
 
 
 def _constant_line(square: Poly) -> _DifferenceLine | None:
     """The root of a number; None where it is irrational."""
     constant = rational_square_root(square)
-    return None if constant is None else _DifferenceLine(_F(0), constant)
+    if constant is None:
+        return None
+    return _DifferenceLine(_F(0), constant)
 
 
 def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
     """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
     if root is None:
         ratio = rational_square_root(square / first)
-        return None if ratio is None else _DifferenceLine(ratio, _F(0))
+        if ratio is None:
+            return None
+        return _DifferenceLine(ratio, _F(0))
     own = _root(square)
     if own is None:
         return None
@@ -558,12 +605,21 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
     """Where w gives the exponent differences this structure, and the equation isn't reducible."""
     lines = {line for line in single.lines if line is not None and line.slope}
     period = reduce(common_multiple, (2 / abs(line.slope) for line in lines))
-    found = set().union(*(_numbers_in_table(line, period) for line in lines))
-    admitted = [w for w in sorted(found) if single.structure(w) is structure]
+    admitted = _admitted(single, lines, period, structure)
     if admitted and single.root is not None:
         equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
         return Congruence.make(equation, admitted, period)
     return _classes_up_to_sign(single.square, admitted, period)
+
+
+def _admitted(
+    single: _OneFunction, lines: Iterable[_DifferenceLine], period: Fraction, structure: Structure
+) -> list[Fraction]:
+    """The w modulo the period with this structure: of those at which a line has a denominator of the table."""
+    found: set[Fraction] = set()
+    for line in lines:
+        found |= _numbers_in_table(line, period)
+    return [w for w in sorted(found) if single.structure(w) is structure]
 
 
 def _classes_up_to_sign(square: FunctionPoly, admitted: Sequence[Fraction], period: Fraction) -> Statement:

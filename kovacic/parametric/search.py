@@ -31,7 +31,7 @@ from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, both
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
@@ -223,11 +223,14 @@ def _obstruction(place: Place) -> Poly | None:
 
 def _small_integer_difference(place: Place) -> int | None:
     """The exponent difference at a rational pole of order 2, where it is an integer from 1 to `_SERIES`."""
-    delta = place.delta
-    if place.order != 2 or place.degree > 1 or delta is None:
+    if place.order != 2 or place.degree > 1:
         return None
-    is_small = delta.denominator == 1 and 0 < delta <= _SERIES
-    return delta.numerator if is_small else None
+    delta = place.delta
+    if delta is None or delta.denominator > 1:
+        return None
+    if not 0 < delta <= _SERIES:
+        return None
+    return delta.numerator
 
 
 def _laurent_coefficients(place: Place, last: int) -> list[Poly]:
@@ -301,7 +304,7 @@ def degree_equation(problem: Problem) -> Poly | None:
     numbers = degrees_of_solutions(problem)
     if numbers is None:
         return None
-    return _signed_sums([square for square, _ in numbers.roots], numbers.constant, problem.field)
+    return _signed_sums([root.square for root in numbers.roots], numbers.constant, problem.field)
 
 
 def _is_ramified(problem: Problem) -> bool:
@@ -338,7 +341,9 @@ def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
 
 def _number_root(factor: Poly) -> Fraction | None:
     """The root of a polynomial over Q(t) of degree 1, where it is a number."""
-    return factor.field.rational_value(-factor[0]) if factor.degree == 1 else None
+    if factor.degree != 1:
+        return None
+    return factor.field.rational_value(-factor[0])
 
 
 def all_half_integers(problem: Problem) -> Statement:
@@ -350,16 +355,14 @@ def all_half_integers(problem: Problem) -> Statement:
     """
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
-    found: list[Statement] = []
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY:
-            continue
+    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    found: dict[Statement, None] = {}
+    for place in singular:
         statement = _half_integer_difference(place)
         if statement == NEVER:
             return NEVER
-        if statement != ALWAYS and statement not in found:
-            found.append(statement)
-    return found[0] if len(found) == 1 else both(*found)
+        found[statement] = None
+    return all_of([statement for statement in found if statement != ALWAYS])
 
 
 def _half_integer_difference(place: Place) -> Statement:
@@ -392,12 +395,16 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
 def _center_of_symmetry(problem: Problem) -> Poly | None:
     """c with S(2c - x) = S(x), the mean of the poles, or of the zeros of a polynomial; None where there is none."""
     S = problem.S
-    points = S.den if S.den.degree else S.num
+    points = S.den
+    if points.degree == 0:
+        points = S.num
     if points.degree < 1:
         return None
     center = -points[points.degree - 1] / (points.lc * points.degree)
     mirrored = S(2 * center - problem.field.poly([0, 1]))
-    return center if mirrored == S else None
+    if mirrored != S:
+        return None
+    return center
 
 
 def _is_fixed(place: Place, center: Poly) -> bool:
@@ -416,13 +423,13 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
     numbers = zeros_of_forms(problem, m)
     if numbers is None:
         return ()
-    largest = [largest for _, largest in numbers.roots]
-    if prod(k + 1 for k in largest) > _COMBINATIONS:
+    choices = [range(root.largest + 1) for root in numbers.roots]
+    if prod(map(len, choices)) > _COMBINATIONS:
         return None
     factors: list[FunctionPoly] = []
     if not complete:
         factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
-    for multiples in product(*(range(k + 1) for k in largest)):
+    for multiples in product(*choices):
         if any(multiples):
             factors += _numbers_of_zeros(multiples, numbers, problem.field)
     return tuple(dict.fromkeys(factors))
@@ -435,7 +442,7 @@ def _has_conjugate_exponents(problem: Problem) -> bool:
 
 def _numbers_of_zeros(multiples: Sequence[int], numbers: Numbers, field: Field) -> list[FunctionPoly]:
     """Equations for the constant + the sums of +- k times the roots."""
-    chosen = [k * k * square for k, (square, _) in zip(multiples, numbers.roots, strict=True) if k]
+    chosen = [k * k * root.square for k, root in zip(multiples, numbers.roots, strict=True) if k]
     sums = _signed_sums(chosen, numbers.constant, field)
     return [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
 

@@ -122,16 +122,13 @@ class _Several(Statement):
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
-        left = []
-        for part in self.parts:
-            narrower = part.narrowed(assumptions)
-            if narrower.decided(assumptions) is not (not self.decisive):
-                left.append(narrower)
+        narrower = [part.narrowed(assumptions) for part in self.parts]
+        left = [part for part in narrower if part.decided(assumptions) is not (not self.decisive)]
         if not left:
             return self
         if self.decisive:
             return either(*left)
-        return both(*left) if len(left) > 1 else left[0]
+        return all_of(left)
 
 
 class Either(_Several):
@@ -190,36 +187,49 @@ def _with_common_start(parts: Sequence[str]) -> str | None:
     return f"{heads.pop()} with {' or '.join(end for _, _, end in split)}"
 
 
+@dataclass(frozen=True)
+class _FormulasOfOneKind:
+    """Several formulas of which the same is said."""
+
+    formulas: list[str]
+    kind: str
+
+
 def _one_of(parts: Sequence[str]) -> str | None:
     """That one of several formulas is an integer of some kind; None where another thing is said of one of them."""
     known = _of_one_kind(parts, "` is ")
     if known is not None:
-        formulas, kind = known
-        return f"{_listed(formulas)} is {kind}"
+        return f"{_listed(known.formulas)} is {known.kind}"
     known = _of_one_kind(parts, " in Z`")
     if known is not None and len(parts) > 2:
-        return f"{_listed(known[0])} is an integer"
+        return f"{_listed(known.formulas)} is an integer"
     return None
 
 
-def _of_one_kind(parts: Sequence[str], separator: str) -> tuple[list[str], str] | None:
+def _of_one_kind(parts: Sequence[str], separator: str) -> _FormulasOfOneKind | None:
     """The formulas before the separator, and what follows it; None where that differs, or other formulas stand there."""
-    split = [part.partition(separator) for part in parts]
-    kinds = {kind for _, _, kind in split}
-    if len(kinds) != 1 or not all(found for _, found, _ in split):
+    formulas: list[str] = []
+    kinds: set[str] = set()
+    for part in parts:
+        formula, found, kind = part.partition(separator)
+        has_others = "`" in formula[1:]
+        if not found or has_others:
+            return None
+        formulas.append(formula)
+        kinds.add(kind)
+    if len(kinds) != 1:
         return None
-    formulas = [formula for formula, _, _ in split]
-    if any("`" in formula[1:] for formula in formulas):
-        return None
-    return formulas, kinds.pop()
+    return _FormulasOfOneKind(formulas, kinds.pop())
 
 
 def _listed(formulas: Sequence[str]) -> str:
     """One of `a`, `b` or `c`."""
     *first, last = (formula.strip("`") for formula in formulas)
     listed = ", ".join(f"`{formula}`" for formula in first)
-    one_of = "one of " if len(first) > 1 else ""
-    return f"{one_of}{listed} or `{last}`"
+    text = f"{listed} or `{last}`"
+    if len(first) > 1:
+        return f"one of {text}"
+    return text
 
 
 class Both(_Several):
@@ -231,7 +241,9 @@ class Both(_Several):
         if not isinstance(other, Both) or other.parts[:-1] != self.parts[:-1]:
             return None
         last = self.parts[-1].merged(other.parts[-1])
-        return None if last is None else replace(self, parts=(*self.parts[:-1], last))
+        if last is None:
+            return None
+        return replace(self, parts=(*self.parts[:-1], last))
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         return list(chain.from_iterable(part.sample(random) for part in self.parts))
@@ -245,8 +257,9 @@ class Both(_Several):
 
 def _in_conjunction(part: Statement) -> str:
     """Alternatives are in parentheses, unless they are those of one value."""
-    needs_parentheses = isinstance(part, Either) and not part.is_about_one_value
-    return f"({part.written})" if needs_parentheses else part.written
+    if isinstance(part, Either) and not part.is_about_one_value:
+        return f"({part.written})"
+    return part.written
 
 
 def both(*statements: Statement) -> Both:
@@ -260,6 +273,13 @@ def both(*statements: Statement) -> Both:
     return Both(tuple(parts))
 
 
+def all_of(statements: Sequence[Statement]) -> Statement:
+    """That all of them hold: the only one itself, if there is one."""
+    if len(statements) == 1:
+        return statements[0]
+    return both(*statements)
+
+
 #: What is true everywhere, and nowhere.
 ALWAYS = Both(())
 NEVER = Either(())
@@ -271,12 +291,16 @@ def either(*statements: Statement) -> Statement:
     for one in statements:
         for part in alternatives_of(one):
             _add(part, merged)
-    return merged[0] if len(merged) == 1 else Either(tuple(merged))
+    if len(merged) == 1:
+        return merged[0]
+    return Either(tuple(merged))
 
 
 def alternatives_of(statement: Statement) -> tuple[Statement, ...]:
     """The statements of which one has to hold: the parts of an `Either`, or a statement itself."""
-    return statement.parts if isinstance(statement, Either) else (statement,)
+    if isinstance(statement, Either):
+        return statement.parts
+    return (statement,)
 
 
 def _add(statement: Statement, alternatives: list[Statement]) -> None:
