@@ -16,7 +16,7 @@ Keys may be added within schema 1; none is removed or changes its meaning.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -238,27 +238,17 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
 def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     """What is claimed of S, with its proof; nothing is verified."""
     proof = data["proof"]
-    semi_invariant = proof["semi_invariant"]
-    has_omega = data["riccati"] is not None
-    has_constants = data["constants"] is not None
-    if has_omega != (semi_invariant is not None) or (has_constants and not has_omega):
-        raise ValueError("omega needs its polynomial and the semi-invariant")
+    _check_parts_of_omega(data)
     rational = _Reader.over(S.field, variable)
     reader = rational.extended(data["constants"])
-    form = None
-    riccati = None
-    structure = None
-    invariant = None
-    if has_omega:
-        form = reader.semi_invariant(semi_invariant)
-    if proof["structure"] is not None:
-        structure = Structure(proof["structure"])
+    form = _unless_none(proof["semi_invariant"], reader.semi_invariant)
+    structure = _unless_none(proof["structure"], Structure)
     names = Formulas(variable, S.field)
     exclusions = tuple(_read_exclusion(entry, names) for entry in proof["excluded"])
-    if proof["invariant"] is not None:
-        invariant = rational.semi_invariant(proof["invariant"])
+    invariant = _unless_none(proof["invariant"], rational.semi_invariant)
+    riccati = None
     if form is not None:
-        riccati = _riccati(form.P, reader.poly(semi_invariant["D"]), data["riccati"], reader)
+        riccati = _riccati(form.P, reader.poly(proof["semi_invariant"]["D"]), data["riccati"], reader)
     undecided = _typed(proof, "undecided", str, type(None))
     decision = Decision(
         structure=structure,
@@ -271,6 +261,20 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
     return decision
+
+
+def _check_parts_of_omega(data: Mapping[str, Any]) -> None:
+    """Raises `ValueError` unless there are both its polynomial and the semi-invariant, or neither and no constants."""
+    has_omega = data["riccati"] is not None
+    has_form = data["proof"]["semi_invariant"] is not None
+    has_constants = data["constants"] is not None
+    if has_omega != has_form or (has_constants and not has_omega):
+        raise ValueError("omega needs its polynomial and the semi-invariant")
+
+
+def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
+    """What is read from a value; None for None."""
+    return None if value is None else read(value)
 
 
 #: What is read by its value; what isn't looked at, or elsewhere; and what may be absent.

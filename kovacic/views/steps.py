@@ -123,23 +123,25 @@ class Steps:
         degree = 12 if answer.riccati is None else answer.riccati.degree
         for m in (1, 2, 4, 6, 12):
             case = min(m, 3)
-            if m > degree or not _allowed(case, self.places):
-                continue
-            which = f"Case 3, n = {m}" if case == 3 else f"Case {case}"
-            yield Heading(f"{which}: Kovacic's steps")
-            found = search(self.problem, answer.variable, m)
-            if found is None:
-                domain = "exponents that are square roots, constants of low degree, and poles of low order"
-                yield say(f"The steps are written out for {domain} only.")
-                continue
-            yield self._sets(found, case)
-            yield self._counted(found, case)
-            if found.families is None:
-                they = "They are too many to be listed; the engine finds omega, or proves that there is none"
-                yield say(f"{they}, without them.")
-                continue
-            yield from self._families(found, found.families)
-            yield from self._trials(found, found.families, case)
+            if m <= degree and _allowed(case, self.places):
+                which = f"Case 3, n = {m}" if case == 3 else f"Case {case}"
+                yield Heading(f"{which}: Kovacic's steps")
+                yield from self._steps(search(self.problem, answer.variable, m), case)
+
+    def _steps(self, found: Search | None, case: int) -> Iterator[Block]:
+        """Steps 1 to 3 of one case, as far as they can be written out."""
+        if found is None:
+            domain = "exponents that are square roots, constants of low degree, and poles of low order"
+            yield say(f"The steps are written out for {domain} only.")
+            return
+        yield self._sets(found, case)
+        yield self._counted(found, case)
+        if found.families is None:
+            they = "They are too many to be listed; the engine finds omega, or proves that there is none"
+            yield say(f"{they}, without them.")
+            return
+        yield from self._families(found, found.families)
+        yield from self._trials(found, found.families, case)
 
     def _sets(self, search: Search, case: int) -> Table:
         """Step 1."""
@@ -232,13 +234,18 @@ class Steps:
         elif impossible is not None:
             yield say(f"d = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0.")
         elif conditions:
-            text = ", ".join(f"{c.text} = 0" for c in conditions)
-            latex = r",\; ".join(f"{c.latex} = 0" for c in conditions)
             noun = "coefficients" if d > 1 else "coefficient"
             names = f"{noun} {', '.join(map(str, family.unknowns))}"
-            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", Math(text, latex), ".")
+            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", _all_zero(conditions), ".")
         else:
             yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
+
+
+def _all_zero(values: Sequence[Math]) -> Math:
+    """That each of them is 0."""
+    text = ", ".join(f"{value.text} = 0" for value in values)
+    latex = r",\; ".join(f"{value.latex} = 0" for value in values)
+    return Math(text, latex)
 
 
 def _allowed(case: int, places: Sequence[Place]) -> bool:

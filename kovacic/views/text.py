@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from kovacic import derived
 from kovacic.answer import Answer
@@ -84,10 +84,7 @@ def render(
         yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
     yield from _indented(_exclusions(answer))
     yield from _indented(_for_generic_parameters(answer))
-    if answer.verified:
-        yield f"  {style('verified', 'good')}: {_how_verified(answer)}"
-    elif answer.status is not Status.UNDECIDED:
-        yield f"  {style('not verified', 'bad')}"
+    yield from _indented(_check_of(answer, style))
 
 
 def _indented(lines: Iterable[str]) -> Iterator[str]:
@@ -105,6 +102,14 @@ def _for_generic_parameters(answer: Answer) -> Iterator[str]:
 
         yield f"for generic parameters: {generic_conditions(answer)}"
         yield "(kovacic conditions tells for which values more is solvable)"
+
+
+def _check_of(answer: Answer, style: Style) -> Iterator[str]:
+    """Whether the answer passed its check; of an undecided one there may be nothing to check."""
+    if answer.verified:
+        yield f"{style('verified', 'good')}: {_how_verified(answer)}"
+    elif answer.status is not Status.UNDECIDED:
+        yield style("not verified", "bad")
 
 
 def _how_verified(answer: Answer) -> str:
@@ -141,12 +146,22 @@ def solution_lines(answer: Answer) -> Iterator[str]:
         yield f"the solutions aren't written out here: polynomials of degree {semi.P.degree} (--json --full has them)"
         return
     try:
-        pair, notes = _written(answer)
+        found = _written(answer)
     except LimitExceeded as limit:
         yield f"the solutions weren't written out: {limit}"
         return
+    yield from _named(answer, found.solutions)
+    shorter = shorter_pair(answer, max(map(len, found.solutions), default=0))
+    if shorter:
+        yield SHORTER
+        yield from _indented(name.equals(value).text for name, value in shorter)
+    yield from (f"note: {note}" for note in found.notes)
+
+
+def _named(answer: Answer, solutions: Iterable[str]) -> Iterator[str]:
+    """`y1 = ...`, line by line; where none is Liouvillian, under a title, or which functions were looked for in vain."""
     y = unknown_of(answer)
-    named = [f"{y}{k} = {shortened(text)}" for k, text in enumerate(pair, start=1)]
+    named = [f"{y}{k} = {shortened(text)}" for k, text in enumerate(solutions, start=1)]
     if answer.case is not None:
         yield from named
     elif named:
@@ -154,17 +169,29 @@ def solution_lines(answer: Answer) -> Iterator[str]:
         yield from _indented(named)
     else:
         yield str(derived.special(answer))
-    shorter = shorter_pair(answer, max(map(len, pair), default=0))
-    if shorter:
-        yield SHORTER
-        yield from _indented(name.equals(value).text for name, value in shorter)
-    yield from (f"note: {note}" for note in notes)
 
 
-def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Two solutions, and notes."""
+class _WrittenPair(NamedTuple):
+    """Two solutions as text (none, where none are known), and notes on them."""
+
+    solutions: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+
+def _written(answer: Answer) -> _WrittenPair:
+    """The closed forms, without SymPy where that is possible; or the pair in special functions."""
     if answer.case is None:
-        return tuple(caret(as_text(y)) for y in derived.special(answer)), ()
+        return _WrittenPair(tuple(caret(as_text(y)) for y in derived.special(answer)))
+    found = _without_sympy(answer)
+    if found is not None:
+        return found
+    form = derived.closed_form(answer)
+    assert form is not None
+    return _WrittenPair(tuple(caret(as_text(y)) for y in form), form.notes)
+
+
+def _without_sympy(answer: Answer) -> _WrittenPair | None:
+    """Products of powers and exponentials, checked; None for other solutions."""
     from kovacic.closed_form.check import is_exact_solution
     from kovacic.closed_form.primitive import OpenPrimitive
     from kovacic.closed_form.structure import Triangular, build
@@ -175,13 +202,11 @@ def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
         pair = None if answer.change else written(structure, answer.variable)
         if pair is not None and not is_exact_solution(structure, answer.S, answer.gauge):
             raise VerificationFailed(f"a closed form for S = {answer.S} failed its check; please report the equation")
-    if pair is not None:
-        if isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive):
-            return pair, (f"integral left because {structure.primitive.reason}",)
-        return pair, ()
-    form = derived.closed_form(answer)
-    assert form is not None
-    return tuple(caret(as_text(y)) for y in form), form.notes
+    if pair is None:
+        return None
+    if isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive):
+        return _WrittenPair(pair, (f"integral left because {structure.primitive.reason}",))
+    return _WrittenPair(pair)
 
 
 def _exclusions(answer: Answer) -> list[str]:
@@ -199,9 +224,13 @@ def _exclusions(answer: Answer) -> list[str]:
 
 
 def _as_text(sentence: Iterable[str | Math]) -> str:
+    """With the formulas as text."""
     found = ""
     for part in sentence:
-        found += part.text if isinstance(part, Math) else part
+        if isinstance(part, Math):
+            found += part.text
+        else:
+            found += part
     return found
 
 

@@ -496,17 +496,28 @@ def _values(natural: Natural, number: int) -> Iterator[Block]:
     rows: list[list[Sentence]] = []
     delta = _delta_named(natural.letter)
     for d in range(number):
-        found: dict[str, list[Determinant]] = defaultdict(list)
-        for determinant in natural.determinants(d):
-            found[str(determinant)].append(determinant)
+        found = _by_values(natural.determinants(d))
         if any(len(value) > _LONGEST for value in found):
             break
         if {*found} == {NO_FORMULA}:
             yield say(delta, f" is given by {NO_FORMULA}.")
             return
         for value, determinants in found.items():
-            places = dict.fromkeys(f"`{equation_written(determinant.exponents)}`" for determinant in determinants)
-            said = value if value == NO_FORMULA else f"`{value}`"
-            rows.append([str(d), sentence_of(" or ".join(places)), sentence_of(said)])
+            rows.append([str(d), *_where_it_is(value, determinants)])
     if rows:
         yield Table([_name(natural.letter), "where", delta], rows)
+
+
+def _by_values(determinants: Iterable[Determinant]) -> dict[str, list[Determinant]]:
+    """The determinants by what is printed of them."""
+    found: dict[str, list[Determinant]] = defaultdict(list)
+    for determinant in determinants:
+        found[str(determinant)].append(determinant)
+    return found
+
+
+def _where_it_is(value: str, determinants: Iterable[Determinant]) -> list[Sentence]:
+    """The places where Delta_d has this value, and the value."""
+    places = dict.fromkeys(f"`{equation_written(determinant.exponents)}`" for determinant in determinants)
+    said = value if value == NO_FORMULA else f"`{value}`"
+    return [sentence_of(" or ".join(places)), sentence_of(said)]
