@@ -34,6 +34,7 @@ QUICK = {
     "test_enclosure_defect",
     "test_enclosure_plot",
     "test_equation",
+    "test_function_field",
     "test_galois",
     "test_help",
     "test_invariants",

@@ -8,20 +8,14 @@ from collections.abc import Iterator
 from random import Random
 from typing import Any
 
-import mpmath
 import pytest
 import sympy
 from build import parametrize
 from scipy.integrate import solve_ivp
-from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
+from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin
 
 import kovacic
 from kovacic import dsolve
-from kovacic.general_solution.behaviour import Approach, behaviour
-from kovacic.general_solution.check import is_finite
-from kovacic.general_solution.constants import Outcome, Row, determine
-from kovacic.general_solution.expansion import CONSTANT, UnknownBehaviour
-from kovacic.general_solution.zero import Zero, is_zero_by_size, when_zero
 
 x, C1, C2 = sympy.symbols("x C1 C2")
 y = sympy.Function("y")
@@ -290,131 +284,7 @@ def test_limits_that_cannot_be() -> None:
         dsolve("x*y'' + y' + x*y = 0", ics="y(0) - y(1) = 0")
 
 
-#: Expressions, and points at which they aren't analytic.
-EXPANDED = [
-    *(
-        (sympy.sympify(e), 0)
-        for e in ("bessely(0, x)", "besselk(2, x)", "bessely(1/3, x)", "Ci(x)", "Ei(-x)", "besselj(1/2, x)/x")
-    ),
-    *(
-        (sympy.sympify(e), 0)
-        for e in ("log(sin(x))/x**2", "x**(3/2)*exp(-x)/(1 - cos(x))", "elliptic_k(1 - x)", "exp(-1/x)*x")
-    ),
-    *(
-        (sympy.hyper((Rational(1, 3), Rational(1, 2)), (c,), 1 - x), 0)
-        for c in map(Rational, ("5/6", "11/6", "17/6", "7/5", "-1/6", "3/2"))
-    ),
-    (sympy.hyper((Rational(1, 3), Rational(4, 3)), (), -1 / x), oo),
-    (sympy.hyper((Rational(1, 3), Rational(1, 5)), (), -1 / x), 0),
-    (sympy.hyper((Rational(1, 3), Rational(4, 3)), (), -1 / x), 0),
-    (sympy.hyper((Rational(1, 3), Rational(-5, 3)), (), -1 / x), 0),
-    (sympy.hyper((Rational(1, 3),), (Rational(1, 2),), x), oo),
-    (sympy.hyper((Rational(1, 3),), (Rational(1, 2),), x), -oo),
-    *(
-        (sympy.sympify(e), oo)
-        for e in ("besselj(1, x)", "bessely(1/4, x)", "besseli(1, x)", "besselk(1, x)", "airyai(x)")
-    ),
-    *(
-        (sympy.sympify(e), oo)
-        for e in ("airybi(x)", "erf(x) - 1", "erfi(x)", "Ei(x)", "Ei(-x)", "Si(x)", "Ci(x)", "atan(x)")
-    ),
-    *((sympy.sympify(e), -oo) for e in ("erf(x)", "atan(x)", "Ei(x)", "sqrt(x**2 + 1) + x", "cosh(x)")),
-    (sympy.tan(x), pi / 2),
-    (sympy.legendre(n, cos(x)), pi),
-]
-
-
-@parametrize(("e", "point"), EXPANDED, ordinary=2, long=15, ids=str)
-def test_expansions(e: Any, point: Any) -> None:
-    """Against values by mpmath, near the point."""
-    place = Approach(sympy.sympify(point))
-    found = behaviour(e, x, place)
-    t = Rational(1, 40) if place.is_infinite else Rational(1, 400)
-    with mpmath.workdps(40):
-        total = sympy.Integer(0)
-        for monomial, coefficient in found.terms.items():
-            growth = sympy.Add(*(c * t**-p for p, c in monomial.growth))
-            total += coefficient * exp(growth) * t**monomial.e * log(t) ** monomial.k
-        own = sympy.N(total.subs(n, 3), 30)
-        exact = sympy.N(e.subs(n, 3).subs(x, place.in_terms_of(t)), 30, maxn=400)
-    assert found.terms
-    assert abs(own - exact) < 1e-2 * abs(exact) + 1e-20
-
-
-def test_expansions_that_are_not_known() -> None:
-    nu = Symbol("nu")
-    assert all(e.is_negative is None for e in [nu])
-    for e in (sympy.zeta(x), sympy.Integral(exp(-(x**2)) / x, x), log(log(x)), sin(1 / x) ** Rational(1, 2)):
-        with pytest.raises((UnknownBehaviour, NotImplementedError)):
-            behaviour(e, x, Approach(sympy.Integer(0)))
-    assert behaviour(sympy.hyper((), (Rational(3, 4),), -(x**4)), x, Approach(sympy.Integer(0))).terms[CONSTANT] == 1
-
-
 # -------------------------------------------------------------------------------------------- zero, rank and what leaves
-
-
-@pytest.mark.long
-def test_when_a_constant_is_zero() -> None:
-    z = Symbol("z")
-    always = [
-        sin(n * pi),
-        sin(z) ** 2 + cos(z) ** 2 - 1,
-        log(6) - log(2) - log(3),
-        sympy.sympify("sqrt(2)+sqrt(3)-sqrt(5+2*sqrt(6))"),
-    ]
-    never = [
-        exp(z),
-        k + L,
-        (-1) ** n,
-        sympy.besselk(n, 1),
-        sqrt(2) - Rational(141421356, 10**8),
-        sympy.E - Rational(2718281, 10**6),
-    ]
-    never.append(sin(pi * n / 2) / sympy.gamma(-n / 2) + cos(pi * n / 2) / sympy.gamma((1 - n) / 2))
-    sometimes = [z, a - 1, 1 - (-1) ** n, sin(k * L), cos(n * pi / 3)]
-    for constants, outcome in ((always, Zero.ALWAYS), (never, Zero.NEVER), (sometimes, Zero.SOMETIMES)):
-        assert [when_zero(constant) for constant in constants] == [outcome] * len(constants)
-    assert not is_zero_by_size(sqrt(2) - Rational(1414213562373095048801688724209, 10**30))
-
-
-@parametrize("seed", range(40), ordinary=2, long=15)
-def test_ranks(seed: int) -> None:
-    """Rows made of a rank and of solutions, with numbers that aren't recognised at sight."""
-    random = Random(seed)
-    numbers = [
-        sympy.Integer(0),
-        sympy.Integer(1),
-        sqrt(2) - 1,
-        1 / (1 + sqrt(2)),
-        pi,
-        exp(1),
-        sin(1) ** 2,
-        1 - cos(1) ** 2,
-    ]
-    c1, c2, u, v = (random.choice(numbers) for _ in range(4))
-    rank = random.choice([1, 2])
-    factors = [random.choice([1, -2, sqrt(3), pi]) for _ in range(3)]
-    rows = [Row(f * u, f * v, f * (u * c1 + v * c2)) for f in factors]
-    if rank == 2:
-        rows.append(Row(v + 1, -u - 2, (v + 1) * c1 - (u + 2) * c2))  # its minor with (u, v) is 0 for u = v = 0 only
-    spoiled = random.random() < 0.3
-    if spoiled:
-        rows.append(Row(rows[0].u, rows[0].v, rows[0].r + 1))
-    generic, others = determine(rows, (C1, C2))
-    assert not others
-    if spoiled:
-        assert generic.outcome is Outcome.NONE
-        return
-    assert generic.outcome is Outcome.SOLUTIONS
-    assert all(abs(sympy.N(row.rest(*generic.values).subs({C1: 3, C2: -2}), 30)) < 1e-20 for row in rows)
-    free = {C1, C2} & (generic.values[0].free_symbols | generic.values[1].free_symbols)
-    assert len(free) == 2 - (rank if u or v else rank - 1)
-
-
-def test_nothing_infinite_leaves() -> None:
-    assert not is_finite(sympy.zoo * sin(x))
-    assert not is_finite(sympy.nan + x)
-    assert is_finite(sympy.Integral(exp(-(x**2)), (x, 0, oo)) + 1)
 
 
 @pytest.mark.long

@@ -6,28 +6,16 @@ import json
 import pickle
 from dataclasses import replace
 from fractions import Fraction
-from random import Random
 from typing import Any
 
 import pytest
 import sympy
-from build import QQ, Conditions, FunctionField, parametrize, run
+from build import QQ, Conditions, parametrize, run
 from clocks import controlled
-from flint import fmpz_mat
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import kovacic
 from kovacic import Limits, Structure
-from kovacic.galois.group import GroupKind
-from kovacic.parametric.integers import Congruence
-from kovacic.parametric.natural import Natural
-from kovacic.parametric.ranks import without_constant_pivots
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
-from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.riemann import kimura
-from kovacic.parametric.statements import Statement, Vanishes, both
-from kovacic.views.text import render
 from tests.parametric_cases import FAMILIES, Family, hypergeometric, with_squares
 from tests.parametric_formulas import misread
 from tests.strategies import parametric_equations
@@ -71,10 +59,10 @@ def test_two_hundred_exact_points_agree_with_the_engine(family: Family, answers:
 @pytest.mark.long
 def test_a_wrong_region_is_noticed(answers: dict[str, Conditions]) -> None:
     answer = answers["bessel"]
-    wrong = replace(answer.regions[0], verdict=RegionVerdict(Structure.IMPRIMITIVE))
+    wrong = replace(answer.regions[0], verdict=replace(answer.regions[0].verdict, structure=Structure.IMPRIMITIVE))
     assert not replace(answer, regions=(wrong,)).check(20)
     assert not replace(answer, regions=()).check(200) or not replace(
-        answer, generic=RegionVerdict(wrong.verdict.structure)
+        answer, generic=replace(answer.generic, structure=wrong.verdict.structure)
     ).check(20)
 
 
@@ -92,15 +80,6 @@ def test_kimura_for_three_parameters() -> None:
     ]:
         assert answer.case_at(dict(zip("lmn", values, strict=True))) == case
     assert answer.check(200)
-
-
-def test_schwarz_table_has_the_parities() -> None:
-    assert kimura((F(2, 3), F(1, 3), F(1, 3))) is Structure.TETRAHEDRAL
-    assert kimura((F(2, 3) + 1, F(1, 3), F(1, 3))) is None
-    assert kimura((F(2, 5), F(2, 5), F(2, 5))) is Structure.ICOSAHEDRAL
-    assert kimura((F(2, 5), F(2, 5), F(7, 5))) is None
-    assert kimura((F(1, 2), F(5, 2), None)) is Structure.IMPRIMITIVE
-    assert kimura((None, F(1, 3), F(1, 3))) is None
 
 
 @pytest.mark.long
@@ -295,16 +274,16 @@ def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: di
     """The names of groups that a family's text doesn't mention don't occur."""
     answer = answers[family.name]
     words = {
-        GroupKind.MULTIPLICATIVE: "G_m",
-        GroupKind.BOREL: "Borel",
-        GroupKind.CYCLIC: "cyclic",
-        GroupKind.ADDITIVE: "G_a",
-        GroupKind.INFINITE_DIHEDRAL: "infinite dihedral",
-        GroupKind.DICYCLIC: "dicyclic",
-        GroupKind.TETRAHEDRAL: "tetrahedral",
-        GroupKind.OCTAHEDRAL: "octahedral",
-        GroupKind.ICOSAHEDRAL: "icosahedral",
-        GroupKind.SL2: "SL2(C)",
+        "MULTIPLICATIVE": "G_m",
+        "BOREL": "Borel",
+        "CYCLIC": "cyclic",
+        "ADDITIVE": "G_a",
+        "INFINITE_DIHEDRAL": "infinite dihedral",
+        "DICYCLIC": "dicyclic",
+        "TETRAHEDRAL": "tetrahedral",
+        "OCTAHEDRAL": "octahedral",
+        "ICOSAHEDRAL": "icosahedral",
+        "SL2": "SL2(C)",
     }
     for values in family.points:
         point = dict(zip(family.parameters, values, strict=True))
@@ -312,9 +291,9 @@ def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: di
         text = answer.generic.group if region is None else region.group
         group = answer.solve_at(point).group
         assert group is not None
-        assert words[group.kind] in text or text.startswith("reducible"), (point, text, group.name)
+        assert words[group.kind.name] in text or text.startswith("reducible"), (point, text, group.name)
         if "dicyclic where" in text:
-            assert group.kind is GroupKind.DICYCLIC  # the exponents at these points are rational
+            assert group.kind.name == "DICYCLIC"  # the exponents at these points are rational
 
 
 def test_the_solution_at_a_single_value_is_written_out() -> None:
@@ -476,28 +455,6 @@ def test_a_polynomial_of_high_degree() -> None:
     assert [region.case for region in answer.regions] == [1]
     assert str(answer.regions[0].statement).startswith("b^76 - ")
     assert answer.case_at({"b": 1}) is None
-
-
-@given(matrices=st.integers(0, 10**9))
-@settings(max_examples=12)
-def test_constant_pivots_lower_the_rank_by_one_each(matrices: int) -> None:
-    random = Random(matrices)
-    field = FunctionField(("a", "b"))
-    a, b = (field.generator(name).num for name in "ab")
-    one = field.context.constant(1)
-    choices = [0 * one, 0 * one, one, -2 * one, 3 * one, a, b - 1, a * b + 2, a**2 - b]
-    columns = [{i: random.choice(choices) for i in range(5)} for _ in range(4)]
-    rows, eliminated = without_constant_pivots(columns)
-    assert not any(entry.is_constant() and entry for row in rows for entry in row)
-    for values in ((0, 0), (1, 1), (2, 1), (-1, 2), (1, 2), (5, 7)):
-
-        def rank(matrix: list[list[Any]]) -> int:
-            if not matrix:
-                return 0
-            entries = [int(entry(0, *values)) for row in matrix for entry in row]  # noqa: B023
-            return int(fmpz_mat(len(matrix), len(matrix[0]), entries).rank())
-
-        assert rank([[column[i] for column in columns] for i in range(5)]) == rank(rows) + eliminated
 
 
 @pytest.mark.long
@@ -713,10 +670,11 @@ def test_assumptions_refute_single_values() -> None:
         assert not any(str(region.statement) == "b = -2" for region in answer.regions)
 
 
-def test_a_proven_answer_under_assumptions_has_no_further_conditions() -> None:
+def test_a_proven_answer_under_assumptions_has_no_further_conditions(capsys: pytest.CaptureFixture[str]) -> None:
     answer = kovacic.solve("(4*n^2-1)/(4*x^2) - 1", assume={"n": "integer"})
     assert not answer.generic_conditions
-    assert "isn't rational" not in "\n".join(render(answer))
+    assert run(["solve", "--assume", "n=integer", "(4*n^2-1)/(4*x^2) - 1"]) == 0
+    assert "isn't rational" not in capsys.readouterr().out
     assert kovacic.solve("(4*n^2-1)/(4*x^2) - 1", var="x").generic_conditions
 
 
@@ -819,53 +777,9 @@ def test_a_curve_with_a_cusp_is_parametrised() -> None:
         assert answer.case_at(point) == answer.solve_at(point).case, point
 
 
-@pytest.mark.parametrize(
-    ("curve", "values"),
-    [("p^2 - q^3", (8, 4)), ("4*p^3 + 27*q^2", (-3, 2)), ("p^5 + 32*q^2", (-2, 1)), ("3*p^4 - 5*q^3", (0, 0))],
-)
-def test_rational_curves(curve: str, values: tuple[int, int]) -> None:
-    field = FunctionField(("p", "q"))
-    p, q = field.generator("p"), field.generator("q")
-    functions = {"p^2 - q^3": p**2 - q**3, "4*p^3 + 27*q^2": 4 * p**3 + 27 * q**2, "p^5 + 32*q^2": p**5 + 32 * q**2}
-    function = functions.get(curve, 3 * p**4 - 5 * q**3)
-    assert not function.value_at(values, QQ)
-    found = hypersurface(function)
-    assert found.curve is not None
-    assert not found.at(function)
-    # T in p and q, at T's own values of p and q, is T.
-    T, parameter = found.curve
-    assert isinstance(found.field, FunctionField)
-    assert found.at(parameter) == found.field.generator(T)
-    assert hypersurface(p**2 - q**4).curve is None
-    assert hypersurface(p**2 - q).curve is None
-    assert hypersurface(p**2 * q - q**3 * p).curve is None
-
-
-def test_what_earlier_regions_cover() -> None:
-    field = FunctionField(("p", "q", "r"))
-    p, q, r = map(field.generator, field.names)
-    N = field.poly([0, 1])
-
-    def root(equation: Any) -> Congruence:
-        return Congruence.make(equation, [0], 1)
-
-    def kept(*statements: Statement) -> list[int]:
-        regions = [ParameterRegion(statement, RegionVerdict(None)) for statement in statements]
-        return [regions.index(region) for region in without_empty(regions)]
-
-    squares = root(N**2 - q)
-    assert kept(squares, root(4 * N**2 - q)) == [0]
-    assert kept(squares, root(N**2 - 4 * q), root(N**2 / 4 + N + 1 - q / 4)) == [0, 1]
-    # On the curve p^2 = q^3, q is the square of p/q, which needn't be an integer.
-    assert kept(squares, both(Vanishes(p**2 - q**3), Vanishes(r))) == [0, 1]
-    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 2 * q))) == [0]
-    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 3 * q))) == [0, 1]
-
-
 def test_natural_numbers_at_a_point() -> None:
     answer = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x")
     statement = answer.regions[0].statement
-    assert isinstance(statement, Natural)
     assert statement.numbers_at(answer.point({"a": 0, "b": 6, "c": 1})) == [2]
     assert statement.numbers_at(answer.point({"a": 0, "b": 5, "c": 1})) == []
     assert statement.numbers_at(answer.point({"a": 0, "b": "sqrt(2)", "c": 1})) == []

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
-import random
 import re
 import subprocess
 import sys
@@ -17,21 +15,13 @@ import flint
 import mpmath
 import pytest
 import sympy
-from build import Atoms, jet, parametrize, read_expression
+from build import Atoms, jet, parametrize, read_expression, read_input
 from clocks import controlled
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from sympy import I, Rational, cos, exp, log, sin, sqrt
 
 import kovacic
 from kovacic import dsolve, solve_riccati
 from kovacic.closed_form.form import at_edges
-from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.substitution import finite_value
-from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.values import values_at
-from kovacic.general_solution.variation import Basis, DefiniteIntegral
-from kovacic.reading.read import read_input
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")
@@ -112,38 +102,6 @@ def test_an_error_function() -> None:
 def test_undetermined_coefficients(text: str, expected: sympy.Expr) -> None:
     """No integrals: at once, and without parts that solve the homogeneous equation."""
     assert sympy.expand(dsolve(text).rhs.subs({C1: 0, C2: 0}) - expected) == 0
-
-
-numbers = st.integers(-3, 3).map(sympy.Integer)
-waves = st.tuples(
-    numbers, st.integers(0, 3), numbers, st.sampled_from((sin, cos, sympy.sinh, sympy.cosh)), numbers, numbers
-)
-#: (b, c), with the roots 0, 1, -2, +-i, 1 +- 2i, +-sqrt(2) among those of the characteristic polynomials.
-constants = st.sampled_from(
-    [(0, 0), (0, 1), (-1, 0), (2, 0), (4, 4), (1, -2), (-2, 5), (0, -2), (-2, 1), (0, 9), (1, 1)]
-)
-
-
-@pytest.mark.long
-@settings(max_examples=25, deadline=None)
-@given(constants, st.lists(waves, min_size=1, max_size=3))
-def test_random_right_hand_sides(equation: tuple[int, int], terms: list) -> None:
-    """Substituted; the roots of the characteristic polynomial often are exponents on the right: resonance."""
-    b, c = map(sympy.Integer, equation)
-    right = sympy.Add(*(k * x**m * exp(r * x) * wave(w * x + d) for k, m, r, wave, w, d in terms))
-    found = undetermined(b, c, right, x)
-    assert found is not None
-    left = found.diff(x, 2) + b * found.diff(x) + c * found - right
-    values = sympy.lambdify(x, [left, right], "mpmath", cse=True)
-    with mpmath.workdps(30):
-        for point in (mpmath.mpf(3) / 7, -mpmath.mpf(5) / 4):
-            rest, size = map(abs, values(point))
-            assert rest < 1e-15 * (1 + size)
-
-
-@pytest.mark.parametrize("right", [1 / x, exp(x**2), sympy.tan(x), sympy.log(x), sqrt(x), sin(x**2), sin(x) / cos(x)])
-def test_other_right_hand_sides(right: sympy.Expr) -> None:
-    assert undetermined(sympy.Integer(0), sympy.Integer(1), right, x) is None
 
 
 @pytest.mark.long
@@ -710,91 +668,6 @@ def test_special_functions_where_nothing_is_proven() -> None:
     assert residual(y(x).diff(x, 2) - (x**2 + 5) * y(x), found) < 1e-20
 
 
-@parametrize(
-    ("integrand", "functions"),
-    [
-        (sympy.sec(x), {sympy.log}),
-        (sympy.tan(x) ** 2 * sin(2 * x), {sympy.log}),
-        (1 / (2 + sin(3 * x + 1)), {sympy.atan}),
-        (1 / (1 + cos(x) ** 2), {sympy.atan}),
-        (sin(2 * x) * sympy.tan(x), set()),
-        (1 / (1 + sin(x)), set()),
-        (1 / (1 + sympy.tan(x)), {sympy.log}),
-        (sympy.sec(sympy.pi * x), {sympy.log}),
-        (x**2 * sympy.log(x) ** 2, {sympy.log}),
-        (exp(2 * x) / (1 + exp(x)), {sympy.log}),
-        (exp(3 * x) * sin(exp(x)), set()),
-        (exp(-x) * sqrt(x), {sympy.erf}),
-        (1 / (exp(x) + exp(-x)), {sympy.atan}),
-        (sin(x) / x, {sympy.Si}),
-        (cos(2 * x + 1) / (x * (x + 1) ** 3), {sympy.Si, sympy.Ci}),
-        (sin(x) ** 2 / x**2, {sympy.Si}),
-        (sympy.log(x) * cos(sqrt(2) * x), {sympy.log, sympy.Si}),
-        ((x**2 - 1) * sympy.log(x) / (x**2 + 1) ** 2, {sympy.log, sympy.atan}),
-        (x * sympy.log(x) / sqrt(x**2 + 1), {sympy.log}),
-        (x * sympy.atan(x), {sympy.atan}),
-        (exp(-x) / (x + 1), {sympy.Ei}),
-        (sympy.log(x) * exp(3 * x), {sympy.log, sympy.Ei}),
-        ((x**2 + 1) * exp(x - 1 / x) / (x * (x**2 - 1)), {sympy.Ei}),
-        ((1 + 1 / x**2) * exp(x) * exp(-1 / x), set()),
-        (sympy.asin(x) / sqrt(1 - x**2), {sympy.asin}),
-        (x * sympy.acos(x), {sympy.acos, sympy.asin}),
-        (sympy.asinh(x) ** 2 / sqrt(x**2 + 1), {sympy.asinh}),
-        (sqrt(4 - x**2), {sympy.asin}),
-        (x / cos(x) ** 2, {sympy.log}),
-        (x**2 * sin(2 * x**2 + x), {sympy.fresnels, sympy.fresnelc}),
-        (cos(x) / sqrt(x), {sympy.fresnelc}),
-        (x * exp(x**2 / 2) * sympy.erf(x), {sympy.erf}),
-        (exp(2 * x) * sympy.Ei(-x), {sympy.Ei}),
-        (exp(-x) * cos(x) / x, {sympy.Ei}),
-        (cos(x) * exp(-(x**2)), {sympy.erf}),
-        (sin(x) / (x**2 + 1), {sympy.Ei}),
-        (sympy.log(x) / (x + 1), {sympy.log, sympy.polylog}),
-        (sympy.log(x + 1) / x, {sympy.polylog}),
-        (x**sympy.pi * exp(-(x**2)), {sympy.uppergamma}),
-        (sin(x) * sympy.tan(2 * x), {sympy.log}),  # the angles x, 2 x and 2 x have the common one x
-        ((1 + x**2) ** Rational(-3, 2), set()),
-        (1 / sqrt(1 + x) ** 3, set()),
-        (1 / (sqrt(x) * (1 + x)), {sympy.atan}),
-        (sqrt(x**2 - 1), {sympy.log}),
-        (x * sympy.asin(x / 2) ** 2, {sympy.asin}),
-        (sympy.log(x + sqrt(1 + x**2)), {sympy.log}),
-        (x / sympy.cosh(x) ** 2, {sympy.log}),
-        (x * exp(x) * sin(exp(x)), {sympy.Ci}),
-        (cos(x) * (2 - cos(2 * x)) ** Rational(-3, 2), set()),
-        (sin(x) * sqrt(cos(x) + 2), set()),
-        (sympy.log(1 + exp(-x)), {sympy.polylog}),
-        (x / (1 + exp(x)), {sympy.log, sympy.polylog}),
-        (exp(x) / sqrt(1 + exp(2 * x)), {sympy.asinh}),
-        (sqrt(1 + exp(-x)), {sympy.log}),
-        (sqrt(1 + x) * cos(x), {sympy.fresnels, sympy.fresnelc}),
-        (sin(x**2) * cos(x), {sympy.fresnels, sympy.fresnelc}),
-        (2 * exp(sympy.I * x) / ((exp(2 * sympy.I * x) + 4 * exp(sympy.I * x) + 1) * cos(x)), {sympy.log, sympy.atan}),
-    ],
-    ordinary=2,
-    long=25,
-)
-def test_integrals_known_at_once(integrand: sympy.Expr, functions: set) -> None:
-    found = antiderivative(integrand, x)
-    assert found is not None
-    assert {f.func for f in found.atoms(sympy.Function)} - {sin, cos, sympy.tan, exp} == functions
-    for point in (Rational(3, 7), Rational(9, 8)):
-        assert abs(sympy.N((found.diff(x) - integrand).subs(x, point), 30)) < 1e-20
-
-
-@parametrize(
-    "integrand", [sin(x) / (x**3 + sqrt(x)), exp(sin(x)), sympy.besselj(1, x), sqrt(1 + x**2) * cos(x)], ordinary=2
-)
-def test_other_integrals(integrand: sympy.Expr) -> None:
-    assert antiderivative(integrand, x) is None
-
-
-def test_an_integral_that_is_not_elementary_stays_beside_a_tangent() -> None:
-    assert antiderivative(x * sympy.tan(x), x) == sympy.Integral(x * sin(x) / cos(x), x)
-    q = antiderivative(x * sin(x) * sympy.tan(x), x) - sympy.Integral(x / cos(x), x)
-    assert sympy.expand(q + x * sin(x) + cos(x)) == 0
-
-
 def test_values_as_one_text() -> None:
     assert dsolve("y'' + y = 0", ics="y(0)=0, y'(0)=2") == dsolve("y'' + y = 0", ics={"y(0)": 0, "y'(0)": 2})
     for text in ("y(0)=1, y(0)=2", "y(0)", "=1"):
@@ -853,32 +726,6 @@ def test_integrals_of_a_step_begin_at_it() -> None:
     assert all(i.limits[0][1:] == (1, x) for i in integrals)
 
 
-@parametrize(
-    "text",
-    [
-        "(1-x^2)*y'' - 2*x*y' + 3/4*y = exp(x)",  # Legendre, DLMF 14.2.3
-        "y'' - 2*x*y' + (1 - 16/x^2)*y = 1/x",  # series at 0 with irrational exponents
-        "y'' = (x^2/4 + 1)*y + 1",  # 1F1 and its value at 0
-        "x*(1-x)*y'' + (1/2 - 3*x)*y' - 5/7*y = 1",
-    ],
-    ordinary=0,
-    long=2,
-)
-def test_wronskians_of_special_functions(text: str) -> None:
-    """No Wronskian is written out under an integral; that of the two solutions is the one of the equation."""
-    equation = read_input(text).equation
-    assert equation is not None
-    found = dsolve(text).rhs
-    y1, y2 = (found.coeff(c) if found.coeff(c) != 0 else sympy.expand(found).coeff(c) for c in (C1, C2))
-    basis = Basis(y1, y2, x, equation)
-    direct = y1 * y2.diff(x) - y1.diff(x) * y2
-    point = Rational(2, 7)
-    assert abs(sympy.N((direct / basis.wronskian).subs(x, point) - 1, 30)) < 1e-20
-    functions = (sympy.hyper, sympy.legendre)
-    assert not basis.wronskian.has(*functions)
-    assert all(len(i.function.atoms(*functions)) == 1 for i in found.atoms(sympy.Integral))
-
-
 @pytest.mark.long
 def test_printing_does_not_integrate_numerically() -> None:
     """SymPy orders terms by the values of their factors that are numbers, which took 130 s for integrals between two values."""
@@ -894,37 +741,6 @@ print(bool(sympy.latex(found)), bool(repr(found)))
     command = [sys.executable, "-c", program]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.stdout.split() == ["4", "True", "True", "True"], done.stderr
-
-
-def test_an_integral_between_numbers_has_a_value() -> None:
-    x = sympy.Symbol("x")
-    exact = DefiniteIntegral(x**2, (x, 0, 1))
-    assert abs(exact.evalf(30) - sympy.Rational(1, 3)) < 1e-29
-    assert abs((1 + 2 * exact).evalf(30) - sympy.Rational(5, 3)) < 1e-29
-    assert exact.doit() == sympy.Rational(1, 3)
-    assert str(exact) == "Integral(x**2, (x, 0, 1))"
-    assert pickle.loads(pickle.dumps(exact)) == exact
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["x*exp(2*x)*cos(3*x)", "(x-2)**5*(C1 + C2*log(x))/sqrt(x)", "x**w", "w**x*(x-1)*(x-2)", "besselj(w, x**2)*(x-1)"],
-)
-@pytest.mark.parametrize("point", [1, 2, Rational(3, 7)])
-def test_values_and_slopes_are_those_of_the_derivative(text: str, point: Any) -> None:
-    e, a = sympy.sympify(text), sympy.sympify(point)
-    value, slope = values_at(e, x, a)
-    assert sympy.simplify(value - e.subs(x, a)) == 0
-    assert sympy.simplify(slope - e.diff(x).subs(x, a)) == 0
-
-
-def test_values_at_a_jump_and_of_forms_without_a_value() -> None:
-    step = sympy.Heaviside(x - 1) * exp(x) + x
-    assert values_at(step, x, sympy.Integer(1)) == (1, 1)
-    assert values_at(step, x, sympy.Integer(2)) == (2 + exp(2), 1 + exp(2))
-    assert values_at(sin(x) / x, x, sympy.Integer(0)) == (1, 0)
-    assert values_at(sympy.Integral(exp(w**2), (w, 1, x)), x, sympy.Integer(1)) == (0, sympy.E)
-    assert finite_value(2 / x, x, sympy.Integer(0)) is None
 
 
 def has_values(a: sympy.Expr, b: sympy.Expr, c: sympy.Expr, start: Any, stops: list[Any]) -> bool:
@@ -1071,41 +887,6 @@ def test_integrals_after_a_change_of_variable(right: sympy.Expr, functions: set)
     assert not found.has(sympy.Integral)
     difference = found.diff(x, 2) - right
     assert all(abs(sympy.N(difference.subs(x, point), 30)) < 1e-25 for point in (Rational(7, 5), Rational(18, 7)))
-
-
-def test_an_argument_of_a_function_as_the_variable() -> None:
-    """The derivative of f(u) is f'(u) u'."""
-    for f in (exp(sin(x)), exp(exp(x)) + sin(exp(x)), sin(log(x)) ** 2):
-        assert sympy.simplify(antiderivative(f.diff(x), x).diff(x) - f.diff(x)) == 0
-
-
-FACTORS = """
-    x x^2 1/x exp(x) exp(-x) exp(2*x) sin(x) cos(3*x) log(x) log(x+2) sqrt(x) x^(1/3) 1/(x+1) atan(x) tan(x) sec(x) 1/(1+exp(x))
-    exp(exp(x)) exp(sqrt(x)) sin(sqrt(x)) tan(sqrt(x)) atan(sqrt(x)) cos(log(x)) sin(exp(x)) 1/log(x) log(log(x)) atan(exp(x))
-    log(cos(x)) log(1+exp(x)) exp(-x^2) exp(1/x) tan(log(x)) cot(x) atan(2*x+1) log(x)^2 log(sqrt(x)+1) exp(sin(x)) sqrt(1+x)
-    asin(x/4) acos(x/5) asinh(x) erf(x) Ei(x) Si(x) sin(x^2) cos(x^2+x) 1/sqrt(9-x^2) sqrt(x^2+1) x^pi
-""".replace("^", "**").split()
-
-
-@parametrize("seed", range(80), ordinary=2, long=15)
-def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
-    """For sums of products of functions that were drawn by lot: the derivative at three points, in x alone; or None."""
-    rng = random.Random(seed)
-    integrand = sympy.Add(
-        *(
-            sympy.Mul(
-                rng.choice([1, -1, 2]), *(sympy.sympify(f) for f in rng.sample(FACTORS, rng.choice([1, 2, 2, 3])))
-            )
-            for _ in range(rng.choice([1, 1, 2]))
-        )
-    )
-    found = antiderivative(integrand, sympy.Symbol("x"))
-    if found is not None:
-        assert found.free_symbols <= {sympy.Symbol("x")}
-        difference = found.diff(sympy.Symbol("x")) - integrand
-        for point in ("1.37", "0.61", "2.9"):
-            value, size = (complex(sympy.N(e.subs("x", sympy.Float(point, 30)), 20)) for e in (difference, integrand))
-            assert abs(value) < 1e-9 * (1 + abs(size))
 
 
 @parametrize(

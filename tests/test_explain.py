@@ -5,26 +5,15 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from fractions import Fraction
 from html.parser import HTMLParser
-from itertools import count
 from pathlib import Path
-from typing import Any
 
 import published
 import pytest
-import strategies
-import sympy
-from build import QQ, RatFunc, analyse, parametrize, run
-from hypothesis import given, settings
+from build import parametrize, run
+from clocks import controlled
 
 import kovacic
-from kovacic.engine.paper import Search, _Roots, in_sympy, is_natural, search
-from kovacic.limits import CLOCK, Budget
-from kovacic.views.explain import rational_form
-from kovacic.views.sentences import formulas_of, normal_form
-from kovacic.writing.breaking import LINE, breakable, pieces
-from kovacic.writing.formula import latex_text
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
@@ -49,11 +38,6 @@ LONG = [
 ]
 
 
-def succeeds(found: Search) -> bool:
-    """Has a family led to a solution?"""
-    return any(family.P is not None for family in found.families or ())
-
-
 def test_bessel_is_explained() -> None:
     text = kovacic.solve(EQUATIONS[0]).explain()
     for part in (
@@ -67,119 +51,6 @@ def test_bessel_is_explained() -> None:
         "[Kov86]",
     ):
         assert part in text
-
-
-def searched(answer: kovacic.Solution, m: int) -> Search:
-    found = search(analyse(answer.S, Budget()), "x", m)
-    assert found is not None
-    return found
-
-
-def values(family: Any) -> list[Any]:
-    return [choice.value for choice in family.choices]
-
-
-def test_kovacic_s_first_example_line_by_line() -> None:
-    """Section 3.2: [sqrt r]_0 = 1/x^2, [sqrt r]_inf = x - 1, d = 2 and d = 0, P = x^2 - 1."""
-    answer = kovacic.solve("(4*x^6 - 8*x^5 + 12*x^4 + 4*x^3 + 7*x^2 - 20*x + 4)/(4*x^4)")
-    found, half = searched(answer, 1), Fraction(1, 2)
-    assert [choices[0].singular for choices in found.choices] == [((1, 1), (0, -1)), ((-2, 1),)]
-    assert [[choice.value for choice in choices] for choices in found.choices] == [
-        [half, -3 * half],
-        [-3 * half, 7 * half],
-    ]
-    assert (found.total, found.natural) == (4, 2)
-    assert [family.d for family in found.families or ()] == [2, -3, 0, -5]
-    assert [str(family.P) for family in found.families or ()] == ["x**2 - 1", "None", "None", "None"]
-    assert (found.families or ())[2].conditions[0] == 4
-    text = answer.explain(solutions=False)
-    for line in (
-        "infinity  x - 1     1/2     -3/2",
-        "x = 0     x^(-2)    -3/2    7/2",
-        "d = 2: P = x^2 - 1 is a solution.",
-    ):
-        assert line in text
-    assert "see theta" not in text
-
-
-def test_kovacic_s_second_example_line_by_line() -> None:
-    """Section 4.2: E_0 = {1, 2, 3}, E_inf = {1}, the family (1, 1) with d = 0, P = 1."""
-    answer = kovacic.solve(EQUATIONS[3])
-    found = searched(answer, 2)
-    assert [[choice.value for choice in choices] for choices in found.choices] == [[1], [1, 2, 3]]
-    assert [(values(family), family.d, family.P) for family in found.families or ()] == [([1, 1], 0, 1)]
-    invariant = answer.decision.invariant
-    assert invariant is not None
-    assert str(rational_form(invariant, analyse(answer.S, Budget()))) == "x"
-
-
-def test_kovacic_s_third_example_line_by_line() -> None:
-    """Section 5.2, n = 4: (e_inf, e_1, e_0) = (7, 4, 3) succeeds, and (8, 5, 3): the group has two forms of degree 4."""
-    found = searched(kovacic.solve(EQUATIONS[4]), 4)
-    sets = [[choice.value for choice in choices] for choices in found.choices]
-    assert sets == [[4, 5, 6, 7, 8], [4, 5, 6, 7, 8], [3, 6, 9]]
-    outcomes = [(values(family), family.P) for family in found.families or ()]
-    assert outcomes == [([7, 4, 3], 1), ([8, 5, 3], 1)]
-
-
-@pytest.mark.long
-@settings(max_examples=25, deadline=None)
-@given(strategies.examples("case", "odd"))
-def test_the_paper_s_steps_find_what_the_engine_finds(example: strategies.Example) -> None:
-    """A family succeeds for the degree of omega and for no smaller one; none does where there is no solution."""
-    answer = kovacic.solve(example.S)
-    problem = analyse(answer.S, Budget())
-    for m in (1, 2, 4, 6, 12):
-        irregular = any(place.order > 2 for place in problem.places)
-        found = None if m > 2 and irregular else search(problem, "x", m)
-        degree = None if answer.riccati is None else answer.riccati.degree
-        if found is not None and succeeds(found):
-            assert degree == m
-        elif (
-            found is not None and found.complete and all(f.theta is not None for f in found.families if is_natural(f.d))
-        ):
-            assert degree != m
-        if degree == m:
-            return
-
-
-@pytest.mark.long
-def test_conjugate_poles_are_taken_one_by_one() -> None:
-    """2/(x^2+1)^2: alpha = (1 +- i)/2 at both poles, and opposite signs at i and -i succeed."""
-    found = searched(kovacic.solve("2/(x^2+1)^2"), 1)
-    assert found.complete
-    assert found.total == 8
-    successes = [family for family in found.families or () if family.P is not None]
-    assert len(successes) == 2
-    x = sympy.Symbol("x")
-    for family in successes:
-        P = in_sympy(family.P, x)
-        omega = family.theta + sympy.diff(P, x) / P
-        assert sympy.simplify(sympy.diff(omega, x) + omega**2 - 2 / (x**2 + 1) ** 2) == 0
-
-
-def test_families_of_case_2_have_an_odd_exponent() -> None:
-    """Those with even ones only belong to case 1, and aren't listed, however natural their d is."""
-    odd = searched(kovacic.solve("-3/(16*x^2) - 3/(16*(x-1)^2) + 3/(16*x*(x-1))"), 2)
-    assert odd.natural == 3
-    even = searched(kovacic.solve("3/(4*x^2) + 3/(4*(x-1)^2) - 3/(4*x*(x-1))"), 2)
-    assert even.natural == 0
-    assert even.families == ()
-
-
-def test_many_poles_are_counted() -> None:
-    """13 poles with two exponents each, and infinity: too many families to be listed; their number is said."""
-    S = " + ".join(f"2/(x-{k})^2" for k in range(1, 14))
-    found = searched(kovacic.solve(S), 1)
-    assert (found.total, found.families) == (2**14, None)
-    assert "16384 families of exponents, d is" in kovacic.solve(S).explain(solutions=False)
-
-
-def test_families_with_the_same_exponent_at_infinity_are_two() -> None:
-    """exp(x) and exp(-x): alpha = 0 with [sqrt r] = 1 and with -1."""
-    found = searched(kovacic.solve("1"), 1)
-    assert (found.total, found.natural) == (2, 2)
-    assert all(family.P == 1 for family in found.families or ())
 
 
 def test_a_no_names_what_excludes_every_case() -> None:
@@ -246,35 +117,8 @@ def test_nothing_wider_than_a_line_is_beyond_a_break() -> None:
                 characters += token not in "{}^ "
                 if depth == 0 and token in ("+", "-", "=", r"\allowbreak"):
                     characters = 0
-                assert characters <= 2 * LINE  # those above and below a fraction are counted together
+                assert characters <= 120  # those above and below a fraction are counted together
             assert depth == 0
-
-
-@pytest.mark.long
-@settings(max_examples=25, deadline=None)
-@given(strategies.rational_functions(max_degree=6, bound=99))
-def test_a_broken_formula_has_the_same_value(function: RatFunc) -> None:
-    latex = latex_text(function.to_str())
-    for line in (1000, 20, 5):
-        written = re.sub(r"\\allowbreak ?|\\bigl|\\bigr", "", breakable(latex, line))
-        assert sympy.cancel(_read_latex(written) - sympy.sympify(function.to_str())) == 0
-
-
-@pytest.mark.parametrize(
-    ("latex", "written"),
-    [
-        (r"y = \sqrt[3]{x + 1 + x^{2}}", r"y = \bigl(x + 1 + x^{2}\bigr)^{1/3}"),
-        (r"e^{x + 1 + x^{2}} z", r"\exp\bigl(x + 1 + x^{2}\bigr) z"),
-        (r"\frac{\left(x + 1 + x^{2}\right)^{2}}{2 x}", r"\bigl(x + 1 + x^{2}\bigr)^{2}/\allowbreak \bigl(2 x\bigr)"),
-        (
-            r"{}_{2}F_{1}\left(\begin{matrix} a, b \\ c \end{matrix}\middle| {x} \right)",
-            r"{}_{2}F_{1}\bigl( a, b ; c ; {x}\bigr)",
-        ),
-        (r"\int e^{x}\, dx = \cos{\left(x \right)}", r"\int e^{x}\, dx = \cos{\left(x \right)}"),
-    ],
-)
-def test_how_long_formulas_are_written_on_a_line(latex: str, written: str) -> None:
-    assert breakable(latex, 8).replace(" ", "") == written.replace(" ", "")
 
 
 def test_signs_in_sentences_are_those_of_latex() -> None:
@@ -334,82 +178,13 @@ def test_long_formulas_on_a_page_are_many_short_ones(text: str) -> None:
     assert "<wbr/>" in page
     assert "<merror" not in page
     shown = re.findall(r"<math.*?</math>", page, re.DOTALL)
-    assert max(len(re.sub(r"<[^>]*>|&#x[0-9A-F]*;|\s", "", formula)) for formula in shown) <= 3 * LINE
-
-
-def test_the_pieces_of_a_formula_are_the_formula() -> None:
-    formula = r"y = \frac{" + " + ".join(f"{10**k} x^{{{k}}}" for k in range(40)) + r"}{\sqrt{x}} - e^{x}"
-    assert "".join(pieces(formula)).replace(" ", "") == breakable(formula).replace(r"\allowbreak", "").replace(" ", "")
-    assert len(pieces(formula)) > 40
-    assert pieces("y = -x") == ["y = -x"]
+    assert max(len(re.sub(r"<[^>]*>|&#x[0-9A-F]*;|\s", "", formula)) for formula in shown) <= 180
 
 
 def test_the_bibliography_has_volume_pages_and_doi() -> None:
     text = kovacic.solve("x").citation(style="bibtex")
     for field in ("volume = {2}", "pages = {3--43}", "doi = {10.1016/S0747-7171(86)80010-4}"):
         assert field in text
-
-
-def test_rational_functions_in_latex() -> None:
-    x = RatFunc(QQ.poly([0, 1]))
-    assert latex_text(((2 * x**2 - 1) / (4 * x)).to_str()) == r"\frac{2 x^{2} - 1}{4 x}"
-    assert latex_text((-1 / x).to_str()) == r"-\frac{1}{x}"
-    assert latex_text((x * 0).to_str()) == "0"
-    assert latex_text((x**12 / 3).to_str()) == r"\frac{x^{12}}{3}"
-    assert latex_text("sqrt(2)*lambda**2 + x_1") == r"\sqrt{2} \lambda^{2} + x_{1}"
-    assert latex_text("cbrt(5)*root(7, 4)/(2*(x + 1)**2)") == r"\frac{\sqrt[3]{5} \sqrt[4]{7}}{2 (x + 1)^{2}}"
-    assert latex_text("-(a + 1/b)*y'' + 0") == r"-\left(a + \frac{1}{b}\right) y'' + 0"
-    assert latex_text("((mu_1 + 1)*x - 3)/sqrt(n^2/4 - b)") == (
-        r"\frac{(\mu_{1} + 1) x - 3}{\sqrt{\frac{n^{2}}{4} - b}}"
-    )
-
-
-def _read_latex(latex: str) -> sympy.Expr:
-    """The value of a LaTeX formula made of fractions, powers, products, parentheses and names."""
-    text = re.sub(r"\^\{(\d+)\}", r"**\1", latex.replace(r"\left", "").replace(r"\right", ""))
-    text = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1)/(\2))", text)
-    return sympy.sympify(re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text))
-
-
-@parametrize(
-    "S",
-    [
-        "a/b",
-        "a/(2*b)",
-        "1/(b*x)",
-        "a*x/b + 1/(a + 1)",
-        "x/(3*a) + 1/2",
-        "-a/b/x",
-        "-2*x/3",
-        "(x + a)/(x - b/2)^2",
-        "1/(-x - 1)",
-    ],
-    ordinary=3,
-)
-def test_latex_of_functions_with_parameters_has_their_denominators(S: str) -> None:
-    answer = kovacic.solve(S, var="x")
-    formulas = formulas_of(answer)
-    value = sympy.sympify(S.replace("^", "**"))
-    assert sympy.simplify(_read_latex(formulas.math(answer.S).latex) - value) == 0
-    assert sympy.simplify(_read_latex(formulas.times(answer.S, "y", "y").latex) - value * sympy.Symbol("y")) == 0
-
-
-@pytest.mark.parametrize(
-    ("S", "text", "latex"),
-    [
-        ("1", "y", "y"),
-        ("-1", "-y", "-y"),
-        ("-2", "-2 y", "-2 y"),
-        ("-x^2", "-x^2 y", "-x^{2} y"),
-        ("2*a*x", "2 a x y", "2 a x y"),
-        ("-1/x", "(-1/x) y", r"-\frac{1}{x} y"),
-        ("1 - x", "(-x + 1) y", r"\left(-x + 1\right) y"),
-        ("0", "0", "0"),
-    ],
-)
-def test_the_normal_form_is_written_as_a_mathematician_would(S: str, text: str, latex: str) -> None:
-    shown = normal_form(kovacic.solve(S, var="x"))
-    assert (shown.text, shown.latex) == (f"y'' = {text}", f"y'' = {latex}")
 
 
 class _Cells(HTMLParser):
@@ -483,12 +258,6 @@ def test_str_names_the_equation_that_was_given() -> None:
     assert str(kovacic.solve("2/x^2")).startswith("y'' = (2/x^2) y: case 1")
 
 
-def test_exponents_at_irregular_places() -> None:
-    """S = x^2 + 3: a = 1, b = 3, nu = 1, so (+-3 - 1)/2."""
-    (choices,) = searched(kovacic.solve("x^2 + 3"), 1).choices
-    assert [choice.value for choice in choices] == [1, -2]
-
-
 def test_the_command_solves_equations_in_every_view(capsys: pytest.CaptureFixture[str]) -> None:
     bessel = EQUATIONS[0]
     assert run(["solve", bessel]) == 0
@@ -518,62 +287,9 @@ def test_a_page_has_a_picture_beside_an_irregular_singular_point() -> None:
 
 @pytest.mark.long
 def test_a_page_on_a_slow_machine_has_its_picture() -> None:
-    seconds = count(step=0.01)
-    with CLOCK.read_from(lambda: float(next(seconds))):
+    with controlled(step=0.01):
         page = kovacic.solve("x").explain(format="html")
     assert "<svg" in page
-
-
-def test_families_with_parameters() -> None:
-    """omega = a/x + b/(x-1): one family for generic a and b, with P = 1, and no other sum is a number."""
-    answer = kovacic.solve("(a^2-a)/x^2 + (b^2-b)/(x-1)^2 + 2*a*b/(x*(x-1))", var="x")
-    found, (a, b, x) = searched(answer, 1), sympy.symbols("a b x")
-    assert (found.total, found.natural) == (8, 1)
-    (success,) = [family for family in found.families or () if family.P is not None]
-    assert (success.d, success.P) == (0, 1)
-    assert sympy.simplify(success.theta - a / x - b / (x - 1)) == 0
-    assert "d is a natural number in 1 of them for generic parameters" in answer.explain(solutions=False)
-
-
-@parametrize(
-    ("text", "tried"),
-    [
-        ("n/x^2", True),  # alpha has sqrt(4n + 1)
-        ("(4*n^2 - 1)/(4*x^2) - 1", True),
-        ("-3/(16*x^2) + n/x", True),
-        ("n^2*x^2 + 3*n", True),
-        ("n^2*x^2 + m", True),
-        ("sqrt(2)/x^2", True),
-        ("2*x^2 + 3*sqrt(2)", True),
-        ("sqrt(2)/(x^2 + 1)^2", True),
-        ("sqrt(1 + sqrt(2))*x^2 + 1", True),  # a root of a polynomial of degree 4, which is called alpha
-        ("sqrt(2)*n/x^2 + 1", True),
-        ("-3/(16*x^2) + (sqrt(2) + n)/x", True),
-        ("1/(x^2 - n)^2", True),  # sqrt(n) and sqrt(n^2 + n)
-        ("1/(x^2 - n)^2 + (x + sqrt(2))/(x^2 + n^2 + 1)", False),
-    ],
-    ordinary=2,
-)
-def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bool) -> None:
-    """The first degree with a solution is that of omega, and omega = theta + P'/P solves the Riccati equation."""
-    answer = kovacic.solve(text, var="x")
-    x, degree = sympy.Symbol("x"), None if answer.riccati is None else answer.riccati.degree
-    ramified = any(place.order in (3, 5) for place in analyse(answer.S, Budget()).places)
-    for m in range(2 if ramified else 1, (degree or 2) + 1):
-        found = searched(answer, m)
-        natural = [family for family in found.families or () if is_natural(family.d)]
-        assert found.complete
-        assert succeeds(found) == (tried and degree == m)
-        assert all((family.theta is not None) == tried for family in natural if family.P is not None or m == 1)
-        for family in natural:
-            if m == 1 and family.P is not None:
-                P = in_sympy(family.P, x)
-                omega = family.theta + sympy.diff(P, x) / P
-                S = sympy.sympify(text.replace("^", "**"), locals={"n": sympy.Symbol("n")})
-                residue = sympy.diff(omega, x) + omega**2 - S
-                values = {"n": sympy.Rational(7, 5), "m": sympy.Rational(3, 7), "x": sympy.Rational(5, 3)}
-                assert abs(sympy.N(residue.subs(values), 30)) < 1e-25
-    assert "CRootOf" not in answer.explain(solutions=False)
 
 
 @pytest.mark.parametrize(
@@ -591,20 +307,6 @@ def test_why_a_family_fails(text: str, why: str) -> None:
 
 def test_a_parameter_may_be_called_x() -> None:
     assert "d = 0: P = 1 is a solution." in kovacic.solve("-3/(16*t^2) + x/t", var="t").explain(solutions=False)
-
-
-def test_nested_square_roots_that_cancel_are_an_integer() -> None:
-    """sqrt(9 + 9 sqrt(2)) is 3 sqrt(1 + sqrt(2)), and needs no larger field."""
-    roots = _Roots(QQ)
-    two = roots.root(QQ.poly([2]))
-    nested = roots.root(1 + two)
-    field = roots.field
-    multiple = roots.root(9 + 9 * two)
-    assert roots.field is field
-    assert field.absolute_degree == 4
-    assert is_natural(multiple / nested + 3) != is_natural(2 - multiple / nested)
-    assert is_natural((multiple - 3 * nested) * (multiple + 3 * nested) + 2)
-    assert not is_natural(multiple - nested)
 
 
 @pytest.mark.long

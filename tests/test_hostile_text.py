@@ -10,13 +10,12 @@ from html.parser import HTMLParser
 from typing import Any
 
 import pytest
-from build import parametrize
+from build import Conditions, parametrize
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, shown
-from kovacic.parametric.answer import ParametricAnswer
 
 #: Each is obeyed by something.
 HOSTILE = [
@@ -143,18 +142,18 @@ def test_conditions_that_were_changed_by_hand(text: str) -> None:
     data |= {"notices": [text], "theory": text, "complete": text}
     data["regions"][0] |= {"omega": text}
     data["generic"]["verdict"]["family"] = text
-    found = ParametricAnswer.from_json(json.dumps(data))
+    found = Conditions.from_json(json.dumps(data))
     assert not obeyed_by_a_terminal(str(found) + found.explain() + found.to_json())
     assert not obeyed_by_latex(found.latex() + found._repr_latex_())
     for key in ("variable", "S"):
         with pytest.raises(InputError) as caught:
-            ParametricAnswer.from_json(json.dumps({**data, key: text}))
+            Conditions.from_json(json.dumps({**data, key: text}))
         assert not obeyed_by_a_terminal(str(caught.value))
 
 
 @pytest.mark.parametrize("text", ["[" * 100_000, '{"a":' * 100_000, '{"schema": 1, "input": ' + "[" * 100_000])
 def test_brackets_without_end_are_refused(text: str) -> None:
-    for reader in (kovacic.Solution.from_json, ParametricAnswer.from_json):
+    for reader in (kovacic.Solution.from_json, Conditions.from_json):
         with pytest.raises(InputError):
             reader(text)
 

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 import re
-from functools import reduce
-from operator import mul
-from random import Random
 
 import pytest
 import sympy
 from build import Conditions, parametrize
 
 import kovacic
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.parametric.formulas import root_written, written
 from tests.parametric_formulas import all_families, equation_of, misread, wrong_solutions
 
 x = sympy.Symbol("x")
@@ -150,39 +144,6 @@ def test_texts_say_what_is_meant(name: str) -> None:
 @pytest.mark.parametrize("name", EACH)
 def test_all_texts_say_what_is_meant(name: str) -> None:
     texts_say_what_is_meant(name, 20)
-
-
-def random_quotients() -> list[RatFunc]:
-    """Of products of sums in three parameters and the integer n."""
-    random, field = Random(11), FunctionField(("a", "b", "c"))
-    a, b, c = map(field.generator, field.names)
-    n = field.poly([0, 1])
-    factors = [n, n + 1, 2 * n + 3, a, b, a + b, n - b - a, 2 * c - 1, a * c, b * b - 4 * a * c, n * n + b]
-
-    def product() -> FunctionPoly:
-        chosen = [random.choice(factors) ** random.choice((1, 1, 2)) for _ in range(random.randint(0, 3))]
-        return reduce(mul, chosen, field.poly([random.choice((1, -1, 2, -6))]))
-
-    return [RatFunc(product() + random.choice((0, 1)) * product(), product()) for _ in range(120)]
-
-
-@pytest.mark.long
-def test_functions_are_read_back_as_they_are_written() -> None:
-    n = sympy.Symbol("n")
-    for function in random_quotients():
-        text = written(function, "n")
-        meant = function.num.to_sympy(n) / function.den.to_sympy(n)
-        assert sympy.cancel(sympy.sympify(text.replace("^", "**")) - meant) == 0, text
-
-
-@pytest.mark.long
-def test_roots_are_read_back_as_they_are_written() -> None:
-    for function in random_quotients():
-        square = function.num[0]
-        if square:
-            text = root_written(square)
-            root = sympy.sympify(text.replace("^", "**"))
-            assert sympy.cancel(sympy.expand(root**2) - square.to_sympy(x)) == 0, text
 
 
 @parametrize(

@@ -13,13 +13,11 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, read_input
 
 import kovacic
 from kovacic.general_solution.question import apart, read_question
-from kovacic.limits import DEFAULT_LIMITS
 from kovacic.reading.notation import plain
-from kovacic.reading.read import read_input
 
 x, t, k, n, a, omega_0, alpha = sympy.symbols("x t k n a omega_0 alpha")
 #: a, b, c, f of a y'' + b y' + c y = f in the variable x.
@@ -386,7 +384,7 @@ def meant(text: str) -> Any:
 @parametrize("row", PASTED, ordinary=60, long=161, ids=[row["text"] for row in PASTED])
 def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
     """The coefficients of an equation, its right-hand side, its variable and its values are those that a reader finds."""
-    question = read_question(row["text"], None, None, None, DEFAULT_LIMITS)
+    question = read_question(row["text"], None, None, None, kovacic.Limits())
     equation = question.given
     argument = sympy.Symbol(row["variable"])
     assert str(question.x) == row["variable"]
@@ -430,9 +428,9 @@ def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
 )
 def test_what_can_be_read_in_two_ways_is_refused_with_what_to_type(text: str, written: str, typed: str) -> None:
     with pytest.raises(kovacic.InputError) as refused:
-        read_question(text, None, None, None, DEFAULT_LIMITS)
+        read_question(text, None, None, None, kovacic.Limits())
     assert refused.value.hint
-    read_question(text.replace(written, typed), None, None, None, DEFAULT_LIMITS)
+    read_question(text.replace(written, typed), None, None, None, kovacic.Limits())
 
 
 def test_the_imaginary_unit_is_a_capital_letter_which_is_said() -> None:

@@ -114,7 +114,7 @@ class Search:
         return self.families is not None and all(point.count == 1 for point in self.points)
 
 
-class _Roots:
+class Roots:
     """The field of all numbers that occur, to which square roots are adjoined when they are asked for."""
 
     def __init__(self, field: Field) -> None:
@@ -139,7 +139,7 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     """
     if not _is_in_domain(problem):
         return None
-    roots = _Roots(problem.field)
+    roots = Roots(problem.field)
     points = _all_points(problem.places, roots)
     choices = _all_choices(points, m, roots)
     if choices is None:
@@ -163,7 +163,7 @@ def _is_in_domain(problem: Problem) -> bool:
     return highest <= _HIGHEST_ORDER and problem.field.absolute_degree <= _HIGHEST_DEGREE
 
 
-def _all_points(places: Sequence[Place], roots: _Roots) -> tuple[SingularPoint, ...]:
+def _all_points(places: Sequence[Place], roots: Roots) -> tuple[SingularPoint, ...]:
     """Infinity, which is the last of the places, and the poles."""
     points = [SingularPoint(places[-1])]
     for place in places[:-1]:
@@ -171,7 +171,7 @@ def _all_points(places: Sequence[Place], roots: _Roots) -> tuple[SingularPoint, 
     return tuple(points)
 
 
-def _all_choices(points: Sequence[SingularPoint], m: int, roots: _Roots) -> tuple[tuple[Choice, ...], ...] | None:
+def _all_choices(points: Sequence[SingularPoint], m: int, roots: Roots) -> tuple[tuple[Choice, ...], ...] | None:
     """Step 1 at every point."""
     found = []
     for point in points:
@@ -233,7 +233,7 @@ def in_sympy(value: Any, x: Any) -> Any:
     return expand(value.to_sympy(x)) if isinstance(value, Poly) else sympify(value, strict=True)
 
 
-def _points(place: Place, roots: _Roots) -> list[SingularPoint]:
+def _points(place: Place, roots: Roots) -> list[SingularPoint]:
     """The roots of the factor one by one where they are simple enough, or all of them as one."""
     p = place.factor
     if place.degree == 1:
@@ -271,7 +271,7 @@ def _summed(sums: Counter[tuple[Number, bool]], parts: Sequence[tuple[Number, bo
     return found
 
 
-def _choices(point: SingularPoint, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
+def _choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
     """Step 1; None where the exponents aren't square roots of constants."""
     place = point.place
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
@@ -291,7 +291,7 @@ def _centre(m: int) -> int:
     return 2 if m == 2 else 6
 
 
-def _at_irregular(place: Place, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
+def _at_irregular(place: Place, m: int, roots: Roots) -> tuple[Choice, ...] | None:
     """(c3), (inf3) for m = 1, and E_c with one element for m = 2; higher degrees don't occur."""
     if m == 2:
         value = 4 - place.order if place.at_infinity else place.order
@@ -301,7 +301,7 @@ def _at_irregular(place: Place, m: int, roots: _Roots) -> tuple[Choice, ...] | N
     return None
 
 
-def _square_root_exponents(place: Place, roots: _Roots) -> tuple[Choice, ...] | None:
+def _square_root_exponents(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
     """(c2) and (inf2): alpha = 1/2 + Delta/2 and 1/2 - Delta/2, once where they are equal."""
     delta = None if place.delta_squared is None else roots.root(place.delta_squared)
     if delta is None:
@@ -318,7 +318,7 @@ def _rational_exponents(place: Place, m: int) -> tuple[Choice, ...]:
     return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
 
 
-def _irregular(place: Place, roots: _Roots) -> tuple[Choice, ...] | None:
+def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
     """(c3) and (inf3) of section 3.1: r = s t^(-2 nu) w^2, w = 1 + ..., so [sqrt r] begins with a = sqrt s, and
     b/a = 2 a w_k for the first term w_k that isn't in [sqrt r].
     """

@@ -1,0 +1,112 @@
+"""Formulas as text and in LaTeX: they mean what they are made of, and long ones break."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+import strategies
+import sympy
+from build import QQ, RatFunc, parametrize
+from hypothesis import given, settings
+
+import kovacic
+from kovacic.views.sentences import formulas_of, normal_form
+from kovacic.writing.breaking import breakable, pieces
+from kovacic.writing.formula import latex_text
+
+
+@pytest.mark.long
+@settings(max_examples=25, deadline=None)
+@given(strategies.rational_functions(max_degree=6, bound=99))
+def test_a_broken_formula_has_the_same_value(function: RatFunc) -> None:
+    latex = latex_text(function.to_str())
+    for line in (1000, 20, 5):
+        written = re.sub(r"\\allowbreak ?|\\bigl|\\bigr", "", breakable(latex, line))
+        assert sympy.cancel(_read_latex(written) - sympy.sympify(function.to_str())) == 0
+
+
+@pytest.mark.parametrize(
+    ("latex", "written"),
+    [
+        (r"y = \sqrt[3]{x + 1 + x^{2}}", r"y = \bigl(x + 1 + x^{2}\bigr)^{1/3}"),
+        (r"e^{x + 1 + x^{2}} z", r"\exp\bigl(x + 1 + x^{2}\bigr) z"),
+        (r"\frac{\left(x + 1 + x^{2}\right)^{2}}{2 x}", r"\bigl(x + 1 + x^{2}\bigr)^{2}/\allowbreak \bigl(2 x\bigr)"),
+        (
+            r"{}_{2}F_{1}\left(\begin{matrix} a, b \\ c \end{matrix}\middle| {x} \right)",
+            r"{}_{2}F_{1}\bigl( a, b ; c ; {x}\bigr)",
+        ),
+        (r"\int e^{x}\, dx = \cos{\left(x \right)}", r"\int e^{x}\, dx = \cos{\left(x \right)}"),
+    ],
+)
+def test_how_long_formulas_are_written_on_a_line(latex: str, written: str) -> None:
+    assert breakable(latex, 8).replace(" ", "") == written.replace(" ", "")
+
+
+def test_the_pieces_of_a_formula_are_the_formula() -> None:
+    formula = r"y = \frac{" + " + ".join(f"{10**k} x^{{{k}}}" for k in range(40)) + r"}{\sqrt{x}} - e^{x}"
+    assert "".join(pieces(formula)).replace(" ", "") == breakable(formula).replace(r"\allowbreak", "").replace(" ", "")
+    assert len(pieces(formula)) > 40
+    assert pieces("y = -x") == ["y = -x"]
+
+
+def test_rational_functions_in_latex() -> None:
+    x = RatFunc(QQ.poly([0, 1]))
+    assert latex_text(((2 * x**2 - 1) / (4 * x)).to_str()) == r"\frac{2 x^{2} - 1}{4 x}"
+    assert latex_text((-1 / x).to_str()) == r"-\frac{1}{x}"
+    assert latex_text((x * 0).to_str()) == "0"
+    assert latex_text((x**12 / 3).to_str()) == r"\frac{x^{12}}{3}"
+    assert latex_text("sqrt(2)*lambda**2 + x_1") == r"\sqrt{2} \lambda^{2} + x_{1}"
+    assert latex_text("cbrt(5)*root(7, 4)/(2*(x + 1)**2)") == r"\frac{\sqrt[3]{5} \sqrt[4]{7}}{2 (x + 1)^{2}}"
+    assert latex_text("-(a + 1/b)*y'' + 0") == r"-\left(a + \frac{1}{b}\right) y'' + 0"
+    assert latex_text("((mu_1 + 1)*x - 3)/sqrt(n^2/4 - b)") == (
+        r"\frac{(\mu_{1} + 1) x - 3}{\sqrt{\frac{n^{2}}{4} - b}}"
+    )
+
+
+def _read_latex(latex: str) -> sympy.Expr:
+    """The value of a LaTeX formula made of fractions, powers, products, parentheses and names."""
+    text = re.sub(r"\^\{(\d+)\}", r"**\1", latex.replace(r"\left", "").replace(r"\right", ""))
+    text = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1)/(\2))", text)
+    return sympy.sympify(re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text))
+
+
+@parametrize(
+    "S",
+    [
+        "a/b",
+        "a/(2*b)",
+        "1/(b*x)",
+        "a*x/b + 1/(a + 1)",
+        "x/(3*a) + 1/2",
+        "-a/b/x",
+        "-2*x/3",
+        "(x + a)/(x - b/2)^2",
+        "1/(-x - 1)",
+    ],
+    ordinary=3,
+)
+def test_latex_of_functions_with_parameters_has_their_denominators(S: str) -> None:
+    answer = kovacic.solve(S, var="x")
+    formulas = formulas_of(answer)
+    value = sympy.sympify(S.replace("^", "**"))
+    assert sympy.simplify(_read_latex(formulas.math(answer.S).latex) - value) == 0
+    assert sympy.simplify(_read_latex(formulas.times(answer.S, "y", "y").latex) - value * sympy.Symbol("y")) == 0
+
+
+@pytest.mark.parametrize(
+    ("S", "text", "latex"),
+    [
+        ("1", "y", "y"),
+        ("-1", "-y", "-y"),
+        ("-2", "-2 y", "-2 y"),
+        ("-x^2", "-x^2 y", "-x^{2} y"),
+        ("2*a*x", "2 a x y", "2 a x y"),
+        ("-1/x", "(-1/x) y", r"-\frac{1}{x} y"),
+        ("1 - x", "(-x + 1) y", r"\left(-x + 1\right) y"),
+        ("0", "0", "0"),
+    ],
+)
+def test_the_normal_form_is_written_as_a_mathematician_would(S: str, text: str, latex: str) -> None:
+    shown = normal_form(kovacic.solve(S, var="x"))
+    assert (shown.text, shown.latex) == (f"y'' = {text}", f"y'' = {latex}")

@@ -1,0 +1,160 @@
+"""What conditions on parameters are made of: Schwarz's table, ranks, curves, regions that others cover, signs, and formulas."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import reduce
+from itertools import product
+from operator import mul
+from random import Random
+from typing import Any
+
+import pytest
+import sympy
+from build import QQ, FunctionField, RatFunc
+from flint import fmpz_mat
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kovacic import Structure
+from kovacic.parametric.assumptions import read_assumptions
+from kovacic.parametric.formulas import root_written, written
+from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.integers import Congruence
+from kovacic.parametric.ranks import without_constant_pivots
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
+from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.riemann import kimura
+from kovacic.parametric.statements import Statement, Vanishes, both
+
+F = Fraction
+
+
+def test_schwarz_table_has_the_parities() -> None:
+    assert kimura((F(2, 3), F(1, 3), F(1, 3))) is Structure.TETRAHEDRAL
+    assert kimura((F(2, 3) + 1, F(1, 3), F(1, 3))) is None
+    assert kimura((F(2, 5), F(2, 5), F(2, 5))) is Structure.ICOSAHEDRAL
+    assert kimura((F(2, 5), F(2, 5), F(7, 5))) is None
+    assert kimura((F(1, 2), F(5, 2), None)) is Structure.IMPRIMITIVE
+    assert kimura((None, F(1, 3), F(1, 3))) is None
+
+
+@given(matrices=st.integers(0, 10**9))
+@settings(max_examples=12)
+def test_constant_pivots_lower_the_rank_by_one_each(matrices: int) -> None:
+    random = Random(matrices)
+    field = FunctionField(("a", "b"))
+    a, b = (field.generator(name).num for name in "ab")
+    one = field.context.constant(1)
+    choices = [0 * one, 0 * one, one, -2 * one, 3 * one, a, b - 1, a * b + 2, a**2 - b]
+    columns = [{i: random.choice(choices) for i in range(5)} for _ in range(4)]
+    rows, eliminated = without_constant_pivots(columns)
+    assert not any(entry.is_constant() and entry for row in rows for entry in row)
+    for values in ((0, 0), (1, 1), (2, 1), (-1, 2), (1, 2), (5, 7)):
+
+        def rank(matrix: list[list[Any]]) -> int:
+            if not matrix:
+                return 0
+            entries = [int(entry(0, *values)) for row in matrix for entry in row]  # noqa: B023
+            return int(fmpz_mat(len(matrix), len(matrix[0]), entries).rank())
+
+        assert rank([[column[i] for column in columns] for i in range(5)]) == rank(rows) + eliminated
+
+
+@pytest.mark.parametrize(
+    ("curve", "values"),
+    [("p^2 - q^3", (8, 4)), ("4*p^3 + 27*q^2", (-3, 2)), ("p^5 + 32*q^2", (-2, 1)), ("3*p^4 - 5*q^3", (0, 0))],
+)
+def test_rational_curves(curve: str, values: tuple[int, int]) -> None:
+    field = FunctionField(("p", "q"))
+    p, q = field.generator("p"), field.generator("q")
+    functions = {"p^2 - q^3": p**2 - q**3, "4*p^3 + 27*q^2": 4 * p**3 + 27 * q**2, "p^5 + 32*q^2": p**5 + 32 * q**2}
+    function = functions.get(curve, 3 * p**4 - 5 * q**3)
+    assert not function.value_at(values, QQ)
+    found = hypersurface(function)
+    assert found.curve is not None
+    assert not found.at(function)
+    # T in p and q, at T's own values of p and q, is T.
+    T, parameter = found.curve
+    assert isinstance(found.field, FunctionField)
+    assert found.at(parameter) == found.field.generator(T)
+    assert hypersurface(p**2 - q**4).curve is None
+    assert hypersurface(p**2 - q).curve is None
+    assert hypersurface(p**2 * q - q**3 * p).curve is None
+
+
+def test_what_earlier_regions_cover() -> None:
+    field = FunctionField(("p", "q", "r"))
+    p, q, r = map(field.generator, field.names)
+    N = field.poly([0, 1])
+
+    def root(equation: Any) -> Congruence:
+        return Congruence.make(equation, [0], 1)
+
+    def kept(*statements: Statement) -> list[int]:
+        regions = [ParameterRegion(statement, RegionVerdict(None)) for statement in statements]
+        return [regions.index(region) for region in without_empty(regions)]
+
+    squares = root(N**2 - q)
+    assert kept(squares, root(4 * N**2 - q)) == [0]
+    assert kept(squares, root(N**2 - 4 * q), root(N**2 / 4 + N + 1 - q / 4)) == [0, 1]
+    # On the curve p^2 = q^3, q is the square of p/q, which needn't be an integer.
+    assert kept(squares, both(Vanishes(p**2 - q**3), Vanishes(r))) == [0, 1]
+    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 2 * q))) == [0]
+    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 3 * q))) == [0, 1]
+
+
+@pytest.mark.long
+def test_what_is_said_to_be_positive_is() -> None:
+    field = FunctionField(("a", "b"))
+    a, b = (over_parameters(field.generator(name)) for name in "ab")
+    forms = [a * b - 1, a * a - b, a + b, a - 2, (a - 1) * (b + 1), a * a - 2 * a + 2, 3 - b, a * (3 - b), a - a + 1]
+    numbers = [Fraction(k, 2) for k in range(-8, 9)]
+    proven = 0
+    for first, second in product([">0", ">=1", "<-1", "<=2 >0", ">=2"], [">=0", ">1", "<3", ">-1 <=1"]):
+        known = read_assumptions({"a": first, "b": second}, None, ("a", "b"))
+        points = [
+            p for p in product(numbers, numbers) if known.admits(zip("ab", (QQ.poly([v]) for v in p), strict=True))
+        ]
+        assert points
+        for form in forms:
+            values = [QQ.rational_value(form.value_at(point, QQ)) for point in points]
+            for or_zero in (False, True):
+                if known.is_positive(over_parameters(form), or_zero=or_zero):
+                    proven += 1
+                    assert all(v is not None and (v > 0 or (or_zero and not v)) for v in values)
+            assert known.vanishes(over_parameters(form)) is not False or all(values)
+    assert proven > 60
+
+
+def random_quotients() -> list[RatFunc]:
+    """Of products of sums in three parameters and the integer n."""
+    random, field = Random(11), FunctionField(("a", "b", "c"))
+    a, b, c = map(field.generator, field.names)
+    n = field.poly([0, 1])
+    factors = [n, n + 1, 2 * n + 3, a, b, a + b, n - b - a, 2 * c - 1, a * c, b * b - 4 * a * c, n * n + b]
+
+    def product() -> Any:
+        chosen = [random.choice(factors) ** random.choice((1, 1, 2)) for _ in range(random.randint(0, 3))]
+        return reduce(mul, chosen, field.poly([random.choice((1, -1, 2, -6))]))
+
+    return [RatFunc(product() + random.choice((0, 1)) * product(), product()) for _ in range(120)]
+
+
+@pytest.mark.long
+def test_functions_are_read_back_as_they_are_written() -> None:
+    n = sympy.Symbol("n")
+    for function in random_quotients():
+        text = written(function, "n")
+        meant = function.num.to_sympy(n) / function.den.to_sympy(n)
+        assert sympy.cancel(sympy.sympify(text.replace("^", "**")) - meant) == 0, text
+
+
+@pytest.mark.long
+def test_roots_are_read_back_as_they_are_written() -> None:
+    for function in random_quotients():
+        square = function.num[0]
+        if square:
+            text = root_written(square)
+            root = sympy.sympify(text.replace("^", "**"))
+            assert sympy.cancel(sympy.expand(root**2) - square.to_sympy(sympy.Symbol("x"))) == 0, text
