@@ -103,7 +103,7 @@ def _is_for_a_table(problem: NumericProblem, degree: int, region: Region) -> boo
     return degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT
 
 
-class _Series(NamedTuple):
+class _CellSeries(NamedTuple):
     """Coefficients, and the most that one may be."""
 
     row: list[Any]
@@ -145,7 +145,7 @@ class _Expansion:
             prec *= 2
         return None
 
-    def _series(self, cell: Cell, variant: Variant, prec: int) -> _Series | None:
+    def _series(self, cell: Cell, variant: Variant, prec: int) -> _CellSeries | None:
         """The coefficients in balls at this precision; None where one is too large."""
         x = arb(cell[0])
         h = arb((1, cell[1]))
@@ -156,7 +156,7 @@ class _Expansion:
             most = GROWTH * max(abs(v).upper() for v in row)
             line = type(P)([x, h])
             local = [[v * h**k for v in part(line).coeffs()] for k, part in enumerate(equation)]
-            return _Series(row, most) if _continued(row, local, variant.tested, most) else None
+            return _CellSeries(row, most) if _continued(row, local, variant.tested, most) else None
 
     def _balls(self, prec: int) -> list[Any]:
         """P, P' and the equation's coefficients, real polynomials where they are real; P(base) = 1."""
