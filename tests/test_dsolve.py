@@ -21,7 +21,6 @@ from sympy import I, Rational, cos, exp, log, sin, sqrt
 
 import kovacic
 from kovacic import dsolve, solve_riccati
-from kovacic.closed_form.form import at_edges
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")
@@ -484,13 +483,6 @@ def test_real_to_the_left_of_a_singularity(text: str) -> None:
         assert sympy.N(found.rhs.subs(x, Rational(point)), 30).is_real
 
 
-KLEIN = [
-    "(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)",
-    "(-135*x**2 + 80*x - 80)/(576*x**4 - 1152*x**3 + 576*x**2)",
-    "(-864*x**2 + 739*x - 675)/(3600*x**4 - 7200*x**3 + 3600*x**2)",
-]
-
-
 @pytest.mark.long
 def test_initial_values_in_case_3() -> None:
     """Exact constants, values of hypergeometric functions; compared with proven enclosures."""
@@ -503,20 +495,6 @@ def test_initial_values_in_case_3() -> None:
     assert abs(sympy.N(at_pole.diff(x).subs(x, 2) - Rational(1, 3), 30)) < 1e-25
     expected = kovacic.solve(S).at("5/2", x0=2, y0=1, dy0="1/3", digits=20)
     assert abs(sympy.N(at_pole.subs(x, Rational(5, 2)), 20) - sympy.Float(str(expected).split()[0], 20)) < 1e-18
-
-
-@pytest.mark.parametrize("S", KLEIN)
-def test_three_finite_groups_at_the_edges(S: str) -> None:
-    """The pair in 1/J solves the equation and isn't the one in J: at the poles of J its quotient is finite."""
-    answer = kovacic.solve(S)
-    form = answer.closed_form
-    assert form is not None
-    pair = at_edges(form.structure, answer.S, answer.gauge, "x")
-    assert pair is not None
-    with flint.ctx.workdps(40):
-        point = flint.acb("2.3", "0.4")
-        (u, du, _), (v, dv, _) = (jet(y, x, point) for y in pair)
-        assert not (u * dv - du * v).contains(0)
 
 
 def test_one_exponential() -> None:
