@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import count
 from math import inf
 
 from kovacic.limits import CLOCK
@@ -41,3 +42,17 @@ def controlled(step: float = 0.0, looks_in_time: float = inf) -> Iterator[Hands]
     hands = Hands(step, looks_in_time)
     with CLOCK.read_from(hands):
         yield hands
+
+
+@contextmanager
+def interrupted(looks: int) -> Iterator[None]:
+    """Inside `with`, the user presses Ctrl-C at this look at the clock, the first one being 1."""
+    looked = count(1)
+
+    def source() -> float:
+        if next(looked) == looks:
+            raise KeyboardInterrupt
+        return 0.0
+
+    with CLOCK.read_from(source):
+        yield

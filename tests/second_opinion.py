@@ -57,6 +57,12 @@ Found = TypeVar("Found")
 _DEPTH = 200
 
 
+def serves(solution: Solution) -> bool:
+    """Is there a transition matrix here?  Not in case 1 with two conjugate omegas."""
+    closed = closed_form_of(as_problem(solution))
+    return closed is None or len(closed.branches) == 1
+
+
 def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Matrix:
     """The transition matrix along the polygon, from the certificate of a decision; in case 1 one with a rational omega."""
     points = [as_point(v, "a vertex") for v in vertices]

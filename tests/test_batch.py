@@ -27,7 +27,7 @@ import kovacic
 from kovacic import InputError, KovacicError, Limits
 from kovacic.batch.files import answers, count_items, guess_format, item_from, read_items, take_up
 from kovacic.batch.pool import GRACE_SECONDS, Pool
-from kovacic.batch.records import LABELS, Item, Job, Record, Summary
+from kovacic.batch.records import LABELS, Item, Job, ProcessLost, Record, Summary, refused, stopped
 from kovacic.batch.worker import solve_item
 from kovacic.limits import DEFAULT_LIMITS
 
@@ -195,6 +195,25 @@ def test_published_equations_have_their_answers(pool: Pool) -> None:
     finished = list(pool.run(some, ordered=False))
     assert sorted(record.number for record in finished) == list(range(1, 61))
     assert [record.case for record in sorted(finished, key=lambda record: record.number)] == expected
+
+
+def test_lines_of_lost_processes_and_failed_checks(monkeypatch: pytest.MonkeyPatch) -> None:
+    import jsonschema
+
+    schema = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text(encoding="utf-8"))
+    validator = jsonschema.Draft202012Validator(schema)
+    item = Item(3, "x", extra={"id": "a"})
+    validator.validate(refused(item, ProcessLost("the worker process ended with signal SIGKILL"), 0.5).data)
+    validator.validate(stopped(item, "the memory limit of 30 MiB is used up", 0.5).data)
+    validator.validate(solve_item(item, Job(), Limits(degree=1, text_length=0)).data)
+
+    def failing(*arguments: object, **options: object) -> None:
+        raise kovacic.VerificationFailed("the answer failed its own check; please report it")
+
+    monkeypatch.setattr(kovacic, "solve", failing)
+    record = solve_item(item, Job(), DEFAULT_LIMITS)
+    assert record.label == "failed"
+    validator.validate(record.data)
 
 
 def test_answers_longer_than_a_pipe_arrive_whole() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import io
+import json
 import os
 import signal
 import socket
@@ -18,8 +18,6 @@ from processes import started
 
 import kovacic
 from kovacic import InputError
-from kovacic.batch.backends import CHUNK
-from kovacic.batch.files import read_items
 
 pytestmark = [
     pytest.mark.long,
@@ -28,6 +26,8 @@ pytestmark = [
     pytest.mark.filterwarnings("default"),
 ]
 
+#: More lines than a worker gets at a time.
+CHUNK = 100
 QUICK = ("x^2 + 3", "x", "1/x - 3/(16*x^2)", "2", "(2 - x^2)/x^2", "x +")
 QUICK_CASES = [1, None, 2, 1, 1, None]
 
@@ -94,8 +94,8 @@ def test_dask_answers_in_order_and_limits_hold_there(cluster: Cluster) -> None:
 
 def test_every_line_of_a_mix_is_answered_once(cluster: Cluster) -> None:
     runs = random_runs(11, 6_000)
-    items = read_items(io.BytesIO("\n".join(lines_of(runs)).encode()))
-    records = kovacic.solve_many(items, jobs=4, timeout=2, backend="dask", scheduler=cluster.address)
+    texts = [json.loads(line) if line.startswith("{") else {} for line in lines_of(runs)]
+    records = kovacic.solve_many(texts, jobs=4, timeout=2, backend="dask", scheduler=cluster.address)
     assert [(record.number, record.label) for record in records] == answers_of(runs)
 
 

@@ -23,7 +23,8 @@ import threading
 import time
 import ray
 from kovacic import solve_many
-from kovacic.batch.backends import CHUNK
+
+CHUNK = 100
 
 def kill_a_worker():
     actors = []

@@ -13,7 +13,6 @@ from build import ball_to_flint, parametrize
 from flint import arb, fmpq
 
 from kovacic import evaluate
-from kovacic.enclosure import start
 
 # n is a parameter; the points are between -3 and 3, or between 1 and 3 where 0 is singular
 EQUATIONS = {
@@ -64,16 +63,3 @@ def encloses(seed: int) -> None:
 @pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
 def test_every_number_in_the_balls_is_served(seed: int) -> None:
     encloses(seed)
-
-
-@pytest.mark.long
-@pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
-def test_balls_that_are_too_narrow_are_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(start, "forcing_of", lambda problem: None)
-    with pytest.raises(AssertionError):
-        many(200)
-
-
-def many(count: int) -> None:
-    for seed in range(count):
-        encloses(seed)

@@ -15,8 +15,6 @@ from flint import acb, arb, fmpq
 
 import kovacic
 from kovacic import InputError, evaluate, monodromy
-from kovacic.enclosure import forcing, frame, problem, start
-from kovacic.enclosure.constants import in_balls
 
 X = sympy.Symbol("x")
 CONSTANTS = ["I", "1 + I", "2 - I*sqrt(2)", "sqrt(3)*I", "sqrt(2)", "-1/2 + sqrt(3)*I/2", "1/3 - 2*I"]
@@ -42,8 +40,11 @@ def sympified(text: str, **names: Any) -> sympy.Expr:
 
 
 def holds(ball: Any, value: sympy.Expr, at: Any) -> bool:
-    with flint.ctx.workprec(800):
-        return bool(ball_to_flint(ball).contains(in_balls(value, {X: acb(*at) if isinstance(at, tuple) else acb(at)})))
+    """Is the value at a rational number, or at a pair of them for a complex one, in the ball?  By SymPy's numbers."""
+    re, im = at if isinstance(at, tuple) else (at, 0)
+    with mpmath.workdps(120):
+        exact = mpmath.mpmathify(sympy.N(value.subs(X, sympy.Rational(re) + im * sympy.I), 100))
+        return bool(abs(ball.to_mpmath() - exact) <= ball.radius + mpmath.mpf(10) ** -90 * (1 + abs(exact)))
 
 
 def forced(seed: int) -> None:
@@ -60,7 +61,7 @@ def forced(seed: int) -> None:
     digits = rng.choice([6, 15, 40])
     found = evaluate(equation, x, x0=x0, y0=values[0], dy0=values[1], digits=digits, derivative=True)
     for ball, value in zip(found, (solution, solution.diff(X)), strict=True):
-        assert holds(ball, value, fmpq(x.numerator, x.denominator)), (equation, x0, x)
+        assert holds(ball, value, x), (equation, x0, x)
     assert found[0].digits >= digits or found[0].contains_zero()
 
 
@@ -125,7 +126,7 @@ def test_beside_a_pole_of_high_order_that_is_far_from_zero(x0: str, x: str) -> N
     y0, dy0 = (str(part.subs(X, sympy.Rational(x0))) for part in (solution, solution.diff(X)))
     for S in ("30/(x - 1000*sqrt(2))^2", "30*(x - 1000*sqrt(2))^4*(x^6 + 2)/((x - 1000*sqrt(2))^6*(x^6 + 2))"):
         ball = evaluate(S, x, x0=x0, y0=y0, dy0=dy0, digits=20)
-        assert holds(ball, solution, fmpq(*Fraction(x).as_integer_ratio()))
+        assert holds(ball, solution, Fraction(x))
         assert ball.digits >= 20
     if x0 == "1414.5":
         assert evaluate("x/(x - 1000*sqrt(2))^6", x, x0=x0, y0=1, dy0=0).digits >= 15
@@ -191,31 +192,3 @@ def test_constants_beside_functions_of_x() -> None:
     with mpmath.workdps(20):
         own = mpmath.odefun(lambda t, s: [s[1], 1 - 1j * mpmath.cos(t) * s[0]], 0, [mpmath.mpc(1), mpmath.mpc(0)])(1)[0]
         assert abs(wave.to_mpmath() - own) < 1e-15
-
-
-#: What is wrong, where.
-FAULTS: dict[str, tuple[Any, str, Any]] = {
-    "complex equations taken for real ones": (problem.NumericProblem, "is_real", True),
-    "the right-hand side beside a ball": (start, "forcing_of", lambda problem: None),
-    "the imaginary parts of the coefficients": (frame, "_paired", lambda re, im, real: (re, None)),
-    "the constants of the right-hand side": (
-        forcing.Forcing,
-        "_at",
-        lambda self, f, x: self.embedded.value(f, x) * (1 + acb(2) ** -20),
-    ),
-}
-
-
-@pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
-@pytest.mark.parametrize("name", FAULTS)
-def test_a_planted_fault_is_seen(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    owner, attribute, wrong = FAULTS[name]
-    monkeypatch.setattr(owner, attribute, wrong)
-    with pytest.raises(AssertionError):
-        everything()
-
-
-def everything() -> None:
-    for seed in range(12):
-        forced(seed)
-    test_a_ball_as_a_point_of_an_equation_with_a_right_hand_side("10^6*x", "1")

@@ -11,20 +11,16 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
-from build import parametrize, sample
+from build import parametrize, run, sample
+from clocks import interrupted
 
 import kovacic
 from kovacic import Ball
-from kovacic.cli.main import run
-from kovacic.doubles.curve import Arc
-from kovacic.views.plot import _Compressed, plot
 
 
 def test_samples_are_cut_at_singular_points_and_complex_beyond() -> None:
     curve = sample("-1/(4*x^2) - 3", -2, 2, x0=1, points=40)
     (left,), (right,) = curve.runs
-    assert isinstance(left, Arc)
-    assert isinstance(right, Arc)
     assert left.x.max() < 0 < right.x.min()
     assert not np.any(np.abs(right.y.imag) > right.radius)
     assert np.all(np.abs(left.y.imag) > left.radius)
@@ -38,6 +34,10 @@ def test_a_plot_is_a_figure_of_its_own() -> None:
     (line, *_rest) = figure.axes[0].lines
     assert len(line.get_xdata()) >= 20
     assert matplotlib.get_backend() == backend
+
+
+def plot(equation: str, start: Any, stop: Any, **options: Any) -> Any:
+    return kovacic.solve(equation).plot(start, stop, **options)
 
 
 def legend(figure: Any) -> list[str]:
@@ -202,12 +202,9 @@ def test_without_matplotlib_the_command_says_what_to_install(
     assert "pip install 'matplotlib" in capsys.readouterr().err
 
 
-def test_ctrl_c_ends_the_command_without_a_picture(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def interrupted(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("kovacic.doubles.chart.evaluate_states", interrupted)
-    assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 130
+def test_ctrl_c_ends_the_command_without_a_picture(tmp_path: Path) -> None:
+    with interrupted(20):
+        assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 130
     assert not (tmp_path / "a.png").exists()
 
 
@@ -243,11 +240,18 @@ def test_no_entry_of_a_legend_leaves_the_picture() -> None:
     assert extent.x1 <= figure.bbox.x1
 
 
-@pytest.mark.parametrize("largest", [40.0, 1e4, 1e280])
-def test_the_axis_of_a_growing_solution_has_an_inverse_and_no_corner(largest: float) -> None:
-    usual = 0.9
-    scale = _Compressed(usual, 2 / np.log(largest / usual))
-    y = np.array([-largest, -1.0, -0.3, 0.0, 0.5, 0.9, 0.91, 7.0, largest])
-    assert scale.backward(scale.forward(y)) == pytest.approx(y, rel=1e-9)
-    assert scale.forward(np.array([0.9 + 1e-6]))[0] - 1 == pytest.approx(1e-6 / 0.9, rel=1e-3)
-    assert scale.forward(np.array([largest]))[0] < 4
+@pytest.mark.parametrize("stop", [9, 600])
+def test_the_axis_of_a_growing_solution_has_an_inverse_and_no_corner(stop: int) -> None:
+    """cosh(x), up to 4,000 and up to 10^260."""
+    (axes,) = plot("1", 0, stop, x0=0, y0=1, dy0=0, points=20).axes
+    assert axes.get_yscale() == "function"
+    forward = axes.yaxis.get_transform()
+    largest = np.cosh(stop)
+    y = np.array([-largest, -1.0, -0.3, 0.0, 0.5, 0.9, 7.0, largest])
+    assert forward.inverted().transform(forward.transform(y)) == pytest.approx(y, rel=1e-9)
+    sizes = np.geomspace(1e-3, largest, 5000)
+    heights = forward.transform(sizes)
+    assert heights[-1] < 4
+    slopes = np.diff(heights) / np.diff(sizes)
+    assert (slopes > 0).all()
+    assert stop > 9 or (slopes[1:] / slopes[:-1] > 0.9).all()

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
 import pytest
 import sympy
-from build import ExactPoint, as_problem, ball_to_flint, parametrize
+from build import ball_to_flint, parametrize
 from flint import acb, arb, ctx, fmpq
 
 import kovacic
 from kovacic import Ball, InputError, connection_matrix, evaluate
-from kovacic.enclosure import frobenius
-from kovacic.enclosure.singular import Singular
 
 Value = Callable[[acb], acb]
 
@@ -241,32 +238,6 @@ def test_a_solution_of_the_package_starts_at_its_singular_point() -> None:
     with ctx.workprec(200):
         assert ball_to_flint(answer.at(3, x0=0, which="regular", digits=25)).overlaps(acb(3).sin() / acb(3).sqrt())
     assert isinstance(answer.at(3, x0=0, which="regular"), Ball)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_the_tail_is_below_its_bound(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same basis with few bits and with many: the ball of the first contains that of the second."""
-    rng = random.Random(seed)
-    n, d = ([rng.randint(-9, 9) for _ in range(3)] for _ in range(2))
-    equation = f"({n[0]} + {n[1]}*x + {n[2]}*x^2)/(x^2*({d[0] or 1} + {d[1]}*x + {d[2]}*x^2))"
-    problem = as_problem(equation)
-    place = Singular.at(problem, ExactPoint(Fraction(0)))
-    x = ExactPoint(Fraction(rng.choice([-1, 1]), 16), Fraction(rng.randint(-1, 1), 16))
-    found = []
-    for prec in (30, 400):
-        with ctx.workprec(prec + 40):
-            last, bound = frobenius.junction(place, x, prec)
-            found.append((last, bound))
-    last = min((last for last, _ in found), key=lambda p: p.norm_squared())
-    with ctx.workprec(600):
-        few, many = (
-            frobenius.basis(place, last, x, bound, prec) for prec, (_, bound) in zip((30, 400), found, strict=True)
-        )
-        assert all(a.overlaps(b) for a, b in zip(few, many, strict=True))
-        assert all(
-            float((a - b).abs_upper()) < 2.0**-20 * max(1.0, float(b.abs_upper()))
-            for a, b in zip(few, many, strict=True)
-        )
 
 
 @parametrize("x", [2, -3, Fraction(1, 3), 30, 1 + 1j], ordinary=1)

@@ -9,12 +9,10 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from build import ball_to_flint, evaluate_states, parametrize
+from build import ball_to_flint, bounded_work, evaluate_states, parametrize
 from flint import acb, arb, ctx, fmpq
 
 from kovacic import InputError, connection_matrix, evaluate
-from kovacic.enclosure import transport
-from kovacic.enclosure.precision import Method
 
 Function = Callable[[acb], acb]
 
@@ -133,7 +131,7 @@ def check(seed: int) -> None:
         expected, slope = family.y(z), family.dy(z)
         if "y0" in start and not (start["y0"].is_finite() and start["dy0"].is_finite()):  # type: ignore[attr-defined]
             return
-        methods: tuple[Method | None, ...] = "taylor", None  # without FLINT's functions, and as the rule has it
+        methods: tuple[Any, ...] = "taylor", None  # without FLINT's functions, and as the rule has it
         for method in methods:
             (state,) = evaluate_states(family.equation, [x], digits=digits, method=method, **start)  # type: ignore[arg-type]
             if not expected.is_finite():  # FLINT can't either
@@ -242,15 +240,8 @@ def test_values_at_many_complex_points_are_those_at_each_alone(S: str, x0: Any) 
 
 
 @pytest.mark.long
-def test_a_thousand_complex_points_take_a_few_dozen_expansions(monkeypatch: pytest.MonkeyPatch) -> None:
-    count, expand = [0], transport.expand
-
-    def counted(*arguments: Any) -> Any:
-        count[0] += 1
-        return expand(*arguments)
-
-    monkeypatch.setattr(transport, "expand", counted)
+def test_a_thousand_complex_points_take_a_few_dozen_expansions() -> None:
     points = off_axis(random.Random(7), 1000)
-    values = evaluate("x^3 + x + 1", points, x0=0, y0=1, dy0=0)
+    with bounded_work(10_000):  # an expansion counts the bits of its numbers
+        values = evaluate("x^3 + x + 1", points, x0=0, y0=1, dy0=0)
     assert len(values) == 1252
-    assert count[0] < 150

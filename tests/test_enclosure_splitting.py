@@ -10,6 +10,7 @@ from itertools import pairwise
 import flint
 import pytest
 from build import ExactPoint, System, as_problem, ball_to_flint, evaluate_states, make_frame, parametrize
+from clocks import interrupted
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -19,7 +20,6 @@ from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
 from kovacic.enclosure.splitting import LEAF, GaussianMatrix, Recurrence, bit_burst, is_split, make_block, split_legs
 from kovacic.enclosure.taylor import expand, transition
-from kovacic.limits import Budget
 from tests.strategies import Example, examples, fractions, integers, nonzero
 
 AIRY = System.make((0, 1), (1,))
@@ -289,17 +289,12 @@ def test_the_goal_is_met_in_one_run_above_the_crossover() -> None:
 # --- limits -----------------------------------------------------------------------------------------------------------
 
 
-def test_an_exhausted_limit_and_an_interruption_leave_the_precision_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_exhausted_limit_and_an_interruption_leave_the_precision_alone() -> None:
     before = flint.ctx.prec
     with pytest.raises(LimitExceeded):
         evaluate(LEGENDRE, "1/3", x0=0, y0=1, dy0=0, digits=50_000, limits=Limits(seconds=0.1))
     assert flint.ctx.prec == before
 
-    def interrupt(self: Budget) -> None:
-        if flint.ctx.prec > 15_000:
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr(Budget, "check", interrupt)
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), interrupted(20):
         evaluate(LEGENDRE, "1/3", x0=0, y0=1, dy0=0, digits=5000)
     assert flint.ctx.prec == before

@@ -7,29 +7,20 @@ import math
 import pickle
 import random
 from concurrent.futures import ThreadPoolExecutor
-from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 import flint
 import mpmath
+import numpy
 import pytest
-from build import ExactPoint, System, ball_to_flint, evaluate_states, make_frame, parametrize
-from flint import acb, acb_poly, ctx, fmpq_poly
-from hypothesis import assume, example, given, settings
+import sympy
+from build import ball_to_flint, evaluate_states, parametrize
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic import AccuracyWarning, Ball, InputError, LimitExceeded, Limits, connection_matrix, evaluate
-from kovacic.enclosure.ball import ball_from_flint
-from kovacic.enclosure.frame import shift
-from kovacic.enclosure.log_derivative import _principal_part
-from kovacic.enclosure.matrices import product
-from kovacic.enclosure.points import as_point
-from kovacic.enclosure.precision import Method
-from kovacic.enclosure.system import check_segment, distance_lower
-from kovacic.enclosure.transport import cover, piece_matrices
-from kovacic.limits import Budget
 
 AIRY = ([0, 1], [1])
 
@@ -52,11 +43,9 @@ def mp_close(ball: Ball, reference: mpmath.mpf, digits: int) -> bool:
 @given(st.integers(), st.integers(-200, 200), st.integers(0), st.integers(-300, 100))
 def test_balls_survive_the_way_through_flint_and_pickle(m: int, e: int, r: int, k: int) -> None:
     with flint.ctx.workprec(2000):
-        ball = ball_from_flint(flint.arb((m, e), (r, k)))
-        assert ball is not None
-        again = ball_from_flint(ball_to_flint(ball))
+        ball = Ball.of(flint.arb((m, e), (r, k)))
+        again = Ball.of(ball_to_flint(ball))
     assert pickle.loads(pickle.dumps(ball)) == ball
-    assert again is not None
     assert again.contains(ball)
     assert again.radius <= ball.radius * (1 + 2.0**-20)  # flint's radii have 30 bits and are rounded outwards
     middle = ball.midpoint[0]
@@ -68,8 +57,8 @@ def test_balls_survive_the_way_through_flint_and_pickle(m: int, e: int, r: int, 
 @settings(max_examples=20)
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_a_float_goes_through_a_ball_unchanged(value: float) -> None:
-    point = as_point(value, "x").re
-    ball = Ball.exact(point.numerator, -(point.denominator.bit_length() - 1))
+    ball = Ball.of(value)
+    assert ball.is_exact()
     assert float(ball) == value
     assert ball.to_mpmath() == mpmath.mpf(value)
 
@@ -90,147 +79,13 @@ def test_a_complex_ball_isnt_a_float_and_overlap_is_symmetric() -> None:
     assert not Ball((0, 0), rad=(1, 0)).contains(Ball((1, -1), rad=(3, -2)))
 
 
-# --- exact points ----------------------------------------------------------------------------------------------------
-
-
-def test_numbers_of_every_kind_are_read_exactly() -> None:
-    import numpy as np
-    import sympy
-
-    third = Fraction(1, 3)
-    same = [third, "1/3", sympy.Rational(1, 3), flint.fmpq(1, 3)]
-    assert {as_point(v, "x") for v in same} == {ExactPoint(third)}
-    assert as_point("0.1", "x").re == as_point(Decimal("0.1"), "x").re == Fraction(1, 10)
-    assert as_point(0.1, "x").re == as_point(np.float64(0.1), "x").re == Fraction(0.1) != Fraction(1, 10)
-    assert as_point(mpmath.mpf("0.5"), "x") == as_point(sympy.Float(0.5), "x") == ExactPoint(Fraction(1, 2))
-    assert as_point(mpmath.mpc(1, 2), "x") == as_point(1 + 2 * sympy.I, "x") == as_point(1 + 2j, "x")
-
-
-@pytest.mark.parametrize(
-    "bad",
-    [
-        math.nan,
-        math.inf,
-        complex(0, math.inf),
-        "1e999999999",
-        "abc",
-        "__import__('os')",
-        "1/0",
-        None,
-        [],
-        True,
-        Decimal("NaN"),
-        mpmath.mpf("inf"),
-        Ball((1, 0), rad=(1, -3)),
-    ],
-)
-def test_what_isnt_an_exact_finite_number_is_refused(bad: object) -> None:
-    with pytest.raises(InputError):
-        as_point(bad, "x")
-
-
-# --- the kernel ------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.long
-@given(
-    st.lists(st.integers(-50, 50), min_size=1, max_size=7),
-    st.fractions(-8, 8, max_denominator=64),
-    st.fractions(-8, 8, max_denominator=64),
-    st.fractions(-3, 3, max_denominator=9),
-    st.fractions(-3, 3, max_denominator=9),
-    st.sampled_from([(7, -2, 0, 3), (0, 1), (1, 0, 1)]),
-)
-@example([1, 2], Fraction(2), Fraction(1), Fraction(1), Fraction(0), (0, 1))  # the denominator there is 2 + i
-@example([1, 2], Fraction(1), Fraction(0), Fraction(1), Fraction(0), (0, 1))
-@example([1, 2], Fraction(-1), Fraction(0), Fraction(1), Fraction(0), (0, 1))
-def test_the_shifted_equation_is_the_equation(
-    num: list[int], re: Fraction, im: Fraction, step: Fraction, turn: Fraction, den: tuple[int, ...]
-) -> None:
-    system = System.make(tuple(num), den)
-    re, im = Fraction(round(re * 64), 64), Fraction(round(im * 64), 64)
-    centre = ExactPoint(re, im)
-    scale = ExactPoint(step, turn)
-    if system.is_singular(centre) or not scale.norm_squared():
-        return
-    p, q = shift(system, centre, scale)
-
-    def at(parts: tuple[list[int], list[int] | None], u: ExactPoint) -> ExactPoint:
-        total = ExactPoint(Fraction(0))
-        imaginary = parts[1] or [0] * len(parts[0])
-        for a, b in zip(reversed(parts[0]), reversed(imaginary), strict=True):
-            total = total * u + ExactPoint(Fraction(a), Fraction(b))
-        return total
-
-    def original(coefficients: tuple[int, ...], x: ExactPoint) -> ExactPoint:
-        total = ExactPoint(Fraction(0))
-        for c in reversed(coefficients):
-            total = total * x + ExactPoint(Fraction(c))
-        return total
-
-    u = ExactPoint(Fraction(2, 5), Fraction(1, 7))
-    x = centre + u * scale
-    left = at(p, u) * original(system.den, x)
-    right = at(q, u) * original(system.num, x) * scale * scale
-    assert left == right
-    assert q[0][0] > 0
-    assert q[1] is None or q[1][0] == 0
-
-
-@settings(max_examples=20)
-@given(
-    st.lists(st.integers(-9, 9), min_size=1, max_size=14),
-    st.lists(st.integers(-9, 9), max_size=4),
-    st.integers(-5, 5),
-    st.sampled_from([4, 60]),
-)
-def test_the_principal_part_at_a_pole(part: list[int], rest: list[int], at: int, n: int) -> None:
-    """Of c_1/t + ... + c_k/t^k + f(t)/(3 t + 1)^n, t = x - at, the coefficients are c_1, ..., c_k."""
-    assume(part[-1])
-    t, third, k = fmpq_poly([-at, 1]), fmpq_poly([1 - 3 * at, 3]) ** n, len(part)
-    num = sum((c * t ** (k - j) for j, c in enumerate(part, 1)), fmpq_poly([])) * third + fmpq_poly(rest) * t**k
-    with ctx.workprec(2000):
-        found = _principal_part(acb_poly(num), acb_poly(t**k * third), acb(at), k)
-    assert [ball.unique_fmpz() for ball in found] == part
-
-
-@pytest.mark.parametrize("seed", range(16))
-def test_the_bounds_of_a_disc_hold_along_a_ray(seed: int) -> None:
-    rng = random.Random(seed)
-    system = random_system(rng)
-    centre = ExactPoint(Fraction(rng.randint(-16, 16), 8), Fraction(rng.randint(-16, 16), 8))
-    if system.is_singular(centre):
-        return
-    frame = make_frame(system, centre, rng.randint(-6, 0))
-    u = 0.9 * complex(math.cos(seed), math.sin(seed))
-    if frame is None:
-        return
-    bound = frame.bound
-    p, q = ([complex(a, b) for a, b in zip(re, im or [0] * len(re), strict=True)] for re, im in (frame.p, frame.q))
-    smallest, rise, slope, step = math.inf, 0.0, 0.0, 0.9 / 200
-    for k in range(200):
-        t = u * k / 200
-        value = abs(sum(c * t**j for j, c in enumerate(q)))
-        s_value = abs(sum(c * t**j for j, c in enumerate(p))) / value
-        smallest = min(smallest, math.log2(value / abs(q[0])))
-        slope, rise = (
-            slope + step * (1 + s_value * rise),
-            rise + step * slope,
-        )  # Euler's method stays below z'' = |S| z + 1
-    assert bound.log2_least <= smallest + 1e-9
-    near = distance_lower(system, centre)
-    if near is None or near > 2 * float(frame.scale):  # |S| doesn't fall much between the sample points
-        assert bound.gain >= 0.95 * rise / 2**smallest
-        assert bound.slope_gain >= 0.95 * slope / 2**smallest
-
-
 @pytest.mark.parametrize("method", ["taylor", "closed form"])
 @parametrize("digits", [5, 150], ordinary=1)
 @pytest.mark.parametrize("x", ["-20", "-1/3", "2.5", "11"])
-def test_airy_functions(digits: int, x: str, method: Method) -> None:
+def test_airy_functions(digits: int, x: str, method: Any) -> None:
     ball = evaluate(AIRY, x, x0=0, y0=1, dy0=0, digits=digits, method=method)
     with mpmath.workdps(digits + 40):
-        point = as_mp(as_point(x, "x").re)
+        point = as_mp(Fraction(x))
         reference = mpmath.pi * (
             mpmath.airybi(0, derivative=1) * mpmath.airyai(point)
             - mpmath.airyai(0, derivative=1) * mpmath.airybi(point)
@@ -302,20 +157,25 @@ def test_the_recessive_solution_gets_the_digits_that_growth_costs() -> None:
     assert states[1].route.runs > 1
 
 
-def random_system(rng: random.Random) -> System:
+def random_equation(rng: random.Random) -> tuple[list[int], list[int]]:
+    """The coefficients of S, upwards."""
     degree = rng.randint(0, 4)
     den = [rng.choice([-3, -1, 0, 1, 2, 7]) for _ in range(degree)] + [rng.choice([1, 2, 5])]
     num = [rng.choice([-9, -1, 0, 1, 4, 10**3]) for _ in range(rng.randint(0, 4))]
-    return System.make(tuple(num), tuple(den))
+    return num or [0], den
+
+
+def complex_number(re: Fraction, im: Fraction) -> sympy.Expr:
+    return sympy.Rational(re) + sympy.Rational(im) * sympy.I
 
 
 @parametrize("seed", range(60), ordinary=2, long=12)
 def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> None:
     rng = random.Random(seed)
-    system = random_system(rng)
-    polygon = [ExactPoint(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(-30, 30), 11)) for _ in range(3)]
+    S = random_equation(rng)
+    polygon = [complex_number(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(-30, 30), 11)) for _ in range(3)]
     try:
-        rough, fine = (connection_matrix(system, polygon, digits=digits) for digits in (8, 30))
+        rough, fine = (connection_matrix(S, polygon, digits=digits) for digits in (8, 30))
     except InputError:
         pytest.skip("the random path meets a singular point")
     for row, finer in zip(rough, fine, strict=True):
@@ -330,12 +190,12 @@ def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> N
 @pytest.mark.parametrize("seed", range(8))
 def test_a_contractible_loop_is_the_identity(seed: int) -> None:
     rng = random.Random(1000 + seed)
-    system = random_system(rng)
-    start = ExactPoint(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(1, 30), 11))
-    near = distance_lower(system, start)
-    size = Fraction(1) if near is None else Fraction(float(near) / 3)
-    polygon = [start, start + ExactPoint(size), start + ExactPoint(Fraction(0), size), start]
-    (a, b), (c, d) = connection_matrix(system, polygon, digits=20)
+    num, den = random_equation(rng)
+    re, im = Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(1, 30), 11)
+    poles = numpy.roots(den[::-1])
+    size = Fraction(min([1.0, *(abs(poles - complex(re, im)) / 3)])).limit_denominator(10**6)
+    polygon = [complex_number(*corner) for corner in ((re, im), (re + size, im), (re, im + size), (re, im))]
+    (a, b), (c, d) = connection_matrix((num, den), polygon, digits=20)
     assert a.contains(1)
     assert d.contains(1)
     assert b.contains_zero()
@@ -344,11 +204,10 @@ def test_a_contractible_loop_is_the_identity(seed: int) -> None:
 
 
 def test_large_denominators_dont_cost_precision() -> None:
-    # 40 double poles on the circle |x| = 3: absolute values of the coefficients of 1/den would lose 2^40 in every disc
-    system = System.make((1,), (-(3**40), *[0] * 39, 1))
-    with flint.ctx.workprec(140):
-        m = product(piece_matrices(system, ExactPoint(Fraction(0)), ExactPoint(Fraction(5, 2)), 100))
-        assert min(m[k].rel_accuracy_bits() for k in (0, 1, 3)) > 90
+    # 40 poles on the circle |x| = 3: absolute values of the coefficients of 1/den would lose 2^40 in every disc
+    value = evaluate(f"1/(x^40 - {3**40})", "5/2", x0=0, y0=1, dy0=0, digits=30, method="taylor")
+    assert value.digits >= 30
+    assert value.route.runs == 1
 
 
 # --- what must be refused --------------------------------------------------------------------------------------------
@@ -374,14 +233,6 @@ def test_large_denominators_dont_cost_precision() -> None:
 def test_wrong_input_is_refused(arguments: dict[str, object], words: str) -> None:
     with pytest.raises(InputError, match=words):
         evaluate(([2], [0, 0, 1]), **{"y0": 1, "dy0": 0, **arguments})  # type: ignore[arg-type]
-
-
-def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt() -> None:
-    system = System.make((1,), (-2, 0, 1))  # +-sqrt 2
-    with pytest.raises(InputError, match=r"1\.41421356"):
-        check_segment(system, ExactPoint(Fraction(0)), ExactPoint(Fraction(2)))
-    tiny = Fraction(1, 10**40)
-    check_segment(system, ExactPoint(Fraction(0), tiny), ExactPoint(Fraction(2), tiny))
 
 
 def test_an_exhausted_limit_is_an_error_when_nothing_is_known() -> None:
@@ -439,8 +290,6 @@ def test_a_chain_visits_its_points_one_after_the_other(S: str, solve: Any) -> No
 
 @pytest.mark.parametrize("text", ["x^2*y'' + x*y' + (x^2 - 1/9)*y = 0"])
 def test_an_equation_with_a_first_derivative_is_solved_itself_and_not_its_normal_form(text: str) -> None:
-    import kovacic
-
     with mpmath.workdps(60):
         nu, one = mpmath.mpf(1) / 3, mpmath.mpf(1)
         y0, dy0 = mpmath.besselj(nu, one), mpmath.besselj(nu, one, derivative=1)
@@ -452,8 +301,6 @@ def test_an_equation_with_a_first_derivative_is_solved_itself_and_not_its_normal
 
 
 def test_both_routes_for_an_equation_with_a_first_derivative() -> None:
-    import kovacic
-
     elementary = kovacic.solve("x*y'' + 2*y' - x*y = 0")  # sinh(x)/x, cosh(x)/x
     values = [
         evaluate(elementary, 2, x0=1, y0=math.e, dy0=0, digits=25, method=m)  # type: ignore[arg-type]
@@ -474,37 +321,11 @@ def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_
 # --- numbers of discs --------------------------------------------------------------------------------------------------
 
 
-def discs(pole: Fraction, a: ExactPoint, b: ExactPoint) -> int:
-    system = System.make((3,), (-pole.numerator, pole.denominator))
-    with Budget(Limits(seconds=5)).watched():
-        return sum(1 for _ in cover(system, a, b, 74))
-
-
-def discs_stay_few(rng: random.Random, count: int) -> None:
-    """From a distance m/10^k of a pole to a length beyond: ties of the rounding of centres are common there."""
-    for _ in range(count):
-        pole = rng.choice([Fraction(0), Fraction(1), Fraction(1, 3)])
-        near = Fraction(rng.randint(1, 9), 10 ** rng.randint(0, 9))
-        length = rng.choice([Fraction(1), Fraction(2), Fraction(4), Fraction(1, 2), Fraction(1, 4), Fraction(7, 5)])
-        turn = rng.choice(
-            [ExactPoint(Fraction(1)), ExactPoint(Fraction(-1)), ExactPoint(Fraction(3, 5), Fraction(4, 5))]
-        )
-        ends = [ExactPoint(pole) + turn.scaled(near), ExactPoint(pole) + turn.scaled(near + length)]
-        rng.shuffle(ends)
-        assert discs(pole, ends[0], ends[1]) <= 3 + 1.5 * math.log2((near + length) / near)
-
-
 @pytest.mark.long
 def test_a_path_from_close_to_a_singular_point_doesnt_stall() -> None:
     ball = evaluate("1/x", "1.000001", x0="0.000001", y0=1, dy0=0, limits=Limits(seconds=20))
     assert ball.digits >= 15
     assert ball.overlaps(evaluate("1/x", "1.000001", x0="0.000001", y0=1, dy0=0, path=["1/3"], digits=25))
-    discs_stay_few(random.Random(1), 150)
-
-
-@pytest.mark.slow
-def test_thousands_of_paths_take_few_discs() -> None:
-    discs_stay_few(random.Random(2), 5000)
 
 
 # --- threads -----------------------------------------------------------------------------------------------------------
@@ -531,9 +352,7 @@ def test_threads_get_the_balls_that_each_would_get_alone_and_leave_the_precision
     ["-1", "-2", "-1/(4*x^2)", "1 + 2/x^2", "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)", "y'' + y' + y = 0"],
     ordinary=2,
 )
-def test_a_real_problem_has_a_real_ball(equation: str, method: Method | None) -> None:
-    import kovacic
-
+def test_a_real_problem_has_a_real_ball(equation: str, method: Any) -> None:
     solution = kovacic.solve(equation)
     balls = evaluate(solution, [3, "1/2"], x0=1, y0=1, dy0="-1/7", path=[2, "3/2"], method=method)
     assert isinstance(balls, tuple)
@@ -560,7 +379,6 @@ def test_a_crowd_of_points_has_the_balls_of_single_ones(equation: str) -> None:
 
 
 def test_arrays_of_any_shape_keep_it_and_holes_stay_holes() -> None:
-    numpy = pytest.importorskip("numpy")
     x = numpy.array([[0.5, math.nan, 2.0], [1.0, -1.0, 0.0]])
     values = evaluate(AIRY, x, x0=0, y0=1, dy0=0)
     assert values.shape == (2, 3)
@@ -573,8 +391,6 @@ def test_arrays_of_any_shape_keep_it_and_holes_stay_holes() -> None:
 
 
 def test_numbers_may_be_constants_and_balls_of_every_library() -> None:
-    import sympy
-
     with flint.ctx.workprec(300):
         root = flint.acb(2).sqrt()
         for x in ("sqrt(2)", sympy.sqrt(2)):
@@ -666,36 +482,24 @@ RIGHT_HAND_SIDES: list[tuple[str, str, Any, Any]] = [
 @parametrize(("equation", "solution", "x0", "x"), RIGHT_HAND_SIDES, ordinary=2)
 def test_equations_with_a_right_hand_side(equation: str, solution: str, x0: Any, x: Any) -> None:
     """The answer first: y is known, and f is what makes it a solution."""
-    import sympy
-
-    from kovacic.enclosure.constants import in_balls
-    from kovacic.reading.symbolic import read_expression
-
     t = sympy.Symbol("x")
-    y = read_expression(solution, names={"x": t})
+    y = sympy.sympify(solution.replace("^", "**"))
     coefficients = []
     for unit in ((0, 0, 1), (0, 1, 0), (1, 0, 0)):  # what is left of the equation for y'' = 1, y' = 1, y = 1
         text = equation
         for name, number in zip(("y''", "y'", "y"), unit[::-1], strict=True):
             text = text.replace(name, str(number))
-        coefficients.append(read_expression(text, names={"x": t}))
+        coefficients.append(sympy.sympify(text.replace("^", "**")))
     f = sympy.expand(sum(p * y.diff(t, k) for p, k in zip(coefficients, (2, 1, 0), strict=True)))
     given = f"{equation} = {f}".replace("**", "^")
     start = [y.subs(t, x0), y.diff(t).subs(t, x0)]
     path = [x0, Fraction(3, 2) + x0] if "3*y" in equation else None
     points = x if isinstance(x, list) else [x]
-    for point, state in zip(
-        points, evaluate_states(given, points, x0=x0, y0=start[0], dy0=start[1], path=path, digits=25), strict=True
-    ):
-        with flint.ctx.workprec(200):
-            at = {
-                t: flint.acb(point)
-                if not isinstance(point, Fraction)
-                else flint.acb(point.numerator) / point.denominator
-            }
-            assert ball_to_flint(state.y).overlaps(in_balls(y, at))
-            assert ball_to_flint(state.dy).overlaps(in_balls(y.diff(t), at))
-        assert state.y.digits >= 25
+    found = evaluate(given, points, x0=x0, y0=start[0], dy0=start[1], path=path, digits=25, derivative=True)
+    for point, pair in zip(points, found, strict=True):
+        for ball, exact in zip(pair, (y, y.diff(t)), strict=True):
+            assert mp_close(ball, mpmath.mpmathify(sympy.N(exact.subs(t, sympy.sympify(point)), 60)), 40)
+        assert pair[0].digits >= 25
 
 
 def test_a_ball_that_says_nothing_is_refused() -> None:
@@ -715,18 +519,6 @@ def test_a_right_hand_side_that_cannot_be_is_refused() -> None:
             evaluate(equation, 2, **options)
     with pytest.raises(InputError, match="without a right-hand side"):
         connection_matrix("y'' + y = x", [0, 1])
-
-
-@pytest.mark.parametrize("k", [0, 3, 6, 9])
-def test_a_complex_path_comes_to_its_end(k: int) -> None:
-    """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
-    a, b = ExactPoint(Fraction(59, 64), Fraction(47, 64)), ExactPoint(Fraction(-63, 64), Fraction(13, 32))
-    ends = [ExactPoint(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
-    system = System.make((0, 1), (1,))
-    with Budget(Limits(seconds=5)).watched():
-        assert sum(1 for _ in cover(system, ends[0], ends[1], 223)) < 400
-        if k == 0:
-            assert len(list(cover(system, a, b, 223))) < 10
 
 
 @pytest.mark.parametrize("order", [3, 10, 11, 12, 40])

@@ -10,7 +10,7 @@ from functools import cache
 import pytest
 import sympy
 import transform
-from build import QQ, Atoms, Conditions, ExactPoint, FunctionField, RatFunc, System, analyse, parametrize
+from build import QQ, Atoms, Budget, Conditions, ExactPoint, FunctionField, RatFunc, System, analyse, parametrize, run
 from clocks import controlled
 from flint import acb_poly
 from sympy.abc import n, x
@@ -18,12 +18,11 @@ from sympy.abc import n, x
 import kovacic
 from kovacic import LimitExceeded, Limits, Solution
 from kovacic.algebra.isolation import complex_zeros
-from kovacic.cli.main import run
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.log_derivative import LogDerivative
 from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.substitution import finite_value, slope
-from kovacic.limits import Budget, check_time, limited, may_be_late, watched_seconds
+from kovacic.limits import check_time, limited, may_be_late, watched_seconds
 from kovacic.verify.local import points
 from kovacic.writing.document import FORMATS, Formula, say
 from kovacic.writing.formula import Formulas

@@ -19,9 +19,7 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import Ball, InputError, Limits, Solution
-from kovacic.algebra.rationals import to_fmpq
 from kovacic.ball import RollingBall as Body
-from kovacic.exact import exact
 
 NUMPY = {scalar for scalar in np.sctypeDict.values() if issubclass(scalar, np.number | np.bool_)} - {np.timedelta64}
 KINDS: dict[str, Any] = {
@@ -80,11 +78,11 @@ START: dict[str, Any] = {"x0": 1, "y0": 1, "dy0": 0, **QUICK}
 
 
 def is_number(value: Any) -> bool:
+    """Is it taken for one rational or complex number?"""
     try:
-        exact(value, "a number")
+        return Ball.of(value).is_exact()
     except InputError:
         return False
-    return True
 
 
 FEW: dict[str, Any] = {"x0": 1, "y0": 1, "dy0": 0, "limits": Limits(seconds=5)}
@@ -189,11 +187,7 @@ def test_every_kind_of_number_is_a_value_or_refused(place: str) -> None:
 @pytest.mark.parametrize("value", [Fraction(3), Fraction(7, 2)])
 def test_the_same_number_of_every_kind_gives_the_same_value(value: Fraction) -> None:
     """What is read isn't rounded."""
-    same = {
-        kind: number
-        for kind, number in KINDS.items()
-        if is_number(number) and exact(number, "x") == (to_fmpq(value), 0)
-    }
+    same = {kind: number for kind, number in KINDS.items() if is_number(number) and Ball.of(number).equals(value)}
     assert len(same) >= (25 if value == 3 else 5)
     expected = kovacic.evaluate("x", value, **START)
     for kind, number in same.items():
@@ -204,7 +198,6 @@ def test_the_same_number_of_every_kind_gives_the_same_value(value: Fraction) -> 
 @settings(max_examples=20)
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_a_double_is_its_binary_value_and_text_its_decimal_one(double: float) -> None:
-    real = to_fmpq(Fraction(double))
     for number in (
         double,
         np.float64(double),
@@ -213,5 +206,7 @@ def test_a_double_is_its_binary_value_and_text_its_decimal_one(double: float) ->
         complex(double),
         Decimal(double),
     ):
-        assert exact(number, "x") == (real, 0)
-    assert exact(f"{Decimal(double):f}", "x") == (real, 0)
+        ball = Ball.of(number)
+        assert ball.is_exact()
+        assert ball.midpoint == (Fraction(double), 0)
+    assert kovacic.evaluate("0", f"{Decimal(double):f}", x0=0, y0=0, dy0=1).contains(Fraction(double))

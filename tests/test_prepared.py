@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
-from build import ExactPoint, parametrize
-from flint import acb, arb, arb_poly, fmpq
+from build import bounded_work, parametrize
 
 import kovacic
-from kovacic.enclosure.matrices import Matrix, MatrixProduct, State
-from kovacic.enclosure.way import Local, Way
-from kovacic.limits import bounded_work
 
 START = {"x0": 0, "y0": 1, "dy0": "-1/3"}
 EQUATIONS: list[tuple[str, dict[str, Any]]] = [
@@ -62,39 +56,6 @@ def test_nothing_is_expanded_twice(equation: str, start: dict[str, Any]) -> None
         kovacic.evaluate(equation, "7/5", **start)
     with pytest.raises(kovacic.LimitExceeded), bounded_work(0):
         solution(4)
-
-
-@dataclass(frozen=True)
-class StraightStep:
-    """A disc of y'' = 0, of radius 1/2."""
-
-    enter: ExactPoint
-    leave: ExactPoint
-    matrix: Matrix = (acb(1), acb(1), acb(0), acb(1))
-    added: State = (acb(0), acb(0))
-
-    def local(self, state: State) -> Local:
-        middle = self.enter + ExactPoint(Fraction(1, 2))
-        y, dy = (value.real for value in state)
-        poly = arb_poly([y + dy / 2, dy / 2])
-        return Local.of(middle, -1, poly, (arb(0), arb(0)), reach=fmpq(1), precision=64)
-
-
-def straight(a: ExactPoint, b: ExactPoint) -> Iterator[StraightStep]:
-    while a != b:
-        yield StraightStep(a, a + ExactPoint(1))
-        a = a + ExactPoint(1)
-
-
-@pytest.mark.long
-def test_a_way_that_forgets_its_first_discs_goes_on() -> None:
-    """y = 3 + 2x, over more discs than are kept; what was forgotten isn't there any more, and the rest is right."""
-    way = Way(ExactPoint(0), straight, (acb(3), acb(2)), MatrixProduct())
-    for place in (1, 2500, 5000, 9000, 8999):
-        assert way.states([ExactPoint(place)]) == [(3 + 2 * place, 2)]
-    assert not way.has(ExactPoint(1))
-    assert way.has(ExactPoint(8999))
-    assert way.states([ExactPoint(9100), ExactPoint(20_000)]) == [(18_203, 2), (40_003, 2)]
 
 
 def test_arrays_and_complex_points() -> None:

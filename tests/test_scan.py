@@ -5,30 +5,32 @@ from __future__ import annotations
 import csv
 import io
 import json
-import subprocess
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
-from build import parametrize, read_input
+from build import RatFunc, function, parametrize, read_input, run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kovacic import InputError, LimitExceeded, NotRational, ParseError, solve_many
 from kovacic.batch.records import LABELS, Record, label_of
-from kovacic.batch.scan import _COLOURS_AND_NAMES, Grid, Template, draw_map, parse_grid, points, scan_items
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic
-from kovacic.reading.expression import parse_with
+from kovacic.batch.scan import Grid, Template, draw_map, parse_grid, points, scan_items
 
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=30)
 
 
-def command(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "kovacic", "scan", *arguments], capture_output=True, text=True, timeout=60
-    )
+class Ran(NamedTuple):
+    status: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def command(capsys: pytest.CaptureFixture[str]) -> Callable[..., Ran]:
+    return lambda *arguments: Ran(run(["scan", *arguments]), *capsys.readouterr())
 
 
 def scan(expression: object, grids: list[Grid], **options: int) -> Iterator[Record]:
@@ -89,17 +91,23 @@ def test_the_last_parameter_changes_fastest() -> None:
     assert found == [(0, 5), (0, 7), (1, 5), (1, 7)]
 
 
+X = function("x")
+MEANT: dict[str, Callable[[Fraction], RatFunc]] = {
+    "n*x^2+n^2": lambda n: X**2 * n + n**2,
+    "(4*n^2-1)/(4*x^2)-1": lambda n: (4 * n**2 - 1) / (4 * X**2) - 1,
+    "-n/x": lambda n: -n / X,
+    "2n + 3": lambda n: X * 0 + (2 * n + 3),
+    "x - n - n": lambda n: X - 2 * n,
+    "(x+1)(n-x)^2": lambda n: (X + 1) * (X - n) ** 2,
+    "n²*x": lambda n: X * n**2,
+    "5-n^2*x": lambda n: 5 - X * n**2,
+}
+
+
 @settings(max_examples=20)
-@given(
-    fractions,
-    st.sampled_from(
-        ["n*x^2+n^2", "(4*n^2-1)/(4*x^2)-1", "-n/x", "2n + 3", "x - n - n", "(x+1)(n-x)^2", "n²*x", "5-n^2*x"]
-    ),
-)
+@given(fractions, st.sampled_from(sorted(MEANT)))
 def test_the_text_of_a_point_means_what_the_parameter_meant(value: Fraction, text: str) -> None:
-    arithmetic = Arithmetic()
-    direct = parse_with(text, {"x": VARIABLE, "n": arithmetic.constant(value)}, arithmetic)
-    assert read_input(substitute(text, {"n": value}), var="x").S == arithmetic.rational(direct)
+    assert function(substitute(text, {"n": value})) == MEANT[text](value)
 
 
 def test_only_whole_names_are_parameters() -> None:
@@ -141,10 +149,10 @@ def test_sympy_expressions_and_points_where_s_is_not_defined() -> None:
 
 
 @pytest.mark.long
-def test_the_command_writes_csv() -> None:
+def test_the_command_writes_csv(command: Callable[..., Ran]) -> None:
     ran = command("x^2 + n/m", "n=1:3", "m=0,1", "--format", "csv", "-j", "1", "-q")
-    assert ran.returncode == 2
-    rows = list(csv.DictReader(io.StringIO(ran.stdout)))
+    assert ran.status == 2
+    rows = list(csv.DictReader(io.StringIO(ran.out)))
     assert [(row["n"], row["m"], row["status"], row["case"]) for row in rows] == [
         ("1", "0", "error", ""),
         ("1", "1", "liouvillian", "1"),
@@ -158,20 +166,20 @@ def test_the_command_writes_csv() -> None:
 
 
 @pytest.mark.long
-def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path) -> None:
+def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path, command: Callable[..., Ran]) -> None:
     output, picture = tmp_path / "scan.jsonl", tmp_path / "map.png"
     arguments = ["-n^2 + m*x", "n=0:2", "m=0:3", "-o", str(output), "--map", str(picture), "-j", "1"]
     ran = command(*arguments)
-    assert ran.returncode == 0, ran.stderr
+    assert ran.status == 0, ran.err
     lines = output.read_bytes().splitlines(keepends=True)
     assert [json.loads(line)["parameters"] for line in lines][5] == {"n": "1", "m": "1"}
     whole_map = picture.read_bytes()
     assert whole_map.startswith(b"\x89PNG")
     output.write_bytes(b"".join(lines[:4]) + lines[4][:30])
     picture.unlink()
-    assert command(*arguments).returncode == 2
+    assert command(*arguments).status == 2
     ran = command(*arguments, "--resume")
-    assert ran.returncode == 0, ran.stderr
+    assert ran.status == 0, ran.err
     assert [json.loads(line)["line"] for line in output.read_bytes().splitlines()] == list(range(1, 13))
     assert picture.read_bytes() == whole_map
 
@@ -187,14 +195,16 @@ def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path) -> None:
     ],
     ordinary=1,
 )
-def test_wrong_usage(arguments: list[str]) -> None:
+def test_wrong_usage(arguments: list[str], command: Callable[..., Ran]) -> None:
     ran = command(*arguments)
-    assert ran.returncode == 2
-    assert "Traceback" not in ran.stderr
+    assert ran.status == 2
+    assert "Traceback" not in ran.err
 
 
-def test_every_label_has_a_colour() -> None:
-    assert tuple(_COLOURS_AND_NAMES) == LABELS
+@pytest.mark.long
+def test_every_label_has_a_colour(tmp_path: Path) -> None:
+    labels = dict(enumerate(LABELS, start=1))
+    draw_map("S", (parse_grid("a=0"), parse_grid(f"b=1:{len(labels)}")), labels, tmp_path / "map.png")
 
 
 @pytest.mark.long

@@ -12,15 +12,9 @@ from typing import Any
 
 import jsonschema
 import pytest
-from build import parametrize
+from build import parametrize, run
 
 import kovacic
-from kovacic import Limits
-from kovacic.batch.records import Item, Job, ProcessLost, refused, stopped
-from kovacic.batch.worker import solve_item
-from kovacic.checker import verdict
-from kovacic.cli.main import run
-from kovacic.limits import DEFAULT_LIMITS
 
 EQUATIONS = [
     "x^2 + 3",
@@ -71,7 +65,9 @@ def test_lines_of_solve(validator: jsonschema.Draft202012Validator, capsys: pyte
         validator.validate(line)
 
 
-def test_lines_of_bad_input(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
+def test_lines_of_bad_input(
+    validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     """Every text has its line, in order, with a hint for the command line."""
     bad, ambiguous, good, large = printed(capsys, "solve", "--json", "1/2x", "a*b", "x", "x^100001", status=2)
     assert (bad["input"], bad["error"]["position"], bad["error"]["hint"]) == ("1/2x", 0, "write 1/(2x) or (1/2)*x")
@@ -79,7 +75,10 @@ def test_lines_of_bad_input(validator: jsonschema.Draft202012Validator, capsys: 
     assert (good["status"], large["status"]) == ("none", "undecided")
     for line in (bad, ambiguous, good, large):
         validator.validate(line)
-    said = [verdict(json.dumps(line)).partition(":")[0] for line in (bad, good, large)]
+    answers = tmp_path / "answers.jsonl"
+    answers.write_text("".join(json.dumps(line) + "\n" for line in (bad, good, large)))
+    run(["check", str(answers)])
+    said = [line.split(": ")[1] for line in capsys.readouterr().out.splitlines()[:3]]
     assert said == ["not checked", "checked", "not checked"]
 
 
@@ -127,23 +126,6 @@ def test_lines_of_batch(
     assert [line["status"] for line in late] == ["undecided"]
     for line in lines + late:
         validator.validate(line)
-
-
-def test_lines_of_lost_processes_and_failed_checks(
-    validator: jsonschema.Draft202012Validator, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    item = Item(3, "x", extra={"id": "a"})
-    validator.validate(refused(item, ProcessLost("the worker process ended with signal SIGKILL"), 0.5).data)
-    validator.validate(stopped(item, "the memory limit of 30 MiB is used up", 0.5).data)
-    validator.validate(solve_item(item, Job(), Limits(degree=1, text_length=0)).data)
-
-    def failing(*arguments: object, **options: object) -> None:
-        raise kovacic.VerificationFailed("the answer failed its own check; please report it")
-
-    monkeypatch.setattr(kovacic, "solve", failing)
-    record = solve_item(item, Job(), DEFAULT_LIMITS)
-    assert record.label == "failed"
-    validator.validate(record.data)
 
 
 @pytest.mark.long

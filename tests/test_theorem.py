@@ -15,10 +15,9 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, run
 
 import kovacic
-from kovacic.cli.main import run
 from kovacic.parametric.cases import solvable_cases
 from kovacic.parametric.check import Sampler
 from kovacic.parametric.riemann import Schwarz, kimura

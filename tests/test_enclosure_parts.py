@@ -1,0 +1,328 @@
+"""Parts of the room `kovacic.enclosure`, alone: points, shifted equations, discs and their bounds, ways, tails, quadratures."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+import flint
+import mpmath
+import pytest
+from build import Budget, ExactPoint, System, as_problem, make_frame
+from clocks import controlled, interrupted
+from flint import acb, acb_poly, arb, arb_poly, ctx, fmpq, fmpq_poly
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+from kovacic import Ball, InputError, LimitExceeded, Limits
+from kovacic.enclosure import frobenius
+from kovacic.enclosure.frame import least_growth, shift
+from kovacic.enclosure.log_derivative import _principal_part, integral
+from kovacic.enclosure.matrices import Matrix, MatrixProduct, State
+from kovacic.enclosure.points import as_point
+from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.system import check_segment, distance_lower
+from kovacic.enclosure.transport import cover
+from kovacic.enclosure.way import Local, Way
+
+
+def test_numbers_of_every_kind_are_read_exactly() -> None:
+    import numpy as np
+    import sympy
+
+    third = Fraction(1, 3)
+    same = [third, "1/3", sympy.Rational(1, 3), flint.fmpq(1, 3)]
+    assert {as_point(v, "x") for v in same} == {ExactPoint(third)}
+    assert as_point("0.1", "x").re == as_point(Decimal("0.1"), "x").re == Fraction(1, 10)
+    assert as_point(0.1, "x").re == as_point(np.float64(0.1), "x").re == Fraction(0.1) != Fraction(1, 10)
+    assert as_point(mpmath.mpf("0.5"), "x") == as_point(sympy.Float(0.5), "x") == ExactPoint(Fraction(1, 2))
+    assert as_point(mpmath.mpc(1, 2), "x") == as_point(1 + 2 * sympy.I, "x") == as_point(1 + 2j, "x")
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        math.nan,
+        math.inf,
+        complex(0, math.inf),
+        "1e999999999",
+        "abc",
+        "__import__('os')",
+        "1/0",
+        None,
+        [],
+        True,
+        Decimal("NaN"),
+        mpmath.mpf("inf"),
+        Ball((1, 0), rad=(1, -3)),
+    ],
+)
+def test_what_isnt_an_exact_finite_number_is_refused(bad: object) -> None:
+    with pytest.raises(InputError):
+        as_point(bad, "x")
+
+
+@pytest.mark.long
+@given(
+    st.lists(st.integers(-50, 50), min_size=1, max_size=7),
+    st.fractions(-8, 8, max_denominator=64),
+    st.fractions(-8, 8, max_denominator=64),
+    st.fractions(-3, 3, max_denominator=9),
+    st.fractions(-3, 3, max_denominator=9),
+    st.sampled_from([(7, -2, 0, 3), (0, 1), (1, 0, 1)]),
+)
+@example([1, 2], Fraction(2), Fraction(1), Fraction(1), Fraction(0), (0, 1))  # the denominator there is 2 + i
+@example([1, 2], Fraction(1), Fraction(0), Fraction(1), Fraction(0), (0, 1))
+@example([1, 2], Fraction(-1), Fraction(0), Fraction(1), Fraction(0), (0, 1))
+def test_the_shifted_equation_is_the_equation(
+    num: list[int], re: Fraction, im: Fraction, step: Fraction, turn: Fraction, den: tuple[int, ...]
+) -> None:
+    system = System.make(tuple(num), den)
+    re, im = Fraction(round(re * 64), 64), Fraction(round(im * 64), 64)
+    centre = ExactPoint(re, im)
+    scale = ExactPoint(step, turn)
+    if system.is_singular(centre) or not scale.norm_squared():
+        return
+    p, q = shift(system, centre, scale)
+
+    def at(parts: tuple[list[int], list[int] | None], u: ExactPoint) -> ExactPoint:
+        total = ExactPoint(Fraction(0))
+        imaginary = parts[1] or [0] * len(parts[0])
+        for a, b in zip(reversed(parts[0]), reversed(imaginary), strict=True):
+            total = total * u + ExactPoint(Fraction(a), Fraction(b))
+        return total
+
+    def original(coefficients: tuple[int, ...], x: ExactPoint) -> ExactPoint:
+        total = ExactPoint(Fraction(0))
+        for c in reversed(coefficients):
+            total = total * x + ExactPoint(Fraction(c))
+        return total
+
+    u = ExactPoint(Fraction(2, 5), Fraction(1, 7))
+    x = centre + u * scale
+    left = at(p, u) * original(system.den, x)
+    right = at(q, u) * original(system.num, x) * scale * scale
+    assert left == right
+    assert q[0][0] > 0
+    assert q[1] is None or q[1][0] == 0
+
+
+@settings(max_examples=20)
+@given(
+    st.lists(st.integers(-9, 9), min_size=1, max_size=14),
+    st.lists(st.integers(-9, 9), max_size=4),
+    st.integers(-5, 5),
+    st.sampled_from([4, 60]),
+)
+def test_the_principal_part_at_a_pole(part: list[int], rest: list[int], at: int, n: int) -> None:
+    """Of c_1/t + ... + c_k/t^k + f(t)/(3 t + 1)^n, t = x - at, the coefficients are c_1, ..., c_k."""
+    assume(part[-1])
+    t, third, k = fmpq_poly([-at, 1]), fmpq_poly([1 - 3 * at, 3]) ** n, len(part)
+    num = sum((c * t ** (k - j) for j, c in enumerate(part, 1)), fmpq_poly([])) * third + fmpq_poly(rest) * t**k
+    with ctx.workprec(2000):
+        found = _principal_part(acb_poly(num), acb_poly(t**k * third), acb(at), k)
+    assert [ball.unique_fmpz() for ball in found] == part
+
+
+@pytest.mark.parametrize("seed", range(16))
+def test_the_bounds_of_a_disc_hold_along_a_ray(seed: int) -> None:
+    rng = random.Random(seed)
+    system = random_system(rng)
+    centre = ExactPoint(Fraction(rng.randint(-16, 16), 8), Fraction(rng.randint(-16, 16), 8))
+    if system.is_singular(centre):
+        return
+    frame = make_frame(system, centre, rng.randint(-6, 0))
+    u = 0.9 * complex(math.cos(seed), math.sin(seed))
+    if frame is None:
+        return
+    bound = frame.bound
+    p, q = ([complex(a, b) for a, b in zip(re, im or [0] * len(re), strict=True)] for re, im in (frame.p, frame.q))
+    smallest, rise, slope, step = math.inf, 0.0, 0.0, 0.9 / 200
+    for k in range(200):
+        t = u * k / 200
+        value = abs(sum(c * t**j for j, c in enumerate(q)))
+        s_value = abs(sum(c * t**j for j, c in enumerate(p))) / value
+        smallest = min(smallest, math.log2(value / abs(q[0])))
+        slope, rise = (
+            slope + step * (1 + s_value * rise),
+            rise + step * slope,
+        )  # Euler's method stays below z'' = |S| z + 1
+    assert bound.log2_least <= smallest + 1e-9
+    near = distance_lower(system, centre)
+    if near is None or near > 2 * float(frame.scale):  # |S| doesn't fall much between the sample points
+        assert bound.gain >= 0.95 * rise / 2**smallest
+        assert bound.slope_gain >= 0.95 * slope / 2**smallest
+
+
+def random_system(rng: random.Random) -> System:
+    degree = rng.randint(0, 4)
+    den = [rng.choice([-3, -1, 0, 1, 2, 7]) for _ in range(degree)] + [rng.choice([1, 2, 5])]
+    num = [rng.choice([-9, -1, 0, 1, 4, 10**3]) for _ in range(rng.randint(0, 4))]
+    return System.make(tuple(num), tuple(den))
+
+
+def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt() -> None:
+    system = System.make((1,), (-2, 0, 1))  # +-sqrt 2
+    with pytest.raises(InputError, match=r"1\.41421356"):
+        check_segment(system, ExactPoint(Fraction(0)), ExactPoint(Fraction(2)))
+    tiny = Fraction(1, 10**40)
+    check_segment(system, ExactPoint(Fraction(0), tiny), ExactPoint(Fraction(2), tiny))
+
+
+def discs(pole: Fraction, a: ExactPoint, b: ExactPoint) -> int:
+    system = System.make((3,), (-pole.numerator, pole.denominator))
+    with Budget(Limits(seconds=5)).watched():
+        return sum(1 for _ in cover(system, a, b, 74))
+
+
+def discs_stay_few(rng: random.Random, count: int) -> None:
+    """From a distance m/10^k of a pole to a length beyond: ties of the rounding of centres are common there."""
+    for _ in range(count):
+        pole = rng.choice([Fraction(0), Fraction(1), Fraction(1, 3)])
+        near = Fraction(rng.randint(1, 9), 10 ** rng.randint(0, 9))
+        length = rng.choice([Fraction(1), Fraction(2), Fraction(4), Fraction(1, 2), Fraction(1, 4), Fraction(7, 5)])
+        turn = rng.choice(
+            [ExactPoint(Fraction(1)), ExactPoint(Fraction(-1)), ExactPoint(Fraction(3, 5), Fraction(4, 5))]
+        )
+        ends = [ExactPoint(pole) + turn.scaled(near), ExactPoint(pole) + turn.scaled(near + length)]
+        rng.shuffle(ends)
+        assert discs(pole, ends[0], ends[1]) <= 3 + 1.5 * math.log2((near + length) / near)
+
+
+@pytest.mark.long
+def test_paths_from_close_to_a_singular_point_take_few_discs() -> None:
+    discs_stay_few(random.Random(1), 150)
+
+
+@pytest.mark.slow
+def test_thousands_of_paths_take_few_discs() -> None:
+    discs_stay_few(random.Random(2), 5000)
+
+
+@pytest.mark.parametrize("k", [0, 3, 6, 9])
+def test_a_complex_path_comes_to_its_end(k: int) -> None:
+    """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
+    a, b = ExactPoint(Fraction(59, 64), Fraction(47, 64)), ExactPoint(Fraction(-63, 64), Fraction(13, 32))
+    ends = [ExactPoint(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
+    system = System.make((0, 1), (1,))
+    with Budget(Limits(seconds=5)).watched():
+        assert sum(1 for _ in cover(system, ends[0], ends[1], 223)) < 400
+        if k == 0:
+            assert len(list(cover(system, a, b, 223))) < 10
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_path_takes_fewer_steps_than_the_bound(seed: int) -> None:
+    rng = Random(seed)
+    num = tuple(rng.randrange(-9, 10) * 10 ** rng.randrange(0, 6) for _ in range(rng.randrange(1, 4)))
+    system = System.make((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
+    a, b = (ExactPoint(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
+    steps = len(list(cover(system, a, b, 60)))
+    assert least_growth(system, a, b) <= 2 * 110 * math.log(2) * steps
+
+
+def test_the_growth_is_the_integral_of_the_root() -> None:
+    high = System.make((0,) * 200 + (1,), (1,))
+    exact = (Fraction(3) ** 101 - Fraction(2) ** 101) / 101  # int x^100
+    assert float(exact) / 3 < least_growth(high, ExactPoint(2), ExactPoint(3)) < float(exact)
+    airy = System.make((0, 1), (1,))
+    assert least_growth(airy, ExactPoint(Fraction(0)), ExactPoint(Fraction(100))) == pytest.approx(2000 / 3, rel=0.03)
+    assert least_growth(airy, ExactPoint(Fraction(0)), ExactPoint(Fraction(100))) < 2000 / 3
+    euler = System.make((1,), (0, 0, 1))
+    assert least_growth(euler, ExactPoint(Fraction(2)), ExactPoint(Fraction(1))) == pytest.approx(math.log(2), rel=0.03)
+    assert least_growth(System.make((), (1,)), ExactPoint(Fraction(2)), ExactPoint(Fraction(1))) == 0
+
+
+@pytest.mark.parametrize(
+    ("den", "a", "b", "name"),
+    [
+        ((0, 1), -1, 1, "point 0 "),
+        ((-1, 3), -1, 1, "point 1/3 "),
+        ((-1, 0, 10**12), 0, 1, "point 1/1000000 "),
+        ((1, 0, 9), -2j, 2j, "point 0 - 1/3i "),
+        ((-2, 0, 1), 0, 2, r"point 1\.41421356237\.\.\. "),
+        ((-2, *[0] * 499, 1), "1/3", 2, r"point 1\.0013872557\d*\.\.\. "),
+    ],
+)
+def test_a_singular_point_has_its_exact_name(den: tuple[int, ...], a: Any, b: Any, name: str) -> None:
+    ends = [as_point(v, "x") for v in (a, b)]
+    with pytest.raises(InputError, match=name):
+        check_segment(System.make((1,), den), *ends)
+    check_segment(System.make((1,), den), *(end + ExactPoint(Fraction(0), Fraction(9)) for end in ends))
+
+
+@dataclass(frozen=True)
+class StraightStep:
+    """A disc of y'' = 0, of radius 1/2."""
+
+    enter: ExactPoint
+    leave: ExactPoint
+    matrix: Matrix = (acb(1), acb(1), acb(0), acb(1))
+    added: State = (acb(0), acb(0))
+
+    def local(self, state: State) -> Local:
+        middle = self.enter + ExactPoint(Fraction(1, 2))
+        y, dy = (value.real for value in state)
+        poly = arb_poly([y + dy / 2, dy / 2])
+        return Local.of(middle, -1, poly, (arb(0), arb(0)), reach=fmpq(1), precision=64)
+
+
+def straight(a: ExactPoint, b: ExactPoint) -> Iterator[StraightStep]:
+    while a != b:
+        yield StraightStep(a, a + ExactPoint(1))
+        a = a + ExactPoint(1)
+
+
+@pytest.mark.long
+def test_a_way_that_forgets_its_first_discs_goes_on() -> None:
+    """y = 3 + 2x, over more discs than are kept; what was forgotten isn't there any more, and the rest is right."""
+    way = Way(ExactPoint(0), straight, (acb(3), acb(2)), MatrixProduct())
+    for place in (1, 2500, 5000, 9000, 8999):
+        assert way.states([ExactPoint(place)]) == [(3 + 2 * place, 2)]
+    assert not way.has(ExactPoint(1))
+    assert way.has(ExactPoint(8999))
+    assert way.states([ExactPoint(9100), ExactPoint(20_000)]) == [(18_203, 2), (40_003, 2)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_tail_is_below_its_bound(seed: int) -> None:
+    """The same basis with few bits and with many: the ball of the first contains that of the second."""
+    rng = random.Random(seed)
+    n, d = ([rng.randint(-9, 9) for _ in range(3)] for _ in range(2))
+    equation = f"({n[0]} + {n[1]}*x + {n[2]}*x^2)/(x^2*({d[0] or 1} + {d[1]}*x + {d[2]}*x^2))"
+    problem = as_problem(equation)
+    place = Singular.at(problem, ExactPoint(Fraction(0)))
+    x = ExactPoint(Fraction(rng.choice([-1, 1]), 16), Fraction(rng.randint(-1, 1), 16))
+    found = []
+    for prec in (30, 400):
+        with ctx.workprec(prec + 40):
+            last, bound = frobenius.junction(place, x, prec)
+            found.append((last, bound))
+    last = min((last for last, _ in found), key=lambda p: p.norm_squared())
+    with ctx.workprec(600):
+        few, many = (
+            frobenius.basis(place, last, x, bound, prec) for prec, (_, bound) in zip((30, 400), found, strict=True)
+        )
+        assert all(a.overlaps(b) for a, b in zip(few, many, strict=True))
+        assert all(
+            float((a - b).abs_upper()) < 2.0**-20 * max(1.0, float(b.abs_upper()))
+            for a, b in zip(few, many, strict=True)
+        )
+
+
+@pytest.mark.parametrize("looks", [2, 3, 11, 41])
+def test_a_quadrature_can_be_stopped_and_leaves_the_precision_alone(looks: int) -> None:
+    before = flint.ctx.prec
+    for stopping, error in (
+        (interrupted(looks), KeyboardInterrupt),
+        (controlled(looks_in_time=looks - 1), LimitExceeded),
+    ):
+        with pytest.raises(error), flint.ctx.workprec(500), stopping, Budget().watched():
+            integral(lambda z, _: (z * z).exp(), flint.acb(0), flint.acb(5))
+        assert flint.ctx.prec == before
