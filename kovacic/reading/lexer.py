@@ -116,6 +116,10 @@ class Tokens:
         """Where the tokens end in the text."""
         return [start + len(piece) for start, piece in zip(self.starts, self.pieces, strict=True)]
 
+    def are(self, k: int, *kinds: str) -> bool:
+        """Have the tokens from number k on these kinds?  Not where the text ends before."""
+        return self.kinds[k : k + len(kinds)] == [*kinds]
+
     def piece(self, begin: int, end: int) -> str:
         """The text of the tokens begin, ..., end - 1."""
         return self.text[self.starts[begin] : self.ends[end - 1]] if end > begin else ""

@@ -275,15 +275,15 @@ def _refuse_words(tokens: Tokens) -> None:
 
 def _refuse_two_exponents(tokens: Tokens, unknown: str) -> None:
     """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
-    kinds = tokens.kinds
-    for k in range(1, len(kinds) - 2):
-        if kinds[k] != "CIRCUMFLEX" or tokens.pieces[k - 1] != "e":
+    for k, kind in enumerate(tokens.kinds):
+        if kind != "CIRCUMFLEX" or tokens.pieces[k - 1] != "e":
             continue
-        number = k + 2 if kinds[k + 1] == "MINUS" else k + 1
+        number = k + 2 if tokens.are(k + 1, "MINUS") else k + 1
+        if not tokens.are(number, "NUMBER", "NAME"):
+            continue
         factor = tokens.pieces[number + 1]
-        if kinds[number] != "NUMBER" or kinds[number + 1] != "NAME" or factor == unknown:
-            continue
-        if tokens.ends[number] == tokens.starts[number + 1]:
+        is_glued = tokens.ends[number] == tokens.starts[number + 1]
+        if is_glued and factor != unknown:
             power = tokens.piece(k + 1, number + 1)
             whole = tokens.piece(k - 1, number + 2)
             hint = f"write e^({power}*{factor}) or e^({power})*{factor}"
