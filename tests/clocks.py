@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
 from math import inf
+from types import FrameType
 
 from kovacic.limits import CLOCK
 
@@ -56,3 +58,32 @@ def interrupted(looks: int) -> Iterator[None]:
 
     with CLOCK.read_from(source):
         yield
+
+
+class Stretches:
+    """How many Python functions are called from one look at the clock to the next one: the longest work without a look."""
+
+    def __init__(self) -> None:
+        self.calls = 0
+        self.longest = 0
+
+    def __call__(self) -> float:
+        self.longest = max(self.longest, self.calls)
+        self.calls = 0
+        return 0.0
+
+    def count(self, _frame: FrameType, event: str, _argument: object) -> None:
+        self.calls += event == "call"
+
+
+@contextmanager
+def stretches() -> Iterator[Stretches]:
+    """Inside `with`, the time stands still, and the work between looks at the clock is counted."""
+    counted = Stretches()
+    with CLOCK.read_from(counted):
+        sys.setprofile(counted.count)
+        try:
+            yield counted
+        finally:
+            sys.setprofile(None)
+            counted()

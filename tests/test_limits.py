@@ -6,17 +6,31 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from math import prod
 
 import pytest
 import sympy
 import transform
-from build import QQ, Atoms, Budget, Conditions, ExactPoint, FunctionField, RatFunc, System, analyse, parametrize, run
-from clocks import controlled
+from build import (
+    QQ,
+    Atoms,
+    Budget,
+    Conditions,
+    ExactPoint,
+    FunctionField,
+    RatFunc,
+    System,
+    analyse,
+    parametrize,
+    read_expression,
+    run,
+)
+from clocks import controlled, stretches
 from flint import acb_poly
 from sympy.abc import n, x
 
 import kovacic
-from kovacic import LimitExceeded, Limits, Solution
+from kovacic import InputError, LimitExceeded, Limits, Solution
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.log_derivative import LogDerivative
@@ -394,6 +408,38 @@ def test_an_answer_is_undecided_or_verified_wherever_the_time_ends(capsys: pytes
         assert not ("undecided: while the answer was verified" in out and "\n  verified: " in out)
     assert any("undecided: while the answer was verified" in out for out in said)
     assert any("verified: every exclusion was recomputed" in out for out in said)
+
+
+@pytest.mark.parametrize(
+    "text", ["1/({})", "x/({} + exp(x))", "1/((x + 1/2)*({}))", "({})^(-2)", "1 + ({})/({} + x^40)"]
+)
+@pytest.mark.parametrize("coefficient", ["{k}", "a^{k}", "sqrt({k})"])
+def test_expressions_are_read_in_short_steps(text: str, coefficient: str) -> None:
+    """Whether a sum of 40 terms is zero, SymPy asks itself in 100,000 calls, and has no answer."""
+    terms = " + ".join(f"{coefficient.format(k=k)}*x^{k}" for k in range(1, 41))
+    read_expression("1/(x + sqrt(2))")  # with what is loaded once
+    with stretches() as work, Budget().watched():
+        assert read_expression(text.replace("{}", terms)) != 0
+    assert work.longest < 20_000
+
+
+@pytest.mark.parametrize(
+    "text", ["1/(x - x)", "1/(sqrt(8) - 2*sqrt(2))", "x/(x*((1 + sqrt(2))*(1 - sqrt(2)) + 1))", "1/(x*0)"]
+)
+def test_a_division_by_zero_is_seen_as_an_expression_is_read(text: str) -> None:
+    with pytest.raises(InputError, match="division by zero"):
+        read_expression(text)
+
+
+def test_a_short_polynomial_of_many_factors_is_factored_where_it_can_be_stopped() -> None:
+    """At degree 240 a second for 120 quadratic factors, and a hundredth for one factor: in time, and here."""
+    quadratics = [QQ.poly([k * k + 1, k, 1]) for k in range(1, 121)]
+    product = prod(quadratics, start=QQ.poly([1]))
+    irreducible = QQ.poly([3, 1, *[0] * 238, 1])
+    with controlled(), Budget(Limits(seconds=0.01)).watched():
+        assert [k for _, k in QQ.factor(irreducible)] == [1]
+        with pytest.raises(LimitExceeded, match="no factors of a polynomial of degree 240"):
+            QQ.factor(product)
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.errors import LimitExceeded
-from kovacic.limits import check_duration, check_time, watched_seconds
+from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
@@ -24,6 +24,12 @@ _EUCLID_DEGREE = 16
 _ROOT_DEGREE = 100
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
+#: Up to this degree they are factored at once, and up to this number of factors modulo a small prime; and FLINT's seconds at
+#: most for a degree between these, over its cube.
+_SHORT_DEGREE = 60
+_FEW_FACTORS = 16
+_FACTOR_SECONDS = 1e-7
+_SMALL_PRIME = 65267
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
 _FACTORED_BITS = 160
 _SMOOTH_BITS = 15
@@ -313,7 +319,7 @@ class RationalField(Field):
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         check_time()
         numerator = polynomial.rep.numer()  # type: ignore[attr-defined]
-        if numerator.degree() > _LONG_DEGREE and watched_seconds(inf) < inf:
+        if _may_take_long(numerator):
             factors = [(fmpz_poly(list(factor)), k) for factor, k in _factored_apart(_integers(numerator))]
         else:
             factors = _factored(numerator)
@@ -411,6 +417,22 @@ def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
         part, rest = divmod(piece, divisor)
         quotient = quotient.left_shift(end - begin) + part
     return quotient, rest
+
+
+def _may_take_long(polynomial: Any) -> bool:
+    """Might its factorisation end long after the time that is left?  For a short one that depends on its factors modulo p."""
+    degree = polynomial.degree()
+    if degree <= _SHORT_DEGREE:
+        return False
+    if degree > _LONG_DEGREE:
+        return watched_seconds(inf) < inf
+    return may_be_late(_FACTOR_SECONDS * degree**3) and not _has_few_factors(polynomial)
+
+
+def _has_few_factors(polynomial: Any) -> bool:
+    """Has it few of them modulo a prime, which are soon put together?"""
+    _, factors = nmod_poly(polynomial, _SMALL_PRIME).factor()
+    return len(factors) <= _FEW_FACTORS and all(k == 1 for _, k in factors)
 
 
 def _factored(polynomial: Any) -> list[tuple[Any, int]]:

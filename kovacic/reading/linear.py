@@ -149,7 +149,7 @@ class LinearArithmetic(Arithmetic):
         if is_rational(left) and is_rational(right):
             return super().divide(left, right)
         denominator = self.expression(right)
-        if denominator.is_zero:
+        if _is_zero(denominator):
             raise ZeroDivisionError("division by zero")
         return self._checked(self.expression(left) / denominator)
 
@@ -170,7 +170,7 @@ class LinearArithmetic(Arithmetic):
         base = self.expression(base)
         exponent = self.expression(exponent)
         self._check_exponent(exponent)
-        if base.is_zero and exponent.is_nonpositive:
+        if exponent.is_nonpositive and _is_zero(base):
             raise ZeroDivisionError("0 has no powers with exponent zero or below")
         factor = base.as_coeff_Mul()[0]
         if exponent.is_Rational and factor.is_Rational:
@@ -219,6 +219,13 @@ class LinearArithmetic(Arithmetic):
         if not is_rational(value):
             raise NotRational(f"this isn't a rational function of {self.variable}")
         return super().rational(value)
+
+
+def _is_zero(expression: Any) -> bool:
+    """Is a factor known to be 0?  Numbers are asked alone: of a long sum with symbols SymPy takes seconds to say nothing."""
+    if expression.is_Mul:
+        return any(map(_is_zero, expression.args))
+    return not expression.free_symbols and bool(expression.is_zero)
 
 
 def _in_sympy(polynomial: Poly, x: Any) -> Any:
