@@ -225,9 +225,9 @@ class Assumptions:
         """
         if not form.den.is_constant():
             return False
-        used = parameters_of(form)
-        choices = [self.of(name).bounds if name in used else (_NO_BOUND,) for name in form.field.names]
-        return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices))
+        choices: dict[str, tuple[Bound, ...]] = dict.fromkeys(form.field.names, (_NO_BOUND,))
+        choices |= {name: self.of(name).bounds for name in parameters_of(form)}
+        return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices.values()))
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""

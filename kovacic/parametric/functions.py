@@ -181,32 +181,54 @@ class ValuesAtIntegers(NamedTuple):
     values: dict[int, Fraction]
 
 
+class _Moebius(NamedTuple):
+    """(a t + b)/(c t + d) with integers a, b, c, d, c != 0."""
+
+    a: int
+    b: int
+    c: int
+    d: int
+
+    def at(self, t: int) -> Fraction | None:
+        """The value; None at the pole."""
+        below = self.c * t + self.d
+        if not below:
+            return None
+        return Fraction(self.a * t + self.b, below)
+
+
 def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | None:
     """The values of a form (a t + b)/(c t + d) with denominators up to the largest, at all integers t.
 
     c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
     divisor of a d - b c.
     """
-    above = form.num
-    below = form.den
-    used = [k for k, degree in enumerate(map(int, (above * below).degrees())) if degree]
+    used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
     if form.degree > 0 or len(used) != 1:
         return None
     (k,) = used
-    if int(below.degrees()[k]) != 1 or int(above.degrees()[k]) > 1:
+    quotient = _moebius(form, k)
+    if quotient is None:
         return None
-    a, b = _coefficients_of_line(above, k)
-    c, d = _coefficients_of_line(below, k)
-    most = largest * abs(a * d - b * c)
+    most = largest * abs(quotient.a * quotient.d - quotient.b * quotient.c)
     if most > _MOST_INTEGERS:
         return None
-    end = (most + abs(d)) // abs(c)
+    end = (most + abs(quotient.d)) // abs(quotient.c)
     found = {}
     for t in range(-end, end + 1):
-        denominator = c * t + d
-        if denominator and Fraction(a * t + b, denominator).denominator <= largest:
-            found[t] = Fraction(a * t + b, denominator)
+        value = quotient.at(t)
+        if value is not None and value.denominator <= largest:
+            found[t] = value
     return ValuesAtIntegers(form.field.names[k - 1], found)
+
+
+def _moebius(form: FunctionPoly, k: int) -> _Moebius | None:
+    """A quotient in generator number k alone; None where its parts aren't linear, or it has no pole."""
+    if int(form.den.degrees()[k]) != 1 or int(form.num.degrees()[k]) > 1:
+        return None
+    a, b = _coefficients_of_line(form.num, k)
+    c, d = _coefficients_of_line(form.den, k)
+    return _Moebius(a, b, c, d)
 
 
 def _coefficients_of_line(polynomial: Any, k: int) -> tuple[int, int]:
@@ -216,4 +238,6 @@ def _coefficients_of_line(polynomial: Any, k: int) -> tuple[int, int]:
 
 
 def _number(constant: Any) -> int:
-    return 0 if constant is None or constant.is_zero() else int(constant.leading_coefficient())
+    if constant is None or constant.is_zero():
+        return 0
+    return int(constant.leading_coefficient())

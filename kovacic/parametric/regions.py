@@ -151,6 +151,10 @@ _GROUPS = {
 }
 
 
+#: Of omega in the cases in which it isn't rational.
+_DEGREES_OF_OMEGA = {2: "2", 3: "4, 6 or 12"}
+
+
 @dataclass(frozen=True)
 class ParameterRegion:
     """One region: where its `statement` holds and no earlier region's.
@@ -221,15 +225,17 @@ class ParameterRegion:
         if self.case is None or not self.verdict.known:
             return f"nothing is solved where the answer is: {self.verdict}"
         if self.case > 1:
-            degree = "2" if self.case == 2 else "4, 6 or 12"
+            degree = _DEGREES_OF_OMEGA[self.case]
             return (
                 f"omega is algebraic of degree {degree}, and depends on the values of the parameters: solve_at gives it"
             )
         if self.origin is None:
             return "omega follows from the equation on this part: solve_at, or assume the values"
-        if any(isinstance(part, Natural) for part in both(self.statement).parts):
+        if _has_natural_number(self.statement):
             return "P has another degree for each natural number: solution(d), () where the exponents need two square roots"
-        return "" if self.solution() else "the singular points are the roots of a cubic, which isn't solved"
+        if self.solution():
+            return ""
+        return "the singular points are the roots of a cubic, which isn't solved"
 
     @property
     def case(self) -> int | None:
@@ -282,14 +288,23 @@ class ParameterRegion:
         return rf"${self.statement.latex()}\colon\ \text{{{said_of(self)}}}$"
 
     def __str__(self) -> str:
-        known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
+        known = ""
+        if self.defined and self.complete is not True:
+            known = f" [{self.complete}]"
         first = f"{self.statement.text()}: {said_of(self)}{known}"
         return "\n      ".join([first, *self.determinants])
 
 
+def _has_natural_number(statement: Statement) -> bool:
+    """Is it about a determinant Delta_d?"""
+    return any(isinstance(part, Natural) for part in both(statement).parts)
+
+
 def said_of(region: ParameterRegion) -> str:
     """What holds in a region in words: the case, or that S isn't defined."""
-    return str(region.verdict) if region.defined else region.group
+    if region.defined:
+        return str(region.verdict)
+    return region.group
 
 
 @dataclass(frozen=True)

@@ -233,37 +233,73 @@ class _PowerTerm(NamedTuple):
     coefficient: int
 
 
-def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
-    """A u^p + B v^q = 0 with coprime p, q > 1, as u = alpha T^q, v = beta T^p; None for any other.
+@dataclass(frozen=True)
+class _TwoPowers:
+    """A u^p + B v^q = 0 with coprime p, q > 1, as u = alpha T^q, v = beta T^p for the parameters with the numbers i and j.
 
-    T is a monomial in u and v, which isn't defined at u = v = 0.
+    A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q), where s p = 1 modulo q and
+    r = -s modulo q.  T is the monomial (u/alpha)^a/(v/beta)^((a q - 1)/p) with a q = 1 modulo p.
     """
+
+    i: int
+    p: int
+    j: int
+    q: int
+    alpha: Fraction
+    beta: Fraction
+
+    @classmethod
+    def of(cls, first: _PowerTerm, second: _PowerTerm) -> _TwoPowers:
+        """From the terms A u^p and B v^q."""
+        p = first.power
+        q = second.power
+        A = Fraction(first.coefficient)
+        B = Fraction(second.coefficient)
+        s = pow(p, -1, q)
+        r = -s % q
+        alpha = A**r * (-B) ** s
+        beta = A ** ((1 + r * p) // q) * (-B) ** ((s * p - 1) // q)
+        return cls(first.i, p, second.i, q, alpha, beta)
+
+    def parameter(self, u: FunctionPoly, v: FunctionPoly) -> FunctionPoly:
+        """T by u and v."""
+        a = pow(self.q, -1, self.p)
+        return (u / self.alpha) ** a / (v / self.beta) ** ((a * self.q - 1) // self.p)
+
+
+def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
+    """A u^p + B v^q = 0 with coprime p, q > 1, by T, which isn't defined at u = v = 0; None for any other."""
+    powers = _two_powers(function)
+    if powers is None:
+        return None
     names = function.field.names
-    terms = _powers_of_parameters(function)
-    if terms is None or len(terms) != 2:
-        return None
-    (i, p, A), (j, q, B) = terms
-    if i == j or min(p, q) < 2 or gcd(p, q) > 1:
-        return None
-    others = tuple(name for name in names if name not in (names[i], names[j]))
+    u_name = names[powers.i]
+    v_name = names[powers.j]
+    others = tuple(name for name in names if name not in (u_name, v_name))
     letter = _unused_letter(names)
     field = FunctionField((*others, letter))
     T = field.generator(letter)
-    s = pow(p, -1, q)
-    r = -s % q
-    # A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q).
-    alpha = Fraction(A) ** r * Fraction(-B) ** s
-    beta = Fraction(A) ** ((1 + r * p) // q) * Fraction(-B) ** ((s * p - 1) // q)
     values: dict[str, Poly] = {name: field.generator(name) for name in others}
-    values[names[i]] = T**q * alpha
-    values[names[j]] = T**p * beta
-    u = function.field.generator(names[i])
-    v = function.field.generator(names[j])
-    a = pow(q, -1, p)
-    parameter = (u / alpha) ** a / (v / beta) ** ((a * q - 1) // p)
-    first = u if i < j else v
+    values[u_name] = T**powers.q * powers.alpha
+    values[v_name] = T**powers.p * powers.beta
+    u = function.field.generator(u_name)
+    v = function.field.generator(v_name)
+    first = u if powers.i < powers.j else v
     ordered = tuple(values[name] for name in names)
-    return Hypersurface(names, ordered, field, (T,), (first,), Curve(letter, parameter))
+    return Hypersurface(names, ordered, field, (T,), (first,), Curve(letter, powers.parameter(u, v)))
+
+
+def _two_powers(function: FunctionPoly) -> _TwoPowers | None:
+    """The two terms of a function, powers of two parameters with coprime exponents; None for any other."""
+    terms = _powers_of_parameters(function)
+    if terms is None or len(terms) != 2:
+        return None
+    first, second = terms
+    if first.i == second.i or gcd(first.power, second.power) > 1:
+        return None
+    if min(first.power, second.power) < 2:
+        return None
+    return _TwoPowers.of(first, second)
 
 
 def _unused_letter(names: Collection[str]) -> str:
@@ -330,7 +366,9 @@ def over_all(statement: Statement, field: FunctionField) -> Statement:
 
 def reduced(statement: Statement, constant: ParameterPoint) -> Statement:
     """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
-    return statement.rewritten(lambda function: _reduced(function, constant)) if constant.names else statement
+    if not constant.names:
+        return statement
+    return statement.rewritten(lambda function: _reduced(function, constant))
 
 
 def _reduced(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:

@@ -91,7 +91,7 @@ def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
     functions: dict[str, list[RatFunc]] = {}
     said: list[str] = []
     for equation in equations:
-        family = families(equation, n.fixed) if any(degrees(equation)) else []
+        family = families(equation, n.fixed)
         if family:
             name, function = family[0]
             functions.setdefault(name, []).append(function)
@@ -111,7 +111,9 @@ def _is_one_of(name: str, functions: Sequence[RatFunc], n: Notation) -> str:
 
 
 def _in_parentheses(notes: Collection[str]) -> str:
-    return f" ({', '.join(notes)})" if notes else ""
+    if not notes:
+        return ""
+    return f" ({', '.join(notes)})"
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], n: Notation) -> str:
@@ -192,7 +194,9 @@ def _with_both_signs(f: RatFunc, other: RatFunc, n: Notation) -> str:
     is_sum = " + " in inside or " - " in inside
     if is_sum:
         value = f"({value})"
-    return f"{n.function(center)} +- {value}" if center else f"+-{value}"
+    if not center:
+        return f"+-{value}"
+    return f"{n.function(center)} +- {value}"
 
 
 def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
@@ -221,17 +225,22 @@ def classes(residues: Sequence[Fraction | int], modulus: Fraction | int) -> str:
     return ", ".join(texts)
 
 
+#: Classes of integers that have a name, by the modulus and the residues.
+_KINDS: dict[tuple[Fraction | int, tuple[Fraction | int, ...]], str] = {
+    (1, (0,)): "an integer",
+    (2, (0,)): "an even integer",
+    (2, (1,)): "an odd integer",
+}
+
+
 def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: str = "") -> str:
     """What an integer in these classes is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
-    name = f" `{letter}`" if letter else ""
-    known = [*residues]
-    if modulus == 1 and not any(known):
-        return f"an integer{name}"
-    if modulus == 2 and known == [0]:
-        return f"an even integer{name}"
-    if modulus == 2 and known == [1]:
-        return f"an odd integer{name}"
-    if len(known) > 1 and known == [*range(1, int(modulus))]:
+    known = tuple(residues)
+    noun = _KINDS.get((modulus, known))
+    if noun is not None:
+        return f"{noun} `{letter}`" if letter else noun
+    if len(known) > 1 and known == tuple(range(1, int(modulus))):
+        name = f" `{letter}`" if letter else ""
         return f"an integer{name} not divisible by {modulus}"
     equation = f"{letter} = {classes(residues, modulus)} mod {modulus}"
     return f"an integer `{equation}`" if letter else f"an integer`{equation}`"
@@ -268,17 +277,24 @@ def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: 
     sum_of_roots = f"{_sum_of_roots(roots, modulus, n)} is {numbers.named()}"
     if spectrum is None:
         return sum_of_roots
+    return _shorter(spectrum, sum_of_roots, has_several=len(roots.squares) > 1)
+
+
+def _shorter(spectrum: str, sum_of_roots: str, *, has_several: bool) -> str:
+    """What is said where both are known: beside several roots a short spectrum, too; else one of them."""
     length = len(text_of(spectrum))
-    if len(roots.squares) > 1:
+    if has_several:
         return f"{sum_of_roots}, that is {spectrum}" if length <= _BESIDE else sum_of_roots
-    return spectrum if length <= len(text_of(sum_of_roots)) + _LONGER else sum_of_roots
+    most = len(text_of(sum_of_roots)) + _LONGER
+    return spectrum if length <= most else sum_of_roots
 
 
 def _sum_of_roots(roots: _RootsBySquares, modulus: int, n: Notation) -> str:
     """The mean, without multiples of the modulus, and the square roots."""
     constant = floor(constant_term(roots.mean) / modulus) * modulus
-    terms = [n.function(roots.mean - constant)] if roots.mean != constant else []
-    terms += map(root_written, roots.squares)
+    terms = [*map(root_written, roots.squares)]
+    if roots.mean != constant:
+        terms.insert(0, n.function(roots.mean - constant))
     return f"`{' +- '.join(terms)}`"
 
 
@@ -366,14 +382,19 @@ def _choices(equation: FunctionPoly, f: RatFunc, numbers: _Classes, n: Notation)
     if is_single and (numbers.modulus < 3 or not is_mirrored):
         yield from _by_any_integer(f, numbers, n)
     center = _center(equation, f)
-    if center is None:
-        return
-    u = over_parameters((center - numbers.residues[0]) / numbers.modulus)
+    if center is not None:
+        yield from _about_center(f, center, numbers, n, is_single=is_single)
+
+
+def _about_center(f: RatFunc, c: Poly, numbers: _Classes, n: Notation, *, is_single: bool) -> Iterator[_Choice]:
+    """f(s n + c), where n + (c - r)/s is an integer; and f(n + c), where n + c is one of the numbers."""
+    N = f.field.poly([0, 1])
+    u = over_parameters((c - numbers.residues[0]) / numbers.modulus)
     if is_single:
-        yield _centered(f(RatFunc(N * numbers.modulus + center)), u, n)
-    has_fraction = constant_term(center).denominator > 1 or int(u.den.content()) > 1
+        yield _centered(f(RatFunc(N * numbers.modulus + c)), u, n)
+    has_fraction = constant_term(c).denominator > 1 or int(u.den.content()) > 1
     if has_fraction or not is_single:
-        form = over_parameters(N + center)
+        form = over_parameters(N + c)
         what = f"{n.some} `{n.function(form)}` {numbers.named()}"
         yield _Choice(f(RatFunc(form)), what, lambda n: True)
 

@@ -167,21 +167,30 @@ def _quotients(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Pr
 def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRegion]:
     """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it.
 
-    `origin` has the solutions where the equation in z = x^n is reducible; two half-integers there make the one in x reducible,
-    for an even n, with other solutions.
+    `origin` has the solutions where the equation in z = x^n is reducible.
     """
     for structure, statement in riemann.structures(problem):
+        yield from _smaller_in_x(problem, structure, n)
         family = riemann.group(problem, structure)
-        if structure is Structure.IMPRIMITIVE and n % 2 == 0:
-            diagonal = _with_denominators(problem, (2, 2))
-            yield ParameterRegion(diagonal, RegionVerdict(Structure.REDUCIBLE))
-        if structure is Structure.TETRAHEDRAL and n % 3 == 0:
-            threefold = _with_denominators(problem, (3, 3, 2))
-            yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group"))
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             family = "binary tetrahedral, or octahedral"
-        solutions = origin if structure is Structure.REDUCIBLE else None
+        solutions = None
+        if structure is Structure.REDUCIBLE:
+            solutions = origin
         yield ParameterRegion(statement, RegionVerdict(structure, family=family), origin=solutions)
+
+
+def _smaller_in_x(problem: Problem, structure: Structure, n: int) -> Iterator[ParameterRegion]:
+    """Where an equation in z = x^n with a structure is one with a smaller group in x.
+
+    Two half-integers make the one in x reducible, for an even n, with other solutions than those in z.
+    """
+    if structure is Structure.IMPRIMITIVE and n % 2 == 0:
+        diagonal = _with_denominators(problem, (2, 2))
+        yield ParameterRegion(diagonal, RegionVerdict(Structure.REDUCIBLE))
+    if structure is Structure.TETRAHEDRAL and n % 3 == 0:
+        threefold = _with_denominators(problem, (3, 3, 2))
+        yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group"))
 
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
@@ -276,16 +285,20 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     for place in problem.places:
         if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
             squares[_position(place)] = place.delta_squared
-    found: list[Statement] = []
+    found: dict[Statement, None] = {}
     for square, denominator in zip(squares, denominators, strict=False):
-        equation = over_parameters(problem.field.poly([-square * denominator**2, 0, 1]))
-        coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
-        statement = integer_roots(equation, coprime, denominator)
+        statement = _has_denominator(square, denominator)
         if statement == NEVER:
             return NEVER
-        if statement not in found:
-            found.append(statement)
+        found[statement] = None
     return both(*found)
+
+
+def _has_denominator(square: Poly, denominator: int) -> Statement:
+    """That the root of a square is a rational number with this denominator."""
+    equation = over_parameters(square.field.poly([-square * denominator**2, 0, 1]))
+    coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
+    return integer_roots(equation, coprime, denominator)
 
 
 def _position(place: Place) -> int:
