@@ -145,39 +145,33 @@ def _settings(expression: Any) -> dict[str, Any]:
     return {"order": "none"} if is_long else {}
 
 
+class _LongIntegers:
+    """What a printer of SymPy does with integers of any length, and with the order of terms: powers of `first` come first."""
+
+    first: Any = None
+
+    def _as_ordered_terms(self, expr: Any, order: Any = None) -> list[Any]:
+        terms = super()._as_ordered_terms(expr, order)  # type: ignore[misc]
+        return _powers_first(terms, self.first)
+
+    def _print_int(self, number: int) -> str:
+        return digits(number)
+
+    def _print_Integer(self, number: Any) -> str:
+        return digits(int(number.p))
+
+
 @cache
 def _printers() -> tuple[type[Any], type[Any]]:
     """The classes that print text and LaTeX; SymPy is imported when they are needed."""
     from sympy.printing.latex import LatexPrinter
     from sympy.printing.str import StrPrinter
 
-    class Text(StrPrinter):  # type: ignore[misc]
-        first: Any = None
-
-        def _as_ordered_terms(self, expr: Any, order: Any = None) -> list[Any]:
-            return _powers_first(super()._as_ordered_terms(expr, order), self.first)
-
-        def _print_int(self, number: int) -> str:
-            return digits(number)
-
-        def _print_Integer(self, number: Any) -> str:
-            return digits(int(number.p))
-
+    class Text(_LongIntegers, StrPrinter):  # type: ignore[misc]
         def _print_Rational(self, number: Any) -> str:
             return as_text(Fraction(int(number.p), int(number.q)))
 
-    class Latex(LatexPrinter):  # type: ignore[misc]
-        first: Any = None
-
-        def _as_ordered_terms(self, expr: Any, order: Any = None) -> list[Any]:
-            return _powers_first(super()._as_ordered_terms(expr, order), self.first)
-
-        def _print_int(self, number: int) -> str:
-            return digits(number)
-
-        def _print_Integer(self, number: Any) -> str:
-            return digits(int(number.p))
-
+    class Latex(_LongIntegers, LatexPrinter):  # type: ignore[misc]
         def _print_Rational(self, number: Any) -> str:
             sign = "- " if number < 0 else ""
             above = digits(abs(int(number.p)))

@@ -78,18 +78,12 @@ class LinearArithmetic(Arithmetic):
         if not function:
             return sympy.Rational(0)
         function = over(function, (function.num * function.den).field)  # they may be over different fields: a/x^2
-        bits = max(function.num.height_bits(), function.den.height_bits())
-        if bits > _LARGEST_BITS:
-            raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
+        _check_bits(function)
         number = self.number(value)
         if number is not None:
             return sympy.Rational(number)
         num, den = (_in_sympy(part, x) for part in function.cleared())
-        field = function.field
-        if isinstance(field, AlgebraicField) and _is_named(field):
-            root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
-            return (num / den).xreplace({sympy.Symbol(field.name): root})
-        return num / den
+        return _with_chosen_root(num / den, function.field)
 
     def _checked(self, value: Any) -> Any:
         """A result of SymPy, a number in our own form."""
@@ -226,6 +220,23 @@ def _is_zero(expression: Any) -> bool:
     if expression.is_Mul:
         return any(map(_is_zero, expression.args))
     return not expression.free_symbols and bool(expression.is_zero)
+
+
+def _check_bits(function: RatFunc) -> None:
+    """Raises `LimitExceeded` for coefficients that are too long to be printed."""
+    bits = max(function.num.height_bits(), function.den.height_bits())
+    if bits > _LARGEST_BITS:
+        raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
+
+
+def _with_chosen_root(expression: Any, field: Any) -> Any:
+    """With the algebraic number in the place of its name, where it has one."""
+    import sympy
+
+    if not (isinstance(field, AlgebraicField) and _is_named(field)):
+        return expression
+    root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
+    return expression.xreplace({sympy.Symbol(field.name): root})
 
 
 def _in_sympy(polynomial: Poly, x: Any) -> Any:

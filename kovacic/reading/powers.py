@@ -43,7 +43,8 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     if (b / a).is_rational_function(x) and (c / a).is_rational_function(x):
         return None  # what isn't rational is a constant
     form = _ThetaForm(sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a))
-    waves = [e for e in (b / a).atoms(*_WAVES) | (c / a).atoms(*_WAVES) if e.has(x)]
+    functions = (b / a).atoms(*_WAVES) | (c / a).atoms(*_WAVES)
+    waves = [e for e in functions if e.has(x)]
     found = None
     with suppress(NotRational):
         found = _of_waves(form, waves, source, limits) if waves else _of_power(form, source, limits)

@@ -72,8 +72,9 @@ def _equation_in_text(
     _refuse_two_exponents(tokens, y)
     x = variable
     if x is None:
-        x, taken = _variable_of(tokens, y, usual_variable)
-        notes += taken
+        chosen = _variable_of(tokens, y, usual_variable)
+        x = chosen.name
+        notes += chosen.notes
     _refuse_glued_names(tokens, x, y, might_be_time=variable is None)
     notes += _imaginary(tokens, x, y)
     return Source(partial(evaluate, _with_factors(tokens, x, y)), x, y, tokens.text, notes)
@@ -217,12 +218,15 @@ def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str, *, might_be
         meant = _as_product(name, variable, unknown)
         if meant is None and no_variable and _ends_in_time(name):
             meant = _as_product(name, "t", unknown)
-        if meant is None:
-            continue
-        is_exponent = k > 0 and tokens.kinds[k - 1] == "CIRCUMFLEX"
-        if is_exponent:
-            meant = f"({meant})"
-        raise tokens.error(ParseError, f"{name} is one name", k, k + 1, hint=f"did you mean {meant}?")
+        if meant is not None:
+            raise _one_name(tokens, k, meant)
+
+
+def _one_name(tokens: Tokens, k: int, meant: str) -> InputError:
+    """That token k is one name where a product may have been meant."""
+    if k > 0 and tokens.are(k - 1, "CIRCUMFLEX"):
+        meant = f"({meant})"
+    return tokens.error(ParseError, f"{tokens.pieces[k]} is one name", k, k + 1, hint=f"did you mean {meant}?")
 
 
 def _is_known(name: str) -> bool:
@@ -292,17 +296,21 @@ def _refuse_two_exponents(tokens: Tokens, unknown: str) -> None:
 
 def _with_factors(tokens: Tokens, variable: str, unknown: str) -> Tokens:
     """With names in the place of heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
-    names = tokens.names()
+    alone = {*tokens.names(), variable} - {unknown}
     kinds = list(tokens.kinds)
     for k, kind in enumerate(tokens.kinds[:-3]):
-        name = tokens.pieces[k]
-        occurs_alone = name in names or name == variable
-        if kind != "HEAD" or name == unknown or not occurs_alone:
+        if kind != "HEAD":
             continue
-        is_applied = tokens.kinds[k + 2] in ("NAME", "NUMBER") and tokens.kinds[k + 3] == "RPAR"
-        if is_letter(name) and not is_applied and name not in _FUNCTIONS:
+        name = tokens.pieces[k]
+        might_be_factor = name in alone and is_letter(name) and name not in _FUNCTIONS
+        if might_be_factor and not _is_applied(tokens, k):
             kinds[k] = "NAME"
     return replace(tokens, kinds=kinds) if kinds != tokens.kinds else tokens
+
+
+def _is_applied(tokens: Tokens, k: int) -> bool:
+    """Has the head at token k one name or number in its parentheses, as a function has?"""
+    return tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
 
 
 def _imaginary(tokens: Tokens, variable: str, unknown: str) -> tuple[str, ...]:
@@ -344,15 +352,22 @@ def _differentiated(tokens: Tokens) -> str | None:
         if kind != "HEAD" or tokens.pieces[k] not in DERIVATIVES:
             continue
         inner = tokens.pieces[k + 2]
-        is_called = tokens.kinds[k + 2] == "HEAD" and inner not in _FUNCTIONS
-        is_name = tokens.kinds[k + 2] == "NAME" and tokens.kinds[k + 3] in ("COMMA", "RPAR")
+        is_called = tokens.are(k + 2, "HEAD") and inner not in _FUNCTIONS
+        is_name = tokens.are(k + 2, "NAME", "COMMA") or tokens.are(k + 2, "NAME", "RPAR")
         if is_called or is_name:
             return inner
     return None
 
 
-def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[str, tuple[str, ...]]:
-    """The variable of an equation, and a note where that is a guess.
+class _ChosenVariable(NamedTuple):
+    """The name of the variable, and a note where that is a guess."""
+
+    name: str
+    notes: tuple[str, ...] = ()
+
+
+def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> _ChosenVariable:
+    """The variable of an equation.
 
     It is the argument of the unknown function, or what is differentiated by; else x, where x occurs; else the only name
     that usually is one (x, t, z, s, r, u, theta, ...); else x, or what the notation stands for (t beside dots, in D2y), and all
@@ -360,33 +375,32 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
     """
     named = _argument_of(tokens, unknown)
     if named is not None:
-        return named, ()
+        return _ChosenVariable(named)
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
     if DEFAULT_VARIABLE in names:
-        return DEFAULT_VARIABLE, ()
+        return _ChosenVariable(DEFAULT_VARIABLE)
     default = preferred or DEFAULT_VARIABLE
     if default == unknown:
         default = "t"
     if default in names or not names:
-        return default, ()
+        return _ChosenVariable(default)
     usual = _usual_variables(names)
     if len(usual) > 1:
         raise _several_variables(tokens, unknown, usual)
     if usual:
-        return usual[0], ()
+        return _ChosenVariable(usual[0])
     which = "a parameter" if len(names) == 1 else "parameters"
-    return default, (f"{default} is the variable, {', '.join(names[:6])} {which}",)
+    return _ChosenVariable(default, (f"{default} is the variable, {', '.join(names[:6])} {which}",))
 
 
 def _argument_of(tokens: Tokens, unknown: str) -> str | None:
     """The name in y''(x), or in D(y, x); None where the unknown function stands alone."""
-    kinds = tokens.kinds
-    for k in range(len(kinds) - 3):
-        if tokens.pieces[k].rstrip(PRIMES) != unknown:
+    for k, piece in enumerate(tokens.pieces):
+        if piece.rstrip(PRIMES) != unknown:
             continue
-        is_applied = kinds[k : k + 4] == ["HEAD", "LPAR", "NAME", "RPAR"]
-        is_differentiated = kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]
+        is_applied = tokens.are(k, "HEAD", "LPAR", "NAME", "RPAR")
+        is_differentiated = tokens.are(k, "NAME", "COMMA", "NAME")
         if is_applied or is_differentiated:
             return tokens.pieces[k + 2]
     return None
@@ -424,9 +438,10 @@ def _only_name(tokens: Tokens, variable: str) -> tuple[str, ...]:
 
 def _guesses(tokens: Tokens) -> tuple[str, ...]:
     """What may have been meant in another way: x^1/2 is x/2."""
-    wanted = ["CIRCUMFLEX", "NUMBER", "SLASH", "NUMBER"]
-    for k in range(len(tokens.kinds) - 3):
-        if tokens.kinds[k : k + 4] == wanted and tokens.pieces[k + 1] == "1":
+    for k, kind in enumerate(tokens.kinds):
+        if kind != "CIRCUMFLEX":
+            continue
+        if tokens.are(k + 1, "NUMBER", "SLASH", "NUMBER") and tokens.pieces[k + 1] == "1":
             below = tokens.pieces[k + 3]
             return (f"^1/{below} was read as (...)^1 divided by {below}; a root is written ^(1/{below})",)
     return ()
