@@ -12,11 +12,13 @@ from _pytest.mark import ParameterSet
 from build import parametrize
 
 from kovacic import InputError, LimitExceeded
-from kovacic.ball import RollingBall, U, X, derivation
-from kovacic.ball.body import A1, A3, InRoots, exact, x1, x2
-from kovacic.ball.derivation import holds, vanishes
-from kovacic.ball.paper import PRINTED, R1, D, R, a, equations_of, explained, m
+from kovacic.ball import InRoots, RollingBall, U, X
+from kovacic.ball.derivation import holds, residuals, vanishes
+from kovacic.ball.paper import PRINTED, equations_of, explained
+from kovacic.ball.theorems import theorem
 from kovacic.writing.breaking import breakable
+
+m, R, a, A1, A3, R1, x1, x2, D, k = sp.symbols("m R a A1 A3 R1 x1 x2 D k")
 
 GENERAL = RollingBall(m=m, R=R, a=a, A1=A1, A3=A3)
 SYSTEM = ("a1", "a2", "b1", "b2")
@@ -66,7 +68,7 @@ def planted() -> list[ParameterSet]:
 def test_a_wrong_term_in_a_printed_formula_is_seen(key, name, monkeypatch):
     """Every formula enters into the derivation: with the ball's mass added, one of the groups fails."""
     monkeypatch.setitem(PRINTED[key], name, PRINTED[key][name] + m)
-    assert not all(vanishes(part) for _, parts in derivation.residuals() for part in parts)
+    assert not all(vanishes(part) for _, parts in residuals() for part in parts)
 
 
 @pytest.mark.long
@@ -201,6 +203,12 @@ def test_spheres_that_are_refused():
             ball.on_sphere(radius)
 
 
+def exact(value, name):
+    """The mass or the radius of a body, as it is read."""
+    body = {"m": 9, "R": 9, "a": 0, "A1": "1/1000", "A3": "1/1000"} | {name: value}
+    return getattr(RollingBall(**body), name)
+
+
 def test_exact_numbers_only():
     assert exact(Fraction(1, 3), "m") == sp.Rational(1, 3)
     assert exact("0.1", "m") == sp.Rational(1, 10)
@@ -223,3 +231,15 @@ def test_numbers_that_are_too_large_are_refused_before_they_are_computed():
     for value in ("1e999999999", "9^9^9", "((9^100)^100)^100", 10**400, Fraction(1, 10**400)):
         with pytest.raises(LimitExceeded):
             exact(value, "m")
+
+
+def test_what_the_theorems_say():
+    assert theorem(InRoots(sp.Integer(3)))[1] == 1
+    assert theorem(InRoots(sp.Rational(1, 3)))[1] == 2
+    assert theorem(InRoots(k))[1] is None
+    assert "omega_3 = const" in theorem(InRoots(sp.Integer(1)))[0]
+    assert "constant" in theorem(RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_plane())[0]
+
+
+def test_symbolic_parameters_leave_the_case_open():
+    assert theorem(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1))[1] is None
