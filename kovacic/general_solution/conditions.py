@@ -59,16 +59,22 @@ def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
     """Conditions that are given as a mapping, or as one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
     if not isinstance(ics, str):
         return dict(ics or {})
-    if not ics.strip():
-        return {}
     found: dict[Any, Any] = {}
-    for given in listed(ics):
-        for text in plain_values(given):
-            place, _, value = (piece.strip() for piece in text.partition("="))
-            if not place or not value or place in found:
-                raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
-            found[place] = value
+    for text in _conditions_in(ics):
+        place, _, value = (piece.strip() for piece in text.partition("="))
+        is_complete = place and value
+        if not is_complete or place in found:
+            raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
+        found[place] = value
     return found
+
+
+def _conditions_in(text: str) -> Iterator[str]:
+    """The single conditions, as plain texts."""
+    if not text.strip():
+        return
+    for given in listed(text):
+        yield from plain_values(given)
 
 
 @dataclass(frozen=True)

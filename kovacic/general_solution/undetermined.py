@@ -11,9 +11,10 @@ resonance Q has a degree one or two higher, and no part that solves the homogene
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import perm
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy import cos, cosh, sin, sinh
@@ -22,9 +23,30 @@ from sympy.simplify.fu import TR8
 from kovacic.general_solution.substitution import size
 
 Expr = Any  # SymPy publishes no types
-Pair = tuple[Expr, Expr]  # u + i v
 #: The largest degree of a polynomial, and number of terms, that is solved for.
 _LARGEST = 200
+
+
+class Complex(NamedTuple):
+    """u + i v."""
+
+    u: Expr
+    v: Expr
+
+    def times(self, other: Complex) -> Complex:
+        return Complex(self.u * other.u - self.v * other.v, self.u * other.v + self.v * other.u)
+
+
+class Rate(NamedTuple):
+    """rho + i omega, of exp((rho + i omega) x)."""
+
+    rho: Expr
+    omega: Expr
+
+
+#: The coefficients of a polynomial, by the powers of x.
+Coefficients = dict[int, Complex]
+_NOTHING = Complex(0, 0)
 
 
 def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
@@ -34,17 +56,17 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     >>> undetermined(0, 1, sin(x), x)
     -x*cos(x)/2
     """
-    terms = _terms(right, x)
-    if terms is None:
+    polynomials = _polynomials(right, x)
+    if polynomials is None:
         return None
     total = []
-    for (rate, frequency), P in terms.items():
-        Q = _solved(b, c, rate, frequency, P)
+    for rate, P in polynomials.items():
+        Q = _solved(_factors(b, c, rate), P)
         if Q is None:
             return None
-        A = sympy.Add(*(u * x**k for k, (u, _) in Q.items()))
-        B = sympy.Add(*(v * x**k for k, (_, v) in Q.items()))
-        total.append(sympy.exp(rate * x) * _wave(A, B, frequency * x))
+        A = sympy.Add(*(coefficient.u * x**k for k, coefficient in Q.items()))
+        B = sympy.Add(*(coefficient.v * x**k for k, coefficient in Q.items()))
+        total.append(sympy.exp(rate.rho * x) * _wave(A, B, rate.omega * x))
     return sympy.Add(*total)
 
 
@@ -71,36 +93,42 @@ def _wave(A: Expr, B: Expr, angle: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class _ForcingTerm:
-    """(u + i v) x^degree exp((rate + i frequency) x), of which the real part is meant."""
+    """coefficient * x^degree * exp(rate x), of which the real part is meant."""
 
     degree: int
-    rate: Expr
-    frequency: Expr
-    u: Expr
-    v: Expr
+    rate: Rate
+    coefficient: Complex
 
 
-def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
-    """{(rho, omega): {k: the coefficient of x^k exp((rho + i omega) x)}}; a real part is meant."""
+def _polynomials(right: Expr, x: Expr) -> dict[Rate, Coefficients] | None:
+    """The P beside each exp((rho + i omega) x); a real part is meant.  None for another right-hand side."""
+    summands = _summands(right, x)
+    if summands is None:
+        return None
+    result: dict[Rate, Coefficients] = {}
+    for summand in summands:
+        term = _term(summand, x)
+        if term is None:
+            return None
+        P = result.setdefault(term.rate, {})
+        known = P.get(term.degree, _NOTHING)
+        P[term.degree] = Complex(known.u + term.coefficient.u, known.v + term.coefficient.v)
+    return result
+
+
+def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
+    """Products with one wave at most; none of 0.  None where powers of functions of x aren't natural, or there are too many."""
     if not all(map(_is_natural, _exponents(right, x))):
         return None  # before it is expanded
     right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
     if right.has(sin, cos):
         right = sympy.expand(TR8(right))  # powers and products of waves become waves
-    result: dict[Pair, dict[int, Pair]] = {}
     if right == 0:
-        return result
-    summands = sympy.Add.make_args(right)
+        return ()
+    summands: tuple[Expr, ...] = sympy.Add.make_args(right)
     if len(summands) > _LARGEST:
         return None
-    for summand in summands:
-        term = _term(summand, x)
-        if term is None:
-            return None
-        P = result.setdefault((term.rate, term.frequency), {})
-        u, v = P.get(term.degree, (0, 0))
-        P[term.degree] = (u + term.u, v + term.v)
-    return result
+    return summands
 
 
 def _exponents(e: Expr, x: Expr) -> list[Expr]:
@@ -120,80 +148,97 @@ def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
     if len(waves) > 1:
         return None
     degree = 0
-    rate = sympy.Integer(0)
+    rho = sympy.Integer(0)
     for factor in factors:
-        base, exponent = factor.as_base_exp()
         if factor in waves:
             continue
-        if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
+        base, exponent = factor.as_base_exp()
+        if base == x and _is_degree(exponent):
             degree += int(exponent)
             continue
         line = _line(exponent, x)
         if base.has(x) or line is None:
             return None
-        constant *= base ** line[0]
-        rate += line[1] * sympy.log(base)
-    plain = _ForcingTerm(degree, rate, sympy.Integer(0), constant, sympy.Integer(0))
-    if not waves:
-        return plain
-    return _times_wave(plain, waves[0], x)
+        constant *= base**line.constant
+        rho += line.slope * sympy.log(base)
+    if waves:
+        return _beside_wave(degree, rho, constant, waves[0], x)
+    nothing = sympy.Integer(0)
+    return _ForcingTerm(degree, Rate(rho, nothing), Complex(constant, nothing))
 
 
-def _times_wave(term: _ForcingTerm, wave: Expr, x: Expr) -> _ForcingTerm | None:
-    """A term without a frequency times cos(phase + frequency x), or sin, as the real part of one with a frequency."""
+def _is_degree(exponent: Expr) -> bool:
+    return bool(exponent.is_Integer and 0 <= exponent <= _LARGEST)
+
+
+def _beside_wave(degree: int, rho: Expr, constant: Expr, wave: Expr, x: Expr) -> _ForcingTerm | None:
+    """constant x^degree exp(rho x) times cos(phase + omega x), or sin, as the real part of a term with a frequency."""
     line = _line(wave.args[0], x)
     if line is None:
         return None
-    phase, frequency = line
-    real = term.u * cos(phase)
-    imaginary = term.u * sin(phase)
+    phase = line.constant
+    omega = line.slope
+    real = constant * cos(phase)
+    imaginary = constant * sin(phase)
     if wave.func is sin:  # the same, an angle of pi/2 before
-        real = term.u * sin(phase)
-        imaginary = -term.u * cos(phase)
-    if frequency.could_extract_minus_sign():
-        return _ForcingTerm(term.degree, term.rate, -frequency, real, -imaginary)
-    return _ForcingTerm(term.degree, term.rate, frequency, real, imaginary)
+        real = constant * sin(phase)
+        imaginary = -constant * cos(phase)
+    if omega.could_extract_minus_sign():
+        return _ForcingTerm(degree, Rate(rho, -omega), Complex(real, -imaginary))
+    return _ForcingTerm(degree, Rate(rho, omega), Complex(real, imaginary))
 
 
-def _line(expression: Expr, x: Expr) -> Pair | None:
-    """(d, e) for d + e x, None for another expression."""
+class _Line(NamedTuple):
+    """constant + slope * x."""
+
+    constant: Expr
+    slope: Expr
+
+
+def _line(expression: Expr, x: Expr) -> _Line | None:
+    """An expression as a line; None for another one."""
     rest, linear = sympy.expand(expression).as_independent(x, as_Add=True)
     slope = sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
     if slope.has(x):
         return None
-    return rest, slope
+    return _Line(rest, slope)
 
 
-def _solved(b: Expr, c: Expr, rate: Expr, frequency: Expr, P: dict[int, Pair]) -> dict[int, Pair] | None:
-    """Q of equation (1); None where u^2 + v^2 = 0 for a factor u + i v other than 0."""
-    factors = [
-        (_constant(rate**2 - frequency**2 + b * rate + c), _constant((2 * rate + b) * frequency)),
-        (_constant(2 * rate + b), 2 * frequency),
-        (sympy.Integer(1), sympy.Integer(0)),
+def _factors(b: Expr, c: Expr, rate: Rate) -> list[Complex]:
+    """Those of Q, Q' and Q'' in equation (1)."""
+    rho, omega = rate
+    return [
+        Complex(_constant(rho**2 - omega**2 + b * rho + c), _constant((2 * rho + b) * omega)),
+        Complex(_constant(2 * rho + b), 2 * omega),
+        Complex(sympy.Integer(1), sympy.Integer(0)),
     ]
+
+
+def _solved(factors: Sequence[Complex], P: Coefficients) -> Coefficients | None:
+    """Q of equation (1); None where u^2 + v^2 = 0 for a factor u + i v other than 0."""
     m = next(k for k, factor in enumerate(factors) if factor != (0, 0))
-    f, g = factors[m]
-    norm = _constant(f**2 + g**2)
+    first = factors[m]
+    norm = _constant(first.u**2 + first.v**2)
     if norm == 0:
         return None
-    Q: dict[int, Pair] = {}
+    conjugate = Complex(first.u, -first.v)
+    Q: Coefficients = {}
     for n in range(max(P), -1, -1):
-        u, v = P.get(n, (0, 0))
-        for j in range(m + 1, 3):
-            product = _product(factors[j], Q.get(n + j, (0, 0)))
-            u -= perm(n + j, j) * product[0]
-            v -= perm(n + j, j) * product[1]
+        rest = _without_known(P.get(n, _NOTHING), factors[m + 1 :], Q, n, m)
         scale = norm * perm(n + m, m)  # (u + i v)/(f + i g) = (u + i v) (f - i g)/norm
-        real, imaginary = _product((u, v), (f, -g))
-        Q[n + m] = (_constant(real / scale), _constant(imaginary / scale))
+        above = rest.times(conjugate)
+        Q[n + m] = Complex(_constant(above.u / scale), _constant(above.v / scale))
     return Q
 
 
-def _product(first: Pair, second: Pair) -> Pair:
-    """(f + i g) (r + i s)."""
-    f, g = first
-    r, s = second
-    return f * r - g * s, f * s + g * r
+def _without_known(p: Complex, later: Sequence[Complex], Q: Coefficients, n: int, m: int) -> Complex:
+    """The coefficient p of x^n in P without what the derivatives after the first one with a factor, the m-th, give."""
+    u, v = p
+    for j, factor in enumerate(later, m + 1):
+        known = factor.times(Q.get(n + j, _NOTHING))
+        u -= perm(n + j, j) * known.u
+        v -= perm(n + j, j) * known.v
+    return Complex(u, v)
 
 
 def _constant(value: Expr) -> Expr:

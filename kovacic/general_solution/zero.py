@@ -14,6 +14,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
+from functools import reduce
 from itertools import islice
 from typing import Any
 
@@ -166,10 +167,17 @@ def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
 
 def sample_value(symbol: Expr, k: int) -> Expr:
     """The k-th value of a symbol."""
-    value = _integer_sample(symbol, k) if symbol.is_integer else _sample_by_name(symbol.name) + k
+    value = _sample_beside_sign(symbol, k)
     if symbol.is_negative or symbol.is_nonpositive:
         return -value
     return value
+
+
+def _sample_beside_sign(symbol: Expr, k: int) -> Expr:
+    """A positive one."""
+    if symbol.is_integer:
+        return _integer_sample(symbol, k)
+    return _sample_by_name(symbol.name) + k
 
 
 def _integer_sample(symbol: Expr, k: int) -> Expr:
@@ -326,13 +334,13 @@ def _bounds(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
 def _bounds_of_many(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
     """For a sum or a product, from those of its parts."""
     join = _Bounds.of_product if e.is_Mul else _Bounds.of_sum
-    total: _Bounds | None = None
+    found: list[_Bounds] = []
     for part in e.args:
         bounds = _bounds(part, degrees)
         if bounds is None:
             return None
-        total = bounds if total is None else join(total, bounds)
-    return total
+        found.append(bounds)
+    return reduce(join, found)
 
 
 def _bounds_of_power(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
