@@ -59,25 +59,35 @@ def check_answer(
     if not is_finite(value):
         raise _failed(question, value, "has no value")
     numbers = _numbers_for(question, value, natural)
-    there = None if start is None else start.xreplace(numbers)
-    unchecked = []
+    unchecked = _check_equation(question, value, start, numbers)
+    for condition in question.conditions:
+        if set(condition.points).isdisjoint(limits):
+            unchecked += _check_condition(question, value, condition, numbers)
+    return unchecked
+
+
+def _check_equation(question: Question, value: Expr, start: Expr | None, numbers: dict[Expr, Expr]) -> list[str]:
+    """Is the residual 0?  As `check_answer`."""
+    if start is not None:
+        start = start.xreplace(numbers)
     try:
-        is_wrong = _is_wrong_at(_at_numbers(question, numbers), value.xreplace(numbers), there)
+        is_wrong = _is_wrong_at(_at_numbers(question, numbers), value.xreplace(numbers), start)
     except _NOT_EVALUATED as reason:
-        is_wrong = False
-        unchecked.append(f"the answer wasn't put into the equation, numerically: {_said(reason)}")
+        return [f"the answer wasn't put into the equation, numerically: {_said(reason)}"]
     if is_wrong:
         raise _failed(question, value, "doesn't satisfy the equation")
-    on_values = [condition for condition in question.conditions if set(condition.points).isdisjoint(limits)]
-    for condition in on_values:
-        try:
-            is_violated = _is_violated(question, value, condition, numbers)
-        except _NOT_EVALUATED as reason:
-            is_violated = False
-            unchecked.append(f"the answer wasn't put into {condition.text}, numerically: {_said(reason)}")
-        if is_violated:
-            raise _failed(question, value, f"doesn't satisfy {condition.text}")
-    return unchecked
+    return []
+
+
+def _check_condition(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> list[str]:
+    """Are the two sides the same?  As `check_answer`."""
+    try:
+        is_violated = _is_violated(question, value, condition, numbers)
+    except _NOT_EVALUATED as reason:
+        return [f"the answer wasn't put into {condition.text}, numerically: {_said(reason)}"]
+    if is_violated:
+        raise _failed(question, value, f"doesn't satisfy {condition.text}")
+    return []
 
 
 def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[Expr, Expr]:

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from flint import acb, arb, ctx, fmpq
@@ -110,6 +110,15 @@ def _in_powers(whole: Expr, function: Expr) -> RiccatiEquation | None:
 # ------------------------------------------------------------------------------------------------------------ solving
 
 
+@dataclass(frozen=True)
+class _LinearSolution:
+    """u(x), of which these are the constants that are free, and what is to be said beside."""
+
+    u: Expr
+    constants: tuple[Expr, ...]
+    notices: list[str]
+
+
 def solved(
     equation: RiccatiEquation, conditions: Sequence[Condition], linear_solution: Callable[..., tuple[Expr, list[str]]]
 ) -> tuple[Expr, list[str]]:
@@ -119,24 +128,36 @@ def solved(
     """
     value = _value_of(conditions)
     is_inverted = _is_inverted(equation, value)
-    solved_for = equation.reciprocal if is_inverted else equation
-    linear, u = solved_for.linear
-    if value is not None and _is_unit(solved_for.r, equation.x, value[0]):
-        found, notices = linear_solution(linear, u, ics=_start(equation, u, *value, is_inverted=is_inverted))
-        solution = found.rhs
-        constants: tuple[Expr, ...] = ()
-    else:
-        found, notices = linear_solution(linear, u, ics={})
-        solution, constants = _with_own_constants(found.rhs, linear)
-        if value is not None:
-            solution = _through(solution, constants, equation, *value)
-    rate = _rate_of(solution, constants, equation.x)
+    solved_for = equation
+    if is_inverted:
+        solved_for = equation.reciprocal
+    found = _solved_linear(equation, solved_for, value, linear_solution)
+    rate = _rate_of(found.u, found.constants, equation.x)
     w = sympy.Add(*(_with_sign_before(-term / solved_for.r) for term in sympy.Add.make_args(rate)))
     if is_inverted:
         w = 1 / w
-    w = _in_short(w.xreplace(dict.fromkeys(constants, _name_of_constant(equation))), equation.x)
+    w = _in_short(w.xreplace(dict.fromkeys(found.constants, _name_of_constant(equation))), equation.x)
     unchecked = _check(equation, w, conditions)
-    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
+    return sympy.Eq(equation.function, w, evaluate=False), found.notices + unchecked
+
+
+def _solved_linear(
+    equation: RiccatiEquation,
+    solved_for: RiccatiEquation,
+    value: RiccatiValue | None,
+    linear_solution: Callable[..., tuple[Expr, list[str]]],
+) -> _LinearSolution:
+    """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value."""
+    linear, u = solved_for.linear
+    if value is not None and _is_unit(solved_for.r, equation.x, value.point):
+        start = _start(equation, u, value, is_inverted=solved_for is not equation)
+        found, notices = linear_solution(linear, u, ics=start)
+        return _LinearSolution(found.rhs, (), notices)
+    found, notices = linear_solution(linear, u, ics={})
+    solution, constants = _with_own_constants(found.rhs, linear)
+    if value is not None:
+        solution = _through(solution, constants, equation, value)
+    return _LinearSolution(solution, constants, notices)
 
 
 def _with_own_constants(solution: Expr, linear: Expr) -> tuple[Expr, tuple[Expr, ...]]:
@@ -146,14 +167,13 @@ def _with_own_constants(solution: Expr, linear: Expr) -> tuple[Expr, tuple[Expr,
     return solution.xreplace(letters), tuple(letters.values())
 
 
-def _is_inverted(equation: RiccatiEquation, value: tuple[Expr, Expr] | None) -> bool:
+def _is_inverted(equation: RiccatiEquation, value: RiccatiValue | None) -> bool:
     """Is it the linear equation for 1/w, (1), that is solved?  Where only that is regular, or has the simpler coefficients."""
     x = equation.x
     if value is None:
         is_constant = equation.p != 0 and not equation.p.has(x)
         return is_constant and equation.r.has(x)
-    point, _ = value
-    return not _is_unit(equation.r, x, point) and _is_unit(equation.p, x, point)
+    return not _is_unit(equation.r, x, value.point) and _is_unit(equation.p, x, value.point)
 
 
 def _is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
@@ -162,31 +182,45 @@ def _is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
     return is_finite(found) and when_zero(found) is not Zero.ALWAYS
 
 
-def _start(equation: RiccatiEquation, u: Expr, point: Expr, v: Expr, *, is_inverted: bool) -> dict[Expr, Expr]:
+def _start(equation: RiccatiEquation, u: Expr, value: RiccatiValue, *, is_inverted: bool) -> dict[Expr, Expr]:
     """The values of u and u' for w(a) = v."""
-    here = {equation.x: point}
-    start = (_ONE, -(equation.r * v).subs(here))
+    here = {equation.x: value.point}
+    u_there = _ONE
+    slope_there = -(equation.r * value.v).subs(here)
     if is_inverted:
-        start = (v, equation.p.subs(here))
-    return {u.subs(here): start[0], u.diff().subs(here): start[1]}
+        u_there = value.v
+        slope_there = equation.p.subs(here)
+    return {u.subs(here): u_there, u.diff().subs(here): slope_there}
 
 
-def _through(u: Expr, constants: Sequence[Expr], equation: RiccatiEquation, point: Expr, v: Expr) -> Expr:
+def _through(u: Expr, constants: Sequence[Expr], equation: RiccatiEquation, value: RiccatiValue) -> Expr:
     """The solutions among C1 u1 + C2 u2 for which -u'/(r u) is v at a: one, or all.
 
     Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
     """
     basis = [u.diff(constant) for constant in constants]
-    x = equation.x
-    misses = [value_at(-y.diff(x) / equation.r, x, point) - v * value_at(y, x, point) for y in basis]
+    misses = [_miss(y, equation, value) for y in basis]
     if all(is_zero(miss) for miss in misses):
         return u
     first, second = misses
     return second * basis[0] - first * basis[1]
 
 
-def _value_of(conditions: Sequence[Condition]) -> tuple[Expr, Expr] | None:
-    """(a, v) for w(a) = v."""
+def _miss(y: Expr, equation: RiccatiEquation, value: RiccatiValue) -> Expr:
+    """-y'/r - v y at a."""
+    x = equation.x
+    return value_at(-y.diff(x) / equation.r, x, value.point) - value.v * value_at(y, x, value.point)
+
+
+class RiccatiValue(NamedTuple):
+    """w(point) = v."""
+
+    point: Expr
+    v: Expr
+
+
+def _value_of(conditions: Sequence[Condition]) -> RiccatiValue | None:
+    """The value that is given.  Raises `InputError` for other conditions, and for more than one."""
     if not conditions:
         return None
     condition = conditions[0]
@@ -196,7 +230,7 @@ def _value_of(conditions: Sequence[Condition]) -> tuple[Expr, Expr] | None:
     assert condition.value is not None
     if condition.points[0] in (sympy.oo, -sympy.oo):
         raise InputError(f"{condition.text}: a value determines a solution at a finite point")
-    return condition.points[0], condition.value
+    return RiccatiValue(condition.points[0], condition.value)
 
 
 def _name_of_constant(equation: RiccatiEquation) -> Expr:
@@ -268,37 +302,37 @@ def _check(equation: RiccatiEquation, w: Expr, conditions: Sequence[Condition]) 
     known = [w, equation.p, equation.q, equation.r, *(value or ())]
     symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
-    unchecked = []
+    is_missed: bool | None = False
     with ctx.workdps(2 * DIGITS):
-        found = [_is_wrong(equation, w, sample, point) for point in _POINTS]
-        if all(one is None for one in found):
-            unchecked.append(f"the answer wasn't put into the equation, numerically: {_NO_VALUE}")
+        is_wrong = _is_wrong(equation, w, sample)
         if value is not None:
-            is_missed = _is_missed(equation, w, sample, *value)
-            found.append(is_missed)
-            if is_missed is None:
-                unchecked.append(f"the answer wasn't put into {conditions[0].text}, numerically: {_NO_VALUE}")
-    if True in found:
+            is_missed = _is_missed(equation, w, sample, value)
+    if is_wrong or is_missed:
         raise VerificationFailed(f"{w} isn't a solution of a Riccati equation; please report {equation}")
+    unchecked = []
+    if is_wrong is None:
+        unchecked.append(f"the answer wasn't put into the equation, numerically: {_NO_VALUE}")
+    if is_missed is None:
+        unchecked.append(f"the answer wasn't put into {conditions[0].text}, numerically: {_NO_VALUE}")
     return unchecked
 
 
-def _is_missed(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], point: Expr, wanted: Expr) -> bool | None:
+def _is_missed(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], wanted: RiccatiValue) -> bool | None:
     """Is w(a) seen not to be the wanted value?  None where it can't be evaluated.
 
     Raises `InputError` where a is a singular point of the equation, so that no solution needs to have the value.
     """
     try:
-        reached = value_at(w, equation.x, point)
+        reached = value_at(w, equation.x, wanted.point)
     except NotImplementedError:
         return None
     left = ball(reached.xreplace(sample))
-    right = ball(wanted.xreplace(sample))
+    right = ball(wanted.v.xreplace(sample))
     if left is None or right is None or not left.is_finite():
         return None
     is_missed = bool(abs(left - right) > _SMALL)
-    if is_missed and not _is_regular(equation, point):
-        raise InputError(f"there is no solution with this value at {point}, a singular point of the equation")
+    if is_missed and not _is_regular(equation, wanted.point):
+        raise InputError(f"there is no solution with this value at {wanted.point}, a singular point of the equation")
     return is_missed
 
 
@@ -308,7 +342,17 @@ def _is_regular(equation: RiccatiEquation, point: Expr) -> bool:
     return all(map(is_finite, values))
 
 
-def _is_wrong(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
+def _is_wrong(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr]) -> bool | None:
+    """Is the residual seen not to be zero at a point?  None where it can't be evaluated at any."""
+    found = [_is_wrong_at(equation, w, sample, point) for point in _POINTS]
+    if True in found:
+        return True
+    if False in found:
+        return False
+    return None
+
+
+def _is_wrong_at(equation: RiccatiEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
     """Is the residual seen not to be zero?  None where the functions can't be evaluated."""
     with suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
         value, slope, _ = jet(w.xreplace(sample), equation.x, point)
