@@ -13,7 +13,7 @@ M. Razavy, Amer. J. Phys. 48 (1980) 285.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Any
@@ -210,9 +210,7 @@ def _found(
     y = _joined(solution.y, choice.field)
     constraint, *conditions = solution.conditions
     E = sympy.Symbol(question.energy)
-    polynomial = sympy.Integer(0)
-    for condition in conditions:
-        polynomial = sympy.gcd(polynomial, sympy.numer(sympy.together(condition)))
+    polynomial = _common_numerator(conditions)
     if constraint.has(E):
         if polynomial != 0:  # E is given, and P exists for some values of the parameters only
             return None
@@ -220,9 +218,10 @@ def _found(
         energies = sympy.solve(polynomial, E)
         if len(energies) != 1:
             return None
+        (energy,) = energies
         constraint = sympy.Integer(0)
-        y = y.xreplace({E: energies[0]})
-        demands = tuple(c.subs(E, energies[0]) for c in demands)
+        y = y.xreplace({E: energy})
+        demands = tuple(c.subs(E, energy) for c in demands)
     if not polynomial.has(E):
         return None
     if not polynomial.is_polynomial(E):
@@ -232,6 +231,14 @@ def _found(
         wave = Given(lambda _: (), parsed.equation).translated(y)
     P = system[0].to_sympy(sympy.Symbol(parsed.variable))
     return QuasiSolution(d, constraint, sympy.factor(polynomial), wave, P, demands)
+
+
+def _common_numerator(conditions: Iterable[Any]) -> Any:
+    """The polynomial that is 0 where all of these functions are."""
+    found = sympy.Integer(0)
+    for condition in conditions:
+        found = sympy.gcd(found, sympy.numer(sympy.together(condition)))
+    return found
 
 
 def _joined(y: Any, field: Field) -> Any:
@@ -279,16 +286,24 @@ def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | No
     coefficients = [_value(c, E, ball) for c in reversed(P.all_coeffs())]
     if len(coefficients) < 2:
         return 0
-    low, high = bounds
-    distances = []
+    count = 0
     for root in acb_poly(coefficients).roots():
         if root.imag.contains(0):
-            above = _INSIDE if low is None else root.real - _as_ball(low)
-            below = _INSIDE if high is None else _as_ball(high) - root.real
-            distances.append((above, below))
-    if any(above.contains(0) or below.contains(0) for above, below in distances):
+            is_inside = _is_inside(root.real, bounds)
+            if is_inside is None:
+                return None
+            count += is_inside
+    return count
+
+
+def _is_inside(x: arb, bounds: tuple[Any, Any]) -> bool | None:
+    """Is a ball between the bounds?  None where it meets one."""
+    low, high = bounds
+    above = _INSIDE if low is None else x - _as_ball(low)
+    below = _INSIDE if high is None else _as_ball(high) - x
+    if above.contains(0) or below.contains(0):
         return None
-    return sum(bool(above > 0 and below > 0) for above, below in distances)
+    return bool(above > 0 and below > 0)
 
 
 def _as_ball(bound: Any) -> arb:

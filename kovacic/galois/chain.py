@@ -21,11 +21,12 @@ of divisors.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 from math import lcm
+from typing import Any
 
 from flint import fmpq_mat, fmpz_mat
 
@@ -274,21 +275,28 @@ def _shortest(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly
     if field.ground != QQ:
         return _primitive(*first)
     basis = [_primitive(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
-    length = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
-    M = fmpz_mat([[int(c) for i in (0, 1) for c in _coordinates(pair[i], length[i])] for pair in basis])
+    M = _coordinate_matrix(basis)
     size = len(basis)
     columns = M.transpose().hnf()
     T = fmpz_mat([[columns[j, i] for j in range(size)] for i in range(size)])
     saturated = (fmpq_mat(T).inv() * fmpq_mat(M)).numer_denom()[0]
     rows, change = saturated.lll(transform=True)
-    least = min(range(size), key=lambda i: sum(int(c) ** 2 for c in rows.tolist()[i]))
-    factors = (fmpq_mat(change) * fmpq_mat(T).inv()).tolist()[least]
+    lengths = [sum(int(c) ** 2 for c in row) for row in rows.tolist()]
+    shortest = lengths.index(min(lengths))
+    factors = (fmpq_mat(change) * fmpq_mat(T).inv()).tolist()[shortest]
     a = b = first[0] * 0
     for factor, pair in zip(factors, basis, strict=True):
         scale = Fraction(int(factor.p), int(factor.q))
         a = a + pair[0] * scale
         b = b + pair[1] * scale
     return a, b
+
+
+def _coordinate_matrix(pairs: Sequence[tuple[Poly, Poly]]) -> Any:
+    """The integral coordinates of each pair, a row."""
+    first_length = 1 + max(a.degree for a, _ in pairs)
+    second_length = 1 + max(b.degree for _, b in pairs)
+    return fmpz_mat([[*_coordinates(a, first_length), *_coordinates(b, second_length)] for a, b in pairs])
 
 
 def _power_basis(field: Field) -> list[Poly]:

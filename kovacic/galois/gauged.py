@@ -155,9 +155,7 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
     if group.order is None:
         return None
     if group.kind in _COMMON_QUOTIENT:
-        e = _COMMON_QUOTIENT[group.kind]
-        if N % e or not any(_is_integral(j * (N // e) * rho - f.theta) for j in range(1, e + 1) if gcd(j, e) == 1):
-            e = 1
+        e = _common_quotient(group.kind, f, rho, N)
         common = e if (N // e) % 2 else 2 * e  # with -1, which is in both
         return group.order * N // common
     if N == 2:  # the sign is a character of G that is trivial at -1, or independent of it
@@ -169,6 +167,15 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
     curve = curve_of(analyse(S, Budget()), f)
     order = None if curve.genus > 0 else _torus([], _residues_on_curve(curve, rho)).order
     return order and 2 * order
+
+
+def _common_quotient(kind: GroupKind, f: SemiInvariant, rho: RatFunc, N: int) -> int:
+    """e, the degree of the largest common quotient of a primitive G and Gamma = mu_N."""
+    e = _COMMON_QUOTIENT[kind]
+    if N % e:
+        return 1
+    powers = [j * (N // e) for j in range(1, e + 1) if gcd(j, e) == 1]
+    return e if any(_is_integral(power * rho - f.theta) for power in powers) else 1
 
 
 def _is_integral(theta: RatFunc) -> bool:
@@ -222,14 +229,18 @@ def _coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
 
 def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:
     """The diagonalisable group with the characters Z^2/L, L = {(a, b) : the first forms vanish, the others are integers}."""
-
     rows = [row for row in vanishing if any(row)]
-    if rows:
-        p, q = rows[0]
-        if any(p * s != q * r for r, s in rows):
-            return Torus.of(2)
-        a, b = (-q / p).as_integer_ratio() if p else (1, 0)  # p a + q b = 0
-        return Torus.of(1, lcm(1, *((r * a + s * b).denominator for r, s in integral)))
+    if not rows:
+        return _finite_torus(integral)
+    p, q = rows[0]
+    if any(p * s != q * r for r, s in rows):
+        return Torus.of(2)
+    a, b = (-q / p).as_integer_ratio() if p else (1, 0)  # p a + q b = 0
+    return Torus.of(1, lcm(1, *((r * a + s * b).denominator for r, s in integral)))
+
+
+def _finite_torus(integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:
+    """That where no form has to vanish."""
     n = lcm(1, *(value.denominator for row in integral for value in row))
     matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
     # The entries have no common factor, n being the least common denominator: the elementary divisors are 1 and the minors'.
