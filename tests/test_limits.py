@@ -32,6 +32,8 @@ from sympy.abc import n, x
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, Solution
 from kovacic.algebra.isolation import complex_zeros
+from kovacic.batch.records import Item, Job
+from kovacic.batch.worker import solve_item
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.log_derivative import LogDerivative
 from kovacic.general_solution.integrands import prepared
@@ -440,6 +442,27 @@ def test_a_short_polynomial_of_many_factors_is_factored_where_it_can_be_stopped(
         assert [k for _, k in QQ.factor(irreducible)] == [1]
         with pytest.raises(LimitExceeded, match="no factors of a polynomial of degree 240"):
             QQ.factor(product)
+
+
+@pytest.mark.parametrize("text", ["y'' - 2*x*y' + 400*y = 0", "x^2 - 401", "(1 - x^2)*y'' - 2*x*y' + 10100*y = 0"])
+@pytest.mark.parametrize("group", [True, False])
+def test_a_batch_writes_its_record_within_the_time_of_the_equation(text: str, group: bool) -> None:
+    """The time ends after the answer was found; where there is none, the record says so whenever it ends."""
+    job = Job(limits=Limits(seconds=1), group=group)
+    item = Item(1, text, "x")
+    with controlled() as clock:
+        answer = kovacic.solve(text, var="x", limits=job.engine_limits)
+    found_after = clock.looks
+    with controlled() as clock:
+        assert solve_item(item, job, job.engine_limits).data["riccati"] is not None
+    written_after = clock.looks
+    assert not answer.reason
+    assert written_after > found_after + 3
+    for looks in (found_after // 2, found_after + 3):
+        with controlled(step=1 / looks) as clock:
+            record = solve_item(item, job, job.engine_limits)
+        assert "the time limit of 1 s is used up" in record.data["proof"]["undecided"]
+    assert clock.looks <= looks + 20
 
 
 @pytest.mark.parametrize(

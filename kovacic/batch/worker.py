@@ -16,7 +16,7 @@ from typing import Any
 import kovacic
 from kovacic.batch.records import Item, Job, Record, refused, solved
 from kovacic.errors import KovacicError
-from kovacic.limits import Limits
+from kovacic.limits import Budget, Limits
 from kovacic.process import Channel, set_alarm
 
 
@@ -39,10 +39,18 @@ def serve(channel: Channel) -> None:
 
 
 def solve_item(item: Item, job: Job, limits: Limits) -> Record:
-    """The record of one item, computed in this process; the limits are those of the job."""
+    """The record of one item, computed in this process; the limits are those of the job.
+
+    An answer is found and written within the time; that there is none for want of time is written all the same.
+    """
     start = time.perf_counter()
+    budget = Budget(limits)
     try:
-        return solved(item, kovacic.solve(item.text, var=item.var, limits=limits), job)
+        answer = kovacic.solve(item.text, var=item.var, limits=limits)
+        if answer.reason:
+            return solved(item, answer, job)
+        with budget.watched():
+            return solved(item, answer, job)
     except KovacicError as error:
         return refused(item, error, time.perf_counter() - start)
 
