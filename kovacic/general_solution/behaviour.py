@@ -293,29 +293,41 @@ def _hyper_series(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, lis
 
 
 def _hyper_at_one(parameters: Sequence[Any], w: Expr, n: int) -> tuple[Expr, list[Expr]]:
-    """2F1(a, b; c; 1 - w)."""
+    """2F1(a, b; c; 1 - w): a polynomial, or by s = c - a - b."""
     top, bottom = parameters
     if len(top) != 2 or len(bottom) != 1:
         raise UnknownBehaviour("how a generalized hypergeometric function behaves at 1 isn't known")
     a, b = top
     (c,) = bottom
-    s = sympy.expand(c - a - b)
     for N, other in ((-a, b), (-b, a)):
-        if N.is_integer and N.is_nonnegative:  # a polynomial, DLMF 15.8.7
-            main, errors = _hyper_series(((-N, other), (sympy.expand(1 - s),)), w, n)
-            return _rising(sympy.expand(c - other), N) / _rising(c, N) * main, errors
+        if N.is_integer and N.is_nonnegative:
+            return _polynomial_at_one(N, other, c, w, n)
+    s = sympy.expand(c - a - b)
     if not s.is_integer:
-        regular, _ = _hyper_series(((a, b), (1 - s,)), w, n)
-        other, _ = _hyper_series(((c - a, c - b), (1 + s,)), w, n)
-        first = gamma(c) * gamma(s) / (gamma(c - a) * gamma(c - b))
-        second = gamma(c) * gamma(-s) / (gamma(a) * gamma(b))
-        return first * regular + second * w**s * other, [w**n, w ** (s + n)]
-    if s.is_Integer and s < 0:  # Euler's transformation
-        main, errors = _logarithmic_at_one(c - a, c - b, int(-s), w, n)
-        return w**s * main, [w**s * error for error in errors]
+        return _two_series_at_one(a, b, c, w, n)
     if not s.is_Integer:
         raise UnknownBehaviour(f"whether {s} is positive isn't known")
-    return _logarithmic_at_one(a, b, int(s), w, n)
+    if s >= 0:
+        return _logarithmic_at_one(a, b, int(s), w, n)
+    main, errors = _logarithmic_at_one(c - a, c - b, int(-s), w, n)  # Euler's transformation
+    return w**s * main, [w**s * error for error in errors]
+
+
+def _polynomial_at_one(N: Expr, b: Expr, c: Expr, w: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    """2F1(-N, b; c; 1 - w) for a natural number N, DLMF 15.8.7."""
+    s = sympy.expand(c + N - b)
+    main, errors = _hyper_series(((-N, b), (sympy.expand(1 - s),)), w, n)
+    return _rising(sympy.expand(c - b), N) / _rising(c, N) * main, errors
+
+
+def _two_series_at_one(a: Expr, b: Expr, c: Expr, w: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    """2F1(a, b; c; 1 - w) where s isn't an integer, DLMF 15.8.4."""
+    s = sympy.expand(c - a - b)
+    regular, _ = _hyper_series(((a, b), (1 - s,)), w, n)
+    other, _ = _hyper_series(((c - a, c - b), (1 + s,)), w, n)
+    first = gamma(c) * gamma(s) / (gamma(c - a) * gamma(c - b))
+    second = gamma(c) * gamma(-s) / (gamma(a) * gamma(b))
+    return first * regular + second * w**s * other, [w**n, w ** (s + n)]
 
 
 def _rising(x: Expr, N: Expr) -> Expr:

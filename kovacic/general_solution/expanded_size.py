@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import mul
@@ -54,21 +55,40 @@ def expanded_size(expression: Expr) -> float:
 
 
 def _size(expression: Expr, degree: float) -> _Size:
-    """`degree`: that of a symbol.  u^(7/3) is expanded as u^2 u^(1/3)."""
+    """`degree`: that of a symbol."""
     if expression.is_Symbol:
         return _Size(1, 1, degree)
     if expression.is_Number:
         return _Size(1, 1, 0)
     inner = [_size(part, degree) for part in expression.args]
     if expression.is_Add:
-        terms = sum(part.terms for part in inner)
-        return _Size(terms, sum(part.parts for part in inner), max(part.degree for part in inner))
+        return _of_sum(inner)
     if expression.is_Mul:
         return reduce(mul, sorted(inner, key=lambda part: part.degree))
-    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
-        power = inner[0] ** int(expression.exp)
-        return power if expression.exp.is_Integer else _Size(power.terms, power.parts, math.inf)
-    return _Size(1, 1 + sum(part.parts for part in inner), math.inf)
+    if _is_expanded_power(expression):
+        return _of_power(inner[0], expression.exp)
+    return _Size(1, 1 + _parts(inner), math.inf)
+
+
+def _parts(sizes: Sequence[_Size]) -> float:
+    return sum(one.parts for one in sizes)
+
+
+def _of_sum(sizes: Sequence[_Size]) -> _Size:
+    terms = sum(one.terms for one in sizes)
+    return _Size(terms, _parts(sizes), max(one.degree for one in sizes))
+
+
+def _is_expanded_power(e: Expr) -> bool:
+    return bool(e.is_Pow and e.exp.is_Rational and e.exp >= 1)
+
+
+def _of_power(base: _Size, exponent: Expr) -> _Size:
+    """u^(7/3) is expanded as u^2 u^(1/3)."""
+    power = base ** int(exponent)
+    if exponent.is_Integer:
+        return power
+    return _Size(power.terms, power.parts, math.inf)
 
 
 def _terms_of_power(n: float, k: int) -> float:

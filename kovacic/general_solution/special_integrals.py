@@ -5,7 +5,7 @@ References: DLMF 7.2(iii), 8.2, 25.12.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy import cos, exp, log, sin
@@ -14,7 +14,6 @@ from sympy.simplify.fu import TR8
 from kovacic.general_solution.integrands import integral_of_product, sum_of
 
 Expr = Any  # SymPy publishes no types
-_Pair = tuple[Expr, Expr]
 #: More complex exponentials than these are harder to read than the integral.
 _MOST_EXPONENTIALS = 4
 
@@ -32,16 +31,23 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     found = _power_and_exponent(rest, x)
     if found is None:
         return None
-    s, exponent = found
-    if exponent != 0:
-        return _of_power_and_exponential(K, s, exponent, x)
+    s = found.s
+    if found.exponent != 0:
+        return _of_power_and_exponential(K, s, found.exponent, x)
     if s == -1:
         return None
     return K * x ** (s + 1) / (s + 1)
 
 
-def _power_and_exponent(product: Expr, x: Expr) -> tuple[Expr, Expr] | None:
-    """s and E of a product x^s exp(E); None for another."""
+class _PowerTimesExponential(NamedTuple):
+    """x^s exp(exponent)."""
+
+    s: Expr
+    exponent: Expr
+
+
+def _power_and_exponent(product: Expr, x: Expr) -> _PowerTimesExponential | None:
+    """A product as a power of x times an exponential; None for another."""
     s = sympy.Integer(0)
     exponent = sympy.Integer(0)
     for factor in sympy.Mul.make_args(product):
@@ -52,7 +58,7 @@ def _power_and_exponent(product: Expr, x: Expr) -> tuple[Expr, Expr] | None:
             s += power
         else:
             return None
-    return s, exponent
+    return _PowerTimesExponential(s, exponent)
 
 
 def _of_power_and_exponential(K: Expr, s: Expr, exponent: Expr, x: Expr) -> Expr | None:
@@ -97,34 +103,47 @@ def _fresnel(term: Expr, x: Expr) -> Expr | None:
     (wave,) = waves
     P = term / wave
     (q,) = wave.args
-    if P.has(wave) or not P.is_polynomial(x) or not _is_quadratic(q, x):
+    is_polynomial = not P.has(wave) and P.is_polynomial(x)
+    if not is_polynomial or not _is_quadratic(q, x):
         return None
     a, b, c = sympy.Poly(q, x).all_coeffs()
     t = sympy.Dummy()
     coefficients = sympy.Poly(P.subs(x, t - b / (2 * a)), t).all_coeffs()[::-1]
-    pairs = _fresnel_pairs(a, c - b**2 / (4 * a), t, len(coefficients))
-    which = 0 if wave.func is sin else 1
-    total = sympy.Add(*(k * pair[which] for k, pair in zip(coefficients, pairs, strict=True)))
+    integrals = _fresnel_integrals(a, c - b**2 / (4 * a), t, len(coefficients))
+    total = sympy.Add(*(k * one.of(wave) for k, one in zip(coefficients, integrals, strict=True)))
     return sympy.expand(total).subs(t, x + b / (2 * a))
 
 
-def _fresnel_pairs(a: Expr, d: Expr, t: Expr, count: int) -> list[_Pair]:
-    """int t^n sin(a t^2 + d) dt and int t^n cos(a t^2 + d) dt for n below `count`, by parts down to n = 0 or 1."""
+class _FresnelIntegrals(NamedTuple):
+    """int t^n sin(a t^2 + d) dt and int t^n cos(a t^2 + d) dt."""
+
+    sine: Expr
+    cosine: Expr
+
+    def of(self, wave: Expr) -> Expr:
+        """The one with a sine, or a cosine, as the wave is."""
+        if wave.func is sin:
+            return self.sine
+        return self.cosine
+
+
+def _fresnel_integrals(a: Expr, d: Expr, t: Expr, count: int) -> list[_FresnelIntegrals]:
+    """Those for n below `count`, by parts down to n = 0 or 1."""
     angle = a * t**2 + d
     unit = sympy.sqrt(sympy.pi / (2 * a))
     z = t * sympy.sqrt(2 * a / sympy.pi)
     S = unit * sympy.fresnels(z)
     C = unit * sympy.fresnelc(z)
-    pairs: list[_Pair] = [(cos(d) * S + sin(d) * C, cos(d) * C - sin(d) * S)]
+    found = [_FresnelIntegrals(cos(d) * S + sin(d) * C, cos(d) * C - sin(d) * S)]
     for n in range(1, count):
         sine = -(t ** (n - 1)) * cos(angle) / (2 * a)
         cosine = t ** (n - 1) * sin(angle) / (2 * a)
         if n > 1:
-            before = pairs[n - 2]
-            sine += (n - 1) * before[1] / (2 * a)
-            cosine -= (n - 1) * before[0] / (2 * a)
-        pairs.append((sine, cosine))
-    return pairs
+            before = found[n - 2]
+            sine += (n - 1) * before.cosine / (2 * a)
+            cosine -= (n - 1) * before.sine / (2 * a)
+        found.append(_FresnelIntegrals(sine, cosine))
+    return found
 
 
 def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:

@@ -21,13 +21,12 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.facts import INEQUALITIES, INTEGERS, WORDS, Bound, Facts, check_words, is_relation, read_facts
+from kovacic.parametric.facts import INTEGERS, WORDS, Bound, Facts, check_words, is_relation, read_facts
 from kovacic.parametric.functions import Coset, element, numerator, over_parameters
 from kovacic.parametric.linear_forms import line_of, linear_of, parameters_of
+from kovacic.parametric.sympy_words import sympy_properties, words_of
 
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
-#: What SymPy calls numbers that aren't 0, and others, on a side of it.
-_SIGNS = {1: ("positive", "nonnegative"), -1: ("negative", "nonpositive")}
 #: Words that are taken, and not used.
 _SAY_NOTHING = ("real", "complex")
 _NO_BOUND = Bound(1, Fraction(0), False)
@@ -146,7 +145,7 @@ class Assumptions:
         found = {}
         for name, known in self.known:
             try:
-                found[name] = Symbol(name, **dict.fromkeys(_sympy_properties(known), True))
+                found[name] = Symbol(name, **dict.fromkeys(sympy_properties(known.words), True))
             except InconsistentAssumptions:
                 raise InputError(f"the assumptions on {name} contradict one another: {' '.join(known.words)}") from None
         return found
@@ -274,7 +273,7 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     words: dict[str, list[str]] = {name: [] for name in names}
     for symbol in getattr(S, "free_symbols", ()):
         if symbol.name in words:
-            words[symbol.name] = _words_of(symbol)
+            words[symbol.name] = words_of(symbol)
     for key, what in (assume or {}).items():
         name = _parameter(key, names)
         words[name] += _read_words(what)
@@ -315,50 +314,6 @@ def _read_words(what: object) -> list[str]:
         )
     check_words(words)
     return words
-
-
-def _words_of(symbol: Any) -> list[str]:
-    """What SymPy knows of a symbol, without what follows from the rest."""
-    words = _arithmetic_of(symbol)
-    signs = [word for word in INEQUALITIES if getattr(symbol, f"is_{word}")]
-    words += signs[:1]
-    if symbol.is_zero is False and not Known(tuple(words)).nonzero:
-        words.append("nonzero")
-    return words
-
-
-def _arithmetic_of(symbol: Any) -> list[str]:
-    """Of which kind the number is: the first of these that it is; or rational or not, and no integer."""
-    for kind in ("odd", "even", "integer", "irrational"):
-        if getattr(symbol, f"is_{kind}"):
-            return [kind]
-    words = []
-    if symbol.is_rational:
-        words.append("rational")
-    if symbol.is_integer is False:
-        words.append("noninteger")
-    return words
-
-
-def _sympy_properties(known: Known) -> list[str]:
-    """What SymPy has names for; of bounds, what they say of the sign."""
-    unnamed = {*INEQUALITIES, "half-integer"}
-    words = [word for word in known.words if word in WORDS and word not in unnamed]
-    if "half-integer" in known.words:
-        words += ["rational", "noninteger"]
-    for bound in known.bounds:
-        is_beyond_zero = bound.sign * bound.end >= 0
-        if is_beyond_zero:
-            words.append(_sign_word(bound))
-    return words
-
-
-def _sign_word(bound: Bound) -> str:
-    """SymPy's word for the sign of numbers with a bound that is 0 or beyond it."""
-    strict, weak = _SIGNS[bound.sign]
-    if bound.strict or bound.end != 0:
-        return strict
-    return weak
 
 
 def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero: bool) -> bool:
