@@ -51,12 +51,13 @@ EXPLAINED: dict[str, str] = json.loads((ROOT / "benchmarks" / "mutation_explaine
 
 ENGINE_TESTS = ("tests/test_cases.py", "tests/test_engine_properties.py", "tests/test_verify.py", "tests/test_invariants.py",
                 "tests/test_bad_primes.py", "tests/test_parameters.py", "tests/test_algebraic_constants.py",
-                "tests/test_textbook_equations.py", "tests/test_operation_counts.py")  # fmt: skip
+                "tests/test_textbook_equations.py", "tests/test_operation_counts.py", "tests/test_search_and_kernel.py",
+                "tests/test_jacobian.py")  # fmt: skip
 #: The files of a part of the package, and the tests that should notice a fault there.
 PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "verify": (("kovacic/verify/*.py",), (*ENGINE_TESTS, "tests/test_galois.py")),
     "engine": (("kovacic/engine/*.py",), ENGINE_TESTS),
-    "galois": (("kovacic/galois/*.py",), ("tests/test_galois.py", "tests/test_verify.py")),
+    "galois": (("kovacic/galois/*.py",), ("tests/test_galois.py", "tests/test_jacobian.py", "tests/test_verify.py")),
     "algebra": (("kovacic/algebra/*.py",), ("tests/test_algebra.py", *ENGINE_TESTS)),
     "checker": (("kovacic/checker.py",), ("tests/test_checker.py", "tests/test_json.py")),
     "check": (

@@ -97,7 +97,7 @@ METHODS: dict[tuple[str, str, str], Rule] = {
     ("kovacic.algebra.recurrence", "RationalSeries", "extend"): _exact_term,
     ("kovacic.algebra.recurrence", "FieldSeries", "extend"): _exact_term,
     ("kovacic.engine.riccati", "Form", "numerators"): _verification,
-    ("kovacic.verify.evidence", "Inspector", "_holds"): _verification,
+    ("kovacic.verify.evidence", "Inspector", "holds"): _verification,
 }
 PRIMES = ("kovacic.algebra.lifting", "primes")
 

@@ -20,13 +20,14 @@ from flint import acb
 from kovacic import Equation
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import COMMANDS, run
 from kovacic.cli.main import main as run_and_exit
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import is_exact_solution
+from kovacic.closed_form.check import is_exact_solution, residual
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.structure import Triangular
 from kovacic.enclosure.frame import make_frame
@@ -63,6 +64,7 @@ __all__ = [
     "as_problem",
     "ball_to_flint",
     "bounded_work",
+    "decompose",
     "equation",
     "evaluate_states",
     "function",
@@ -72,6 +74,7 @@ __all__ = [
     "parametrize",
     "read_expression",
     "read_input",
+    "residual",
     "run",
     "run_and_exit",
     "sample",

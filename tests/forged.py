@@ -1,4 +1,7 @@
-"""Evidence that is well formed and claims what may be wrong: none of it may exclude the structure that the group has."""
+"""Evidence that is well formed and claims what may be wrong: none of it may exclude the structure that the group has.
+
+The records that evidence and claims are made of, and what weighs them, are named here for the tests that forge them.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +11,47 @@ from itertools import islice
 from build import Poly, RatFunc
 
 from kovacic import Structure
-from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule
+from kovacic.decision import (
+    CurveFunction,
+    Decision,
+    Evidence,
+    Exclusion,
+    NecessaryCondition,
+    NoInvariant,
+    NoRationalOmega,
+    RiccatiPolynomial,
+    Rule,
+    SemiInvariant,
+)
 from kovacic.limits import Budget
+from kovacic.verify import GroupClaim
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.verify.forms import ordinary_point, room
 from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.zeros import zero_counts
+
+__all__ = [
+    "INVARIANT_DEGREE",
+    "CurveFunction",
+    "Decision",
+    "Exclusion",
+    "GroupClaim",
+    "Inspector",
+    "NecessaryCondition",
+    "NoInvariant",
+    "NoRationalOmega",
+    "RiccatiPolynomial",
+    "Rule",
+    "SemiInvariant",
+    "forged_evidence",
+    "inspector",
+    "primes_with_a_root",
+]
+
+
+def inspector(S: RatFunc) -> Inspector:
+    """What the kernel weighs evidence about y'' = S y with."""
+    return Inspector(S, Budget())
 
 
 def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence, ...]]:
@@ -21,19 +59,19 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
 
     Forms of every degree, also those that there truly aren't; omega at every place, modulo a prime with a root there.
     """
-    inspector = Inspector(S, Budget())
-    names, h = tuple(point.name for point in inspector.points), next(S.field.homomorphisms())
+    points = inspector(S).points
+    names, h = tuple(point.name for point in points), next(S.field.homomorphisms())
     primes = [h.p for h, _ in zip(S.field.homomorphisms(), range(2), strict=False)]
     forms, omegas = [NoInvariant(m) for m in INVARIANT_DEGREE.values()], [NoRationalOmega(-1)]
     for m in INVARIANT_DEGREE.values():
-        bounds = room(inspector.points, m)
+        bounds = room(points, m)
         degree = -1 if bounds is None else bounds[1]
         tried = primes if m == INVARIANT_DEGREE[structure] else primes[:1]
         forms += [NoInvariant(m, p, ordinary_point(h(S.den)), degree) for p in tried]
-    counts = zero_counts(inspector.points)
+    counts = zero_counts(points)
     if counts is not None:
         omegas += [NoRationalOmega(counts.largest), *(NoRationalOmega(counts.largest, primes[0], n) for n in names)]
-        roots = [(p, point.name) for point in inspector.points for p in islice(primes_with_a_root(point.factor), 2)]
+        roots = [(p, point.name) for point in points for p in islice(primes_with_a_root(point.factor), 2)]
         omegas += [NoRationalOmega(counts.largest, p, name) for p, name in roots if p != primes[0]]
     rules = [NecessaryCondition(rule, named) for rule in Rule for named in (names, *((name,) for name in names))]
     yield ()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import flint
@@ -12,19 +11,13 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, RatFunc, Triangular, is_exact_solution, jet, parametrize
+from build import QQ, RatFunc, jet, parametrize, residual
 from flint import acb, arb
 from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
 from kovacic import Limits
-from kovacic.closed_form.check import is_numerical_solution, residual
-from kovacic.closed_form.curve import integrate_on_curve
-from kovacic.closed_form.form import solutions
-from kovacic.closed_form.klein import KleinForm
-from kovacic.closed_form.product import product
-from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, build, curve_of, logarithmic_derivative
 
 X = RatFunc(QQ.poly([0, 1]))
 
@@ -379,18 +372,19 @@ def test_legendres_modulus_may_be_a_parameter() -> None:
     assert integral == sympy.elliptic_f(sympy.asin(x), sympy.Symbol("k") ** 2)
 
 
+def test_incomplete_gamma_functions_of_a_cube() -> None:
+    """y1 = (x^3 + 1) exp(x^3/3): the integral of its inverse square has one of them."""
+    answer = kovacic.solve(next(entry.S for entry in published.load() if entry.id == "quartic-mu:mu=8"))
+    assert answer.closed_form is not None
+    assert answer.closed_form.checked == "exact"
+    assert answer.solutions[1].has(sympy.lowergamma, sympy.uppergamma)
+    check_at(answer, acb("0.31", "0.83").mid())
+
+
 def test_without_a_solution_there_is_no_closed_form() -> None:
     airy = kovacic.solve("x")
     assert airy.closed_form is None
     assert airy.solutions == ()
-    with pytest.raises(ValueError, match="no Liouvillian solution"):
-        solutions(airy.S, airy.decision, airy.gauge)
-
-
-def test_the_gauge_can_be_given() -> None:
-    answer = kovacic.solve("-1")
-    gauge = RatFunc(answer.S.field.poly([-1]), answer.S.field.poly([0, 2]))
-    assert [str(y) for y in solutions(answer.S, answer.decision, gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
 
 
 @pytest.mark.parametrize("S", ["(2*x^2-1)/x^4", "(6*x^2-1)/x^4", "(2*x^2-4*x-2)/(x-1)^4"])
@@ -400,34 +394,6 @@ def test_a_phase_may_begin_with_a_minus_sign(S: str) -> None:
     assert form is not None
     assert form.checked == "exact"
     assert form.y1.has(sympy.cos)
-
-
-def test_wrong_answers_do_not_pass_the_checks() -> None:
-    answer, other = kovacic.solve("2/x^2 - 1"), kovacic.solve("6/x^2 - 1")
-    zero = answer.gauge
-    form, wrong = answer.closed_form, other.closed_form
-    assert form is not None
-    assert wrong is not None
-    assert is_exact_solution(form.structure, answer.S, zero)
-    assert not is_exact_solution(wrong.structure, answer.S, zero)
-    assert is_numerical_solution(form.y1, x, answer.S, zero)
-    assert not is_numerical_solution(wrong.y1, x, answer.S, zero)
-    assert not is_numerical_solution(form.y1 + sympy.Rational(1, 10**40), x, answer.S, zero)
-
-
-@pytest.mark.parametrize(
-    ("S", "kind"),
-    [
-        ("1", Diagonal),
-        ("-1", Conjugate),
-        ("x^2 + 3", Triangular),
-        ("1/x - 3/(16*x^2)", OnCurve),
-        ("(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)", KleinForm),
-    ],
-)
-def test_structure_needs_no_sympy(S: str, kind: type) -> None:
-    answer = kovacic.solve(S)
-    assert isinstance(build(answer.S, answer.decision, answer.gauge), kind)
 
 
 def test_cancellation_is_no_reason_to_fail() -> None:
@@ -452,19 +418,3 @@ def test_half_integer_exponent_differences_need_no_roots(k: int, l: int, third: 
     assert len(str(form.y1)) < 200 + (k + l) ** 2 // 3
     if k < 50:
         check_at(answer, acb("0.31", "0.83").mid())
-
-
-def test_gathered_zeros_are_the_spread_ones() -> None:
-    """The short form and the one with a square root and logarithms at the zeros have the same logarithmic derivatives."""
-    answer = kovacic.solve("(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)")
-    form = build(answer.S, answer.decision, answer.gauge)
-    assert isinstance(form, OnCurve)
-    assert form.zeros is not None
-    assert answer.decision.semi_invariant is not None
-    g, r, kappa_squared = curve_of(answer.S, answer.decision.semi_invariant)
-    norm = logarithmic_derivative(form.zeros.norm(g))
-    spread = OnCurve(product(form.common.logarithmic_derivative + norm / 2), kappa_squared, integrate_on_curve(r, g))
-    for curve in (form, spread):
-        assert is_exact_solution(curve, answer.S, answer.gauge)
-    changed = replace(form, zeros=replace(form.zeros, A=form.zeros.A * 2))
-    assert not is_exact_solution(changed, answer.S, answer.gauge)

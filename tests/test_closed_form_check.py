@@ -9,19 +9,31 @@ from typing import Any
 import pytest
 import sympy
 import transform
-from build import QQ, AlgebraicField, Atoms, Poly, RatFunc, Triangular, is_exact_solution, parametrize
+from build import (
+    QQ,
+    AlgebraicField,
+    Atoms,
+    Poly,
+    RatFunc,
+    Triangular,
+    decompose,
+    is_exact_solution,
+    parametrize,
+    residual,
+)
 from flint import acb
 from sympy.abc import x
 
 import kovacic
-from kovacic.algebra.partial_fractions import decompose
-from kovacic.closed_form.check import is_numerical_solution, residual, value_at
-from kovacic.closed_form.curve import CurveIntegral
+from kovacic.closed_form.check import is_numerical_solution, value_at
+from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
+from kovacic.closed_form.form import solutions
+from kovacic.closed_form.klein import KleinForm
 from kovacic.closed_form.primitive import RationalPrimitive
 from kovacic.closed_form.product import product
 from kovacic.closed_form.real_pair import is_real_pair
-from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve
+from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, build, curve_of, logarithmic_derivative
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO, ONE = RatFunc(QQ.poly([])), QQ.poly([1])
@@ -257,3 +269,62 @@ def test_pairs_with_irrational_coefficients(text: str) -> None:
     assert form is not None
     assert form.checked == "exact"
     assert not form.y1.has(sympy.I)
+
+
+# ------------------------------------------------------------------------------------- whole answers
+
+
+def test_without_a_solution_there_is_nothing_to_write() -> None:
+    airy = kovacic.solve("x")
+    with pytest.raises(ValueError, match="no Liouvillian solution"):
+        solutions(airy.S, airy.decision, airy.gauge)
+
+
+def test_the_gauge_can_be_given() -> None:
+    answer = kovacic.solve("-1")
+    gauge = RatFunc(answer.S.field.poly([-1]), answer.S.field.poly([0, 2]))
+    assert [str(y) for y in solutions(answer.S, answer.decision, gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
+
+
+def test_wrong_answers_do_not_pass_the_checks() -> None:
+    answer, other = kovacic.solve("2/x^2 - 1"), kovacic.solve("6/x^2 - 1")
+    zero = answer.gauge
+    form, wrong = answer.closed_form, other.closed_form
+    assert form is not None
+    assert wrong is not None
+    assert is_exact_solution(form.structure, answer.S, zero)
+    assert not is_exact_solution(wrong.structure, answer.S, zero)
+    assert is_numerical_solution(form.y1, x, answer.S, zero)
+    assert not is_numerical_solution(wrong.y1, x, answer.S, zero)
+    assert not is_numerical_solution(form.y1 + sympy.Rational(1, 10**40), x, answer.S, zero)
+
+
+@pytest.mark.parametrize(
+    ("S", "kind"),
+    [
+        ("1", Diagonal),
+        ("-1", Conjugate),
+        ("x^2 + 3", Triangular),
+        ("1/x - 3/(16*x^2)", OnCurve),
+        ("(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)", KleinForm),
+    ],
+)
+def test_structure_needs_no_sympy(S: str, kind: type) -> None:
+    answer = kovacic.solve(S)
+    assert isinstance(build(answer.S, answer.decision, answer.gauge), kind)
+
+
+def test_gathered_zeros_are_the_spread_ones() -> None:
+    """The short form and the one with a square root and logarithms at the zeros have the same logarithmic derivatives."""
+    answer = kovacic.solve("(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)")
+    form = build(answer.S, answer.decision, answer.gauge)
+    assert isinstance(form, OnCurve)
+    assert form.zeros is not None
+    assert answer.decision.semi_invariant is not None
+    g, r, kappa_squared = curve_of(answer.S, answer.decision.semi_invariant)
+    norm = logarithmic_derivative(form.zeros.norm(g))
+    spread = OnCurve(product(form.common.logarithmic_derivative + norm / 2), kappa_squared, integrate_on_curve(r, g))
+    for curve in (form, spread):
+        assert is_exact_solution(curve, answer.S, answer.gauge)
+    changed = replace(form, zeros=replace(form.zeros, A=form.zeros.A * 2))
+    assert not is_exact_solution(changed, answer.S, answer.gauge)

@@ -9,7 +9,7 @@ import flint
 import pytest
 import strategies
 import sympy
-from build import QQ, Atoms, Poly, RatFunc, Triangular, is_exact_solution, jet, parametrize, read_input
+from build import QQ, Atoms, Poly, RatFunc, Triangular, decompose, is_exact_solution, jet, parametrize, read_input
 from flint import acb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -17,10 +17,9 @@ from sympy.abc import t, x
 
 import kovacic
 from kovacic import Structure
-from kovacic.algebra.partial_fractions import _reduce_at, decompose
 from kovacic.closed_form.curve import integrate_on_curve, unit
 from kovacic.closed_form.curve_display import curve_integral
-from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
+from kovacic.closed_form.exponential_integrals import ExponentialPrimitive, integrate_exponential
 from kovacic.closed_form.form import ClosedForm, solutions
 from kovacic.closed_form.integrals import logarithms
 from kovacic.closed_form.klein import RATIOS, KleinForm
@@ -36,19 +35,17 @@ X = RatFunc(QQ.poly([0, 1]))
 ZERO = RatFunc(QQ.poly([]))
 squarefree = strategies.polynomials(1, 4).filter(lambda g: g.gcd(g.derivative()).degree == 0).map(Poly.monic)
 
+small = st.integers(-3, 3)
+short_functions = st.lists(small, min_size=1, max_size=3).map(lambda c: RatFunc(QQ.poly(c)))
+ratios = (
+    st.tuples(short_functions, short_functions).filter(lambda pair: bool(pair[1])).map(lambda pair: pair[0] / pair[1])
+)
+
 
 def closed_form_of(answer: kovacic.Solution) -> ClosedForm:
     form = answer.closed_form
     assert form is not None
     return form
-
-
-@pytest.mark.long
-@given(strategies.rational_functions(5))
-def test_partial_fractions_add_up(r: RatFunc) -> None:
-    parts = decompose(r)
-    assert parts.derivative == r
-    assert all(residue.value.degree < residue.factor.degree for residue in parts.residues)
 
 
 @pytest.mark.long
@@ -206,25 +203,6 @@ def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
     assert solutions(answer.S, answer.decision, 1 / (2 * X) - X).checked == "exact"
 
 
-@pytest.mark.long
-@given(
-    strategies.rational_functions(3),
-    squarefree.filter(lambda p: bool(p[0])),
-    st.integers(2, 30),
-    st.fractions(-2, 2, max_denominator=3),
-    st.integers(-3, 3),
-)
-def test_reduction_at_a_pole(r: RatFunc, p: Poly, order: int, alpha: Fraction, n: int) -> None:
-    """r = L(W) + rest, the rest having p once in its denominator."""
-    numerator, denominator = r.num, r.den.remove(p)[0]
-    assume(numerator and denominator.gcd(p).degree == 0 and numerator.gcd(p).degree == 0)
-    slope = alpha / X + 2 * n * X ** (n - 1) if n else alpha / X
-    r = RatFunc(numerator, denominator * p**order)
-    W, rest = _reduce_at(r, p, order, slope)
-    assert W.derivative() + W * slope + rest == r
-    assert rest.den.remove(p)[1] <= 1
-
-
 @parametrize(
     ("omega", "kind", "notes"),
     [
@@ -246,3 +224,40 @@ def test_large_powers(omega: str, kind: type, notes: int) -> None:
     assert type(form.structure.primitive) is kind
     assert form.checked == "exact"
     assert len(form.notes) == notes
+
+
+# ----------------------------------------------------------------------- int r exp(E) dx with Ei and error functions
+
+
+@pytest.mark.long
+@settings(max_examples=60, deadline=None)
+@given(ratios, ratios, st.lists(st.tuples(small, small), max_size=2))
+def test_derivatives_are_integrated(E: RatFunc, W: RatFunc, levels: list[tuple[int, int]]) -> None:
+    """W exp(E) + sum c exp(e) Ei(E - e), for rational e."""
+    slope = E.derivative()
+    assume(bool(slope) and len({e for _, e in levels}) == len(levels))
+    r = W.derivative() + W * slope
+    for c, e in levels:
+        r = r + slope / (E - e) * c
+    done = integrate_exponential(r, E)
+    assert not isinstance(done, str)
+    assert done.integrand == r
+
+
+@pytest.mark.long
+@settings(max_examples=30, deadline=None)
+@given(ratios, ratios, st.sampled_from([1, -1, 2, -3]), small, small)
+def test_error_functions(q: RatFunc, W: RatFunc, b: int, e: int, c: int) -> None:
+    E = q * q * b + e
+    assume(bool(q.derivative()))
+    r = W.derivative() + W * E.derivative() + q.derivative() * c
+    done = integrate_exponential(r, E)
+    assert not isinstance(done, str)
+    assert done.integrand == r
+
+
+def test_what_is_left_and_why() -> None:
+    """int x exp(x + 1/x), and a residue at a pole that E - E(a) has no zeros to go with."""
+    assert "isn't a rational function times the exponential" in str(integrate_exponential(X, X + 1 / X))
+    assert "residue" in str(integrate_exponential(1 / (X - 1), X * X))
+    assert not isinstance(integrate_exponential(1 / (X - 1) + 1 / (X + 1), X * X), str)

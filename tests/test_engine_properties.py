@@ -12,6 +12,7 @@ import pickle
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 import pytest
@@ -20,14 +21,7 @@ import textbook
 import transform
 from build import QQ, AlgebraicField, Poly, RatFunc, function, parametrize, verify
 from flint import nmod_poly
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
-from strategies import Example
-
-import kovacic
-from kovacic import Solution, Status, Structure
-from kovacic.algebra.extension import ExtensionPoly
-from kovacic.decision import (
+from forged import (
     Decision,
     Exclusion,
     NecessaryCondition,
@@ -37,6 +31,12 @@ from kovacic.decision import (
     Rule,
     SemiInvariant,
 )
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from strategies import Example
+
+import kovacic
+from kovacic import Solution, Status, Structure
 
 FAMILIES = list(strategies.GENERATORS)
 LONG_RUN = int(os.environ.get("KOVACIC_FUZZ", "20000"))
@@ -56,7 +56,7 @@ def omega_degree(answer: Solution) -> int | None:
 
 def _images(polynomial: Poly, p: int, root: int) -> Any:
     """The polynomial modulo p, the constant c replaced by a root of its minimal polynomial."""
-    if isinstance(polynomial, ExtensionPoly):
+    if polynomial.field != QQ:
         return sum(
             (_images(part, p, root) * pow(root, k, p) for k, part in enumerate(polynomial.parts)), nmod_poly([], p)
         )
@@ -114,7 +114,7 @@ def check(example: Example) -> Solution:
 
 @parametrize("family", FAMILIES, ordinary=1, long=11)
 def test_case_and_degree_are_right(family: str) -> None:
-    @settings(max_examples=12)
+    @settings(max_examples=8)
     @given(strategies.examples(family))
     def run(example: Example) -> None:
         check(example)
@@ -147,7 +147,7 @@ def test_exponents_with_a_root_of_a_number_beside_parameters(form: str, number: 
 
 
 @parametrize("p", ["x^2 + 1", "x^2 - x + 3", "x^3 - 2", "x^4 + 1", "x^4 - 2", "x^4 + x + 1"], ordinary=2)
-@pytest.mark.parametrize("m", [2, 3, 5, -1, -6])
+@pytest.mark.parametrize("m", [2, 5, -1, -6])
 def test_conjugate_places_with_one_irrational_exponent(p: str, m: int) -> None:
     """b = (m - 1)/4 at each root of p: exponents (1 +- sqrt(m))/2 that aren't rational over its field, of whatever norm.
 
@@ -156,7 +156,7 @@ def test_conjugate_places_with_one_irrational_exponent(p: str, m: int) -> None:
     factor = function(p)
     slope = factor.derivative()
     poles = (slope * slope - factor * slope.derivative()) / (factor * factor) * Fraction(m - 1, 4)
-    for E in range(1, 14, 2):
+    for E in (1, 5, 13):
         answer = solve(function(f"x^2 + {E}") + poles)
         assert answer.verified
         assert answer.case is None
@@ -227,7 +227,7 @@ def test_constants_of_the_diagonal_case(F: RatFunc, W: int) -> None:
         assert answer.omega.derivative() + answer.omega**2 == answer.S
 
 
-@settings(max_examples=30)
+@settings(max_examples=10)
 @given(strategies.case_1_scalar())
 def test_scalar_group_needs_no_constants(example: Example) -> None:
     assert check(example).constants is None
@@ -388,9 +388,14 @@ NEGATIVE = [
 ]
 
 
+@cache
+def solved(text: str) -> Solution:
+    return kovacic.solve(text)
+
+
 @pytest.mark.parametrize("text", CORRUPTIBLE)
 def test_every_corrupted_coefficient_fails(text: str) -> None:
-    answer = kovacic.solve(text)
+    answer = solved(text)
     riccati, form = answer.riccati, answer.semi_invariant
     assert riccati is not None
     assert form is not None
@@ -439,7 +444,7 @@ def test_constants_need_an_irreducible_polynomial(square: int, right: bool) -> N
 
 @pytest.mark.parametrize("text", CORRUPTIBLE)
 def test_a_positive_answer_for_another_structure_fails(text: str) -> None:
-    answer = kovacic.solve(text)
+    answer = solved(text)
     for structure in Structure:
         if structure is not answer.decision.structure:
             assert not verify(answer.S, replace(answer.decision, structure=structure)), structure
@@ -449,7 +454,7 @@ def test_a_positive_answer_for_another_structure_fails(text: str) -> None:
 
 @pytest.mark.parametrize("text", [*(text for text in CORRUPTIBLE if kovacic.decide(text).case != 1), *NEGATIVE])
 def test_missing_or_foreign_evidence_fails(text: str) -> None:
-    answer = kovacic.solve(text)
+    answer = solved(text)
     decision = answer.decision
     assert decision.exclusions
     for i, exclusion in enumerate(decision.exclusions):
@@ -483,7 +488,7 @@ CONDITIONS = {
 
 @pytest.mark.parametrize("rule", Rule)
 def test_a_condition_holds_at_its_places_and_against_its_structures_only(rule: Rule) -> None:
-    answer = kovacic.solve(CONDITIONS[rule])
+    answer = solved(CONDITIONS[rule])
     exclusions = answer.decision.exclusions
     i, j, condition = next(
         (i, j, evidence)
@@ -503,7 +508,7 @@ def test_a_condition_holds_at_its_places_and_against_its_structures_only(rule: R
 @pytest.mark.parametrize("text", [*CORRUPTIBLE, "0", "(3*x^2 - 7)/(x^2 + 1)^2 * 0 + 2/x^2"])
 def test_no_evidence_excludes_what_is_the_case(text: str) -> None:
     """Whatever we claim against the true structure, none of it passes."""
-    answer = kovacic.solve(text)
+    answer = solved(text)
     true = answer.decision.structure
     assert true is not None
     places = tuple(str(p) for p, _ in QQ.factor(answer.S.den)) if answer.S.den.degree > 0 else ()
@@ -528,9 +533,9 @@ def test_no_evidence_excludes_what_is_the_case(text: str) -> None:
 @pytest.mark.parametrize("text", NEGATIVE)
 def test_no_certificate_passes_where_there_is_no_solution(text: str) -> None:
     """A certificate of another equation, moved here, fails."""
-    answer = kovacic.solve(text)
+    answer = solved(text)
     for other in CORRUPTIBLE:
-        decision = kovacic.solve(other).decision
+        decision = solved(other).decision
         assert not verify(answer.S, decision)
         assert not verify(answer.S, replace(decision, exclusions=answer.decision.exclusions))
 
@@ -538,7 +543,7 @@ def test_no_certificate_passes_where_there_is_no_solution(text: str) -> None:
 @pytest.mark.parametrize("text", NEGATIVE)
 @pytest.mark.parametrize("prime", [2, 3, 7, 2**59, (1 << 60) - 1, (1 << 89) - 1])
 def test_a_proof_with_a_small_or_composite_or_long_modulus_is_refused_at_once(text: str, prime: int) -> None:
-    answer = kovacic.solve(text)
+    answer = solved(text)
     for i, j, evidence in no_invariants(answer.decision):
         if evidence.prime != prime:
             assert not verify(answer.S, changed(answer.decision, i, j, replace(evidence, prime=prime)))
@@ -547,7 +552,7 @@ def test_a_proof_with_a_small_or_composite_or_long_modulus_is_refused_at_once(te
 @pytest.mark.parametrize("text", NEGATIVE)
 @pytest.mark.parametrize("prime", [10**9 + 7, PRIMES[0]])
 def test_a_rank_modulo_any_large_prime_is_a_proof(text: str, prime: int) -> None:
-    answer = kovacic.solve(text)
+    answer = solved(text)
     for i, j, evidence in no_invariants(answer.decision):
         if evidence.prime is not None:
             assert verify(answer.S, changed(answer.decision, i, j, replace(evidence, prime=prime)))

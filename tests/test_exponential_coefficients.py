@@ -10,11 +10,9 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from build import parametrize, read_input, sample
+from build import parametrize, read_input, run, sample
 
 import kovacic
-from kovacic.cli import main
-from kovacic.views.text import render
 
 F = Fraction
 x = sympy.Symbol("x")
@@ -410,21 +408,16 @@ def test_constants_that_are_added_in_exponents(shifted: str, same: str) -> None:
 
 
 def test_the_command_reads_a_formula_that_begins_with_a_minus_and_has_an_h(capsys: pytest.CaptureFixture[str]) -> None:
-    from kovacic.cli.main import main
-
-    with pytest.raises(SystemExit) as status:
-        main(["solve", "-2/cosh(x)^2 + 1"])
-    assert status.value.code == 0
+    assert run(["solve", "-2/cosh(x)^2 + 1"]) == 0
     assert "y1 = 1/cosh(x)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("text", ["y'' = (2 + cos(x)) y", "u'' + exp(x)*u' = 0", "exp(2*x) + 3"])
 def test_the_first_line_is_what_the_user_asked(text: str) -> None:
     answer = kovacic.solve(text)
-    title = next(render(answer))
+    title = str(answer).splitlines()[0].partition(": ")[0]
     assert text in title
     assert " t" not in title  # the equation in t comes after it, where t is told
-    assert str(answer).startswith(title)
     again = kovacic.solve(title)
     assert (again.S, again.equation) == (answer.S, answer.equation)
 
@@ -451,7 +444,7 @@ def test_real_is_real_on_the_unit_circle_too(text: str, second: Any, real: bool)
 
 
 def test_the_shell_and_none_as_an_option(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main.run(["evaluate", "exp(x)", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,2"]) == 0
+    assert run(["evaluate", "exp(x)", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,2"]) == 0
     with mpmath.workdps(20):  # the modified Bessel functions of 2 e^(x/2)
         a, b = (mpmath.besseli(0, 2, derivative=1), mpmath.diff(lambda z: mpmath.besselk(0, z), 2))
         wronskian = mpmath.besseli(0, 2) * b - a * mpmath.besselk(0, 2)

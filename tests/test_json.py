@@ -16,8 +16,7 @@ from build import parametrize
 from published import Published, load
 
 import kovacic
-from kovacic import InputError, Limits, VerificationFailed
-from kovacic.checker import verdict
+from kovacic import InputError, Limits, VerificationFailed, checker
 
 loads = kovacic.Solution.from_json
 
@@ -30,7 +29,7 @@ def test_the_schema_is_one() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-@parametrize("entry", PUBLISHED, ordinary=23, long=50, ids=lambda entry: entry.id)
+@parametrize("entry", PUBLISHED, ordinary=12, long=45, ids=lambda entry: entry.id)
 def test_published_equations_there_and_back(entry: Published) -> None:
     answer = kovacic.solve(entry.S)
     line = answer.to_json()
@@ -263,7 +262,7 @@ def test_constants_of_no_field_are_refused(S: str, polynomial: str) -> None:
     with pytest.raises(InputError, match="isn't monic and irreducible"):
         loads({**data, "constants": {**data["constants"], "minimal_polynomial": polynomial}})
     data["constants"]["minimal_polynomial"] = polynomial
-    assert verdict(json.dumps(data)).startswith("refuted: ")
+    assert checker.verdict(json.dumps(data)).startswith("refuted: ")
 
 
 def test_a_rational_form_that_isnt_that_of_omega_is_refused() -> None:
@@ -299,7 +298,7 @@ EVIDENCE = [
 
 def with_other_evidence(data: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """What no search writes: a bound or a point where none is needed, places where the condition holds, or of no factor."""
-    places = ["infinity", "x", "x - 1", "x**4 - 2", "nowhere", "x + 1", ""]
+    places = ["infinity", "x", "x - 1", "x**4 - 2", "nowhere", ""]
     for i, excluded in enumerate(data["proof"]["excluded"]):
         for k, item in enumerate(excluded["evidence"]):
             if item["kind"] == "necessary_condition":
@@ -357,4 +356,4 @@ def test_a_constant_with_a_reducible_polynomial_is_refuted_by_the_checker(square
     """omega = c with c^2 - 1 = 0 for S = 1: every identity holds, but Q(c) is no field, and omega = 1 lies over Q."""
     text = kovacic.solve("2").to_json().replace('"input": "2"', f'"input": "{square}"')
     forged = text.replace('"S": "2"', f'"S": "{square}"').replace("c**2 - 2", f"c**2 - {square}")
-    assert verdict(forged).partition(":")[0] == said
+    assert checker.verdict(forged).partition(":")[0] == said

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
+
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, run
 
 import kovacic
 
@@ -30,12 +32,10 @@ def test_what_is_left_is_solved(f: str, rational: str) -> None:
 
 
 @pytest.mark.long
-def test_a_scan_keeps_the_free_particle() -> None:
-    from kovacic.batch import Job, run_items
-    from kovacic.batch.scan import parse_grid, scan_items
-
-    items = scan_items("-(l*(l+1))*sech(x)^2 - 1", [parse_grid("l=-1,0,1")])
-    assert [record.case for record in run_items(items, Job(jobs=1))] == [1, 1, 1]
+def test_a_scan_keeps_the_free_particle(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["scan", "-(l*(l+1))*sech(x)^2 - 1", "l=-1,0,1", "--jobs", "1", "--format", "csv"]) == 0
+    rows = csv.DictReader(capsys.readouterr().out.splitlines())
+    assert [row["case"] for row in rows] == ["1", "1", "1"]
 
 
 @pytest.mark.parametrize("equation", ["y'' = (x^(2*g) + 1/(a*x))*y", "y'' = (x^g + (a + b*x)/(x^2 + c))*y"])

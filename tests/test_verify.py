@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import random
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
@@ -15,27 +14,28 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Ground, RatFunc, analyse, verify
+from build import QQ, AlgebraicField, Budget, Ground, RatFunc, verify
 from flint import nmod_poly
-from forged import forged_evidence, primes_with_a_root
-from hypothesis import assume, example, given, settings
+from forged import (
+    GroupClaim,
+    NoInvariant,
+    NoRationalOmega,
+    Rule,
+    SemiInvariant,
+    forged_evidence,
+    inspector,
+    primes_with_a_root,
+)
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, Structure, VerificationFailed
-from kovacic.algebra.modular import rational_function_from_series
-from kovacic.decision import NoInvariant, NoRationalOmega, Rule, SemiInvariant
-from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
-from kovacic.galois.jacobian import Jacobian
-from kovacic.limits import Budget
-from kovacic.verify import GroupClaim
 from kovacic.verify.division import backwards, inverse, quotient
-from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import is_a_field, is_irreducible
 from kovacic.verify.identity import form_numerators
 from kovacic.verify.normal_form import is_normal_form
 from kovacic.verify.primes import homomorphisms, roots_modulo
-from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.series import solutions_at_ordinary_point
 from kovacic.verify.torsion import order_holds
 from kovacic.verify.zeros import largest_natural_sum, zero_counts
@@ -45,33 +45,6 @@ PRIMES = [101, 10007, (1 << 61) - 1]
 
 
 # ------------------------------------------------------------------------------------------- series
-
-
-@pytest.mark.long
-@given(
-    st.integers(1, 900), st.integers(0, 900), st.sampled_from(PRIMES), st.randoms(use_true_random=False), st.booleans()
-)
-def test_the_fraction_is_that_of_euclids_algorithm(
-    order: int, top: int, p: int, rng: random.Random, rational: bool
-) -> None:
-    assume(top < order)
-    series = nmod_poly([rng.randrange(p) for _ in range(order)], p)
-    if rational:
-        P = nmod_poly([1, *(rng.randrange(p) for _ in range(rng.randrange(order)))], p)
-        series = series.truncate(rng.randrange(order) + 1).mul_low(P.inverse_series_trunc(order), order)
-    r0, r1, t0, t1 = nmod_poly([1], p).left_shift(order), series, nmod_poly([], p), nmod_poly([1], p)
-    while r1.degree() > top:
-        quotient, rest = divmod(r0, r1)
-        r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
-    found = rational_function_from_series(series, order, top)
-    if not t1[0]:  # then t divides both components, and the quotient agrees to fewer terms
-        assert found is None
-        return
-    assert found is not None
-    A, B = found
-    assert A.degree() == r1.degree()
-    assert A * t1 == B * r1
-    assert A == (B * series).truncate(order)
 
 
 @given(
@@ -86,92 +59,6 @@ def test_series_at_an_ordinary_point_solve_the_equation(above: list[int], below:
         assert not (den * y.derivative().derivative() - num * y).truncate(count - 2)
 
 
-@settings(max_examples=25)
-@given(st.data())
-def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.DataObject) -> None:
-    """The residue of sqrt(S) at a rational point, term by term: S = (sum a_i t^(i-nu))^2 + O(t^(-nu))."""
-    nu, c = data.draw(st.integers(1, 7)), data.draw(strategies.integers(4))
-    a = [data.draw(strategies.fractions(5)) for _ in range(nu)]
-    assume(a[0])
-    t = X - c
-    root = sum((t ** (i - nu) * value for i, value in enumerate(a)), X * 0)
-    S = root * root + t ** (-nu) * data.draw(strategies.integers(3))
-    p = QQ.poly([-c, 1])
-    q, order = S.den.remove(p)
-    assert order == 2 * nu
-    assert exponent_difference_squared(S.num, q, p, nu) == 4 * a[-1] * a[-1]
-
-
-@settings(max_examples=30)
-@given(strategies.irreducibles(3), st.integers(1, 4), strategies.polynomials(0, 6), strategies.polynomials(0, 2))
-def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: Any, q: Any) -> None:
-    """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
-    assume(p.gcd(M * q).degree == 0)
-    assert exponent_difference_squared(M * M * q, q, p, nu) == 4 * _residue(M, p, nu) ** 2 % p
-
-
-@given(strategies.irreducibles(3), st.integers(2, 4), strategies.polynomials(0, 8), strategies.polynomials(0, 2))
-def test_the_search_and_the_kernel_find_the_same_exponents_at_irregular_places(p: Any, nu: int, N: Any, q: Any) -> None:
-    assume(p.gcd(N * q).degree == 0)
-    problem = analyse(RatFunc(N, p ** (2 * nu) * q), Budget())
-    place = next(place for place in problem.finite_places if place.factor == p)
-    assert irregular_difference_squared(place) == exponent_difference_squared(N, q, p, nu)
-
-
-@settings(max_examples=20)
-@given(strategies.irreducibles(3), st.integers(5, 9), strategies.polynomials(0, 26))
-def test_exponents_of_the_search_with_long_numerators(p: Any, nu: int, M: Any) -> None:
-    """sqrt(S) = M/p^nu: its residue at the class of x, and the difference of the exponents is twice that."""
-    assume(p.gcd(M).degree == 0)
-    place = analyse(RatFunc(M * M, p ** (2 * nu)), Budget()).places[0]
-    assert irregular_difference_squared(place) == 4 * _residue(M, p, nu) ** 2 % p
-
-
-@pytest.mark.long
-@settings(max_examples=80)
-@given(st.one_of(strategies.omegas(), strategies.case_1_orthogonal()))
-@example((X + 1) / (X**2 - 2))
-@example((2 * X + 3) / (X**2 + 1) + 1 / (X - 1) + 1)
-@example((X**2 - 5) / (X**3 - 2) + X)
-@example((X + 1) / (X**2 - 3) + (5 * X - 2) / (X**2 + 1) ** 2)
-def test_a_solution_has_one_of_the_possible_numbers_of_zeros(given_: Any) -> None:
-    """For y with a rational omega the exponents at a place sum up to half its weights, plus or minus the choice there.
-
-    The sums are those of the residues of omega (at infinity 1 minus all of them), and the zeros of y number 1 minus the sum
-    of all exponents: both in the search and in the kernel.
-    """
-    omega = given_ if isinstance(given_, RatFunc) else kovacic.solve(str(given_.S)).omega
-    problem = analyse(transform.from_omega(omega), Budget())
-    places, points = problem.places, Inspector(problem.S, Budget()).points
-    sums = {place: _sum_of_residues(omega, place.factor) for place in problem.finite_places}
-    zeros = sum((_sum_of_residues(omega, p) for p, _ in QQ.factor(omega.den)), Fraction(0)) - sum(sums.values())
-    sums[places[-1]] = 1 - sum(sums.values()) - zeros
-    bound, counts = degree_bound(problem), zero_counts(points)
-    assert isinstance(bound, DegreeBound)
-    assert counts is not None
-    assert zeros <= bound.largest == counts.largest
-    assert [abs(half) for _, half in bound.choices] == [abs(half) for _, half in counts.choices]
-    for place, half in bound.choices:
-        assert abs(half) == abs(sums[place] - Fraction(place.degree * place.weight, 2))
-        allowed, point = bound.exponents(place), next(point for point in points if point.name == place.name)
-        if allowed is not None:
-            assert sums[place] in allowed
-            assert set(allowed) <= {Fraction(place.weight, 2) + sign * half for sign in (1, -1)}
-            assert {e for e, n in counts.by_exponent(point) or [] if n >= zeros} >= {sums[place]}
-    for place, e in sums.items():
-        if place.logarithm and place.delta is not None:
-            assert e == place.degree * (1 + place.delta) / 2
-
-
-def _sum_of_residues(f: RatFunc, p: Any) -> Fraction:
-    """Over the roots of p: the coefficient of 1/x at infinity of the part of f with the powers of p in its denominator."""
-    rest, order = f.den.remove(p)
-    if not order:
-        return Fraction(0)
-    part = f.num * rest.inverse_modulo(p**order) % p**order
-    return (part[order * p.degree - 1] / (p**order).lc).constant()
-
-
 @pytest.mark.parametrize("p", ["x^2+1", "x^2+x-1", "x^3-2"])
 @pytest.mark.parametrize("b", ["0", "1", "3*x", "8*x"])
 @pytest.mark.parametrize("d", [0, 1, 2])
@@ -180,24 +67,6 @@ def test_the_degree_bound_with_conjugate_irregular_poles(p: str, b: str, d: int)
     answer = kovacic.solve(f"1/({p})^4 + ({b})/({p})^3 + {d}")
     assert answer.case is None
     assert answer.verified
-
-
-def _residue(M: Any, p: Any, nu: int) -> Any:
-    """The residue of M/p^nu at the class of x: the coefficient of t^(nu-1) in M(x+t) (t/p(x+t))^nu, by Taylor's formula."""
-    terms, current = [], p
-    for k in range(1, nu + 1):
-        current = current.derivative() / k
-        terms.append(current % p)
-    inverse = [terms[0].inverse_modulo(p)]
-    for k in range(1, nu):
-        inverse.append(-sum((terms[j] * inverse[k - j] for j in range(1, k + 1)), M * 0) * inverse[0] % p)
-    series, current = [], M
-    for k in range(nu):
-        series.append(current % p)
-        current = current.derivative() / (k + 1)
-    for _ in range(nu):
-        series = [sum((series[i] * inverse[k - i] for i in range(k + 1)), M * 0) % p for k in range(nu)]
-    return series[nu - 1]
 
 
 # ------------------------------------------------------------------------------------------- groups
@@ -228,7 +97,7 @@ def test_the_group_is_the_named_one_and_no_other(text: str) -> None:
     family, n = NAMED[text] or ("", None)
     assert (answer.group.kind.value, answer.group.n) == (family, n)
     for other in FAMILIES:
-        for k in (None, 1, 2, 3, 4, 6, 12):
+        for k in (None, 1, 2, 3, 6):
             verification = verify(answer.S, answer.decision, GroupClaim(other, k, answer.group.form))
             assert bool(verification) is ((other, k) == (family, n)), (other, k)
 
@@ -267,8 +136,6 @@ def test_groups_of_solutions_with_huge_exponents(text: str, group: str | None) -
 
 def test_an_order_on_a_curve_of_positive_genus_needs_its_function() -> None:
     """The order 12 over x^3 + x + 1: without the function u^3, or with another one, it isn't confirmed."""
-    import transform
-
     third = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3))
     answer = kovacic.solve((S := transform.pull_back(third, X**3 + X + 1)).to_str("x"))
     group, f = answer.group, answer.semi_invariant
@@ -302,11 +169,15 @@ def test_an_order_on_a_curve_of_positive_genus_needs_its_function() -> None:
         assert not verify(S, answer.decision, replace(group.claim, n=3 * k, function=power))
 
 
-@pytest.mark.parametrize("pole", [-1, 1])
-def test_powers_of_the_function_show_no_larger_order(pole: int) -> None:
+@pytest.mark.parametrize(
+    ("pole", "written_as_power", "powers"), [(-1, True, (2, 3, 4, 5, 7)), (1, True, (3,)), (1, False, (2, 5))]
+)
+def test_powers_of_the_function_show_no_larger_order(
+    pole: int, written_as_power: bool, powers: tuple[int, ...]
+) -> None:
     """u^3 is a function a + b y of the norm c (x - pole)^2; its powers would explain the orders 4 * 3k as well.
 
-    They are written as powers, and multiplied out, so that the norm is a higher power.
+    They are written as powers, or multiplied out, so that the norm is a higher power.
     """
     third = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3))
     answer = kovacic.solve(transform.pull_back(third, (X**2 + 3 * X + 5) / (X - pole)))
@@ -314,10 +185,11 @@ def test_powers_of_the_function_show_no_larger_order(pole: int) -> None:
     assert answer.verify()
     (piece,) = function.pieces
     a, b = piece.a, piece.b
-    for k in range(2, 8):
+    for k in range(2, max(powers) + 1):
         a, b = a * piece.a + function.h * b * piece.b, a * piece.b + b * piece.a
-        for pieces in ([replace(piece, exponent=k)], [replace(piece, a=a, b=b)]):
-            power = replace(function, multiple=3 * k, pieces=tuple(pieces))
+        if k in powers:
+            shown = replace(piece, exponent=k) if written_as_power else replace(piece, a=a, b=b)
+            power = replace(function, multiple=3 * k, pieces=(shown,))
             assert not verify(answer.S, answer.decision, replace(answer.group.claim, n=3 * k, function=power))
 
 
@@ -372,7 +244,7 @@ def test_places_that_are_expanded_together_are_as_each_alone(order: int) -> None
     for p in (*linear, *quadratic):
         den = den * p**order
     S = RatFunc(QQ.poly([3, 1, 4, 1, 5, 9, 2, 6, 5, 11]), den)
-    for point in Inspector(S, Budget()).points[:-1]:
+    for point in inspector(S).points[:-1]:
         p, k = point.factor, point.order
         modulus = p ** max(k // 2, 1)
         assert point.near == (S.num % modulus, S.den // p**k % modulus)
@@ -525,20 +397,20 @@ SOLVABLE |= {
 def test_no_evidence_with_the_kernels_own_bounds_excludes_the_structure_of_the_group(text: str) -> None:
     """Without evidence of uniqueness, RAMIFIED at an unramified place, two branch points, an omega that exists, ..."""
     S = kovacic.solve(text).S
-    inspector = Inspector(S, Budget())
+    kernel = inspector(S)
     for evidence in forged_evidence(S, SOLVABLE[text]):
-        assert not inspector.excludes(SOLVABLE[text], evidence), evidence
+        assert not kernel.excludes(SOLVABLE[text], evidence), evidence
 
 
 def test_a_prime_at_which_two_places_meet_shows_nothing() -> None:
     """omega = 1/(3x) + 1/(5(x - 101)) + 1 is there, and modulo 101 the places x and x - 101 are one."""
     S = transform.from_omega(Fraction(1, 3) / X + Fraction(1, 5) / (X - 101) + 1)
-    inspector = Inspector(S, Budget())
-    largest = inspector.zero_counts.largest
+    kernel = inspector(S)
+    largest = kernel.zero_counts.largest
     for name in ("x", "x - 101", "infinity"):
         evidence = (NoInvariant(2), NoRationalOmega(largest, 101, name))
-        assert not inspector.excludes(Structure.REDUCIBLE, evidence)
-        assert not inspector._holds(evidence[1], Structure.REDUCIBLE)
+        assert not kernel.excludes(Structure.REDUCIBLE, evidence)
+        assert not kernel.holds(evidence[1], Structure.REDUCIBLE)
 
 
 @pytest.mark.parametrize(
@@ -555,8 +427,8 @@ def test_a_prime_at_which_two_places_meet_shows_nothing() -> None:
     ],
 )
 def test_which_places_tell_the_solutions_apart(text: str, expected: dict[str, bool]) -> None:
-    inspector = Inspector(kovacic.solve(text).S, Budget())
-    assert {p.name: p.tells_solutions_apart for p in inspector.points} == expected
+    kernel = inspector(kovacic.solve(text).S)
+    assert {p.name: p.tells_solutions_apart for p in kernel.points} == expected
 
 
 @pytest.mark.parametrize(
@@ -570,14 +442,14 @@ def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
 
     And from regular places where it has the larger or the smaller one of two exponents that differ by a fraction.
     """
-    inspector = Inspector(omega.derivative() + omega**2, Budget())
-    counts, prime = zero_counts(inspector.points), next(QQ.homomorphisms()).p
+    kernel = inspector(omega.derivative() + omega**2)
+    counts, prime = zero_counts(kernel.points), next(QQ.homomorphisms()).p
     assert counts is not None
-    for point in inspector.points:
+    for point in kernel.points:
         if point.tells_solutions_apart:
             evidence = (NoInvariant(2, prime, 3, 0), NoRationalOmega(counts.largest, prime, point.name))
-            assert not inspector._no_rational_omega(evidence[1]), point.name
-            assert not inspector.excludes(Structure.REDUCIBLE, evidence)
+            assert not kernel.holds(evidence[1], Structure.REDUCIBLE), point.name
+            assert not kernel.excludes(Structure.REDUCIBLE, evidence)
 
 
 @pytest.mark.parametrize(
@@ -592,17 +464,18 @@ def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
 )
 def test_a_rational_omega_is_found_from_conjugate_places(omega: RatFunc) -> None:
     """Its residues there are irrational, and conjugate: no prime with a root makes a proof against it."""
-    inspector = Inspector(omega.derivative() + omega**2, Budget())
-    counts = inspector.zero_counts
+    kernel = inspector(omega.derivative() + omega**2)
+    counts = kernel.zero_counts
     assert counts is not None
-    for point in inspector.points:
+    for point in kernel.points:
         for prime in islice(primes_with_a_root(point.factor), 3 if point.factor.degree > 1 else 0):
-            assert not inspector._no_rational_omega(NoRationalOmega(counts.largest, prime, point.name))
+            assert not kernel.holds(NoRationalOmega(counts.largest, prime, point.name), Structure.REDUCIBLE)
 
 
+@settings(max_examples=25)
 @given(
     st.fractions(-5, 5, max_denominator=12),
-    st.lists(st.fractions(-3, 3, max_denominator=12), max_size=6),
+    st.lists(st.fractions(-3, 3, max_denominator=12), max_size=5),
 )
 def test_the_largest_natural_sum_is_that_of_all_signs(total: Fraction, choices: list[Fraction]) -> None:
     sums = [total + sum(map(mul, choices, signs)) for signs in product((1, -1), repeat=len(choices))]
@@ -650,13 +523,13 @@ def test_that_no_omega_is_rational_is_proven_at_every_place(S: RatFunc) -> None:
     """With room for zeros, as Kovacic's own search finds; logarithms at differences 1, 3, 5; poles."""
     assert textbook.decide(S.num.coefficients(), S.den.coefficients(), limit=3000)[0] is None  # type: ignore[attr-defined]
     assert kovacic.solve(str(S)).verified
-    inspector = Inspector(S, Budget())
-    counts, prime = zero_counts(inspector.points), next(QQ.homomorphisms()).p
+    kernel = inspector(S)
+    counts, prime = zero_counts(kernel.points), next(QQ.homomorphisms()).p
     assert counts is not None
     assert counts.largest >= 0
-    places = [point.name for point in inspector.points if point.tells_solutions_apart]
+    places = [point.name for point in kernel.points if point.tells_solutions_apart]
     assert len(places) > 1
-    assert all(inspector._no_rational_omega(NoRationalOmega(counts.largest, prime, name)) for name in places)
+    assert all(kernel.holds(NoRationalOmega(counts.largest, prime, name), Structure.REDUCIBLE) for name in places)
 
 
 # ------------------------------------------------------------------------------------------- limits
@@ -689,9 +562,9 @@ def test_an_answer_whose_check_is_not_finished_is_undecided(monkeypatch: pytest.
 )  # fmt: skip
 def test_dimensions_of_forms_are_exact(text: str, m: int, dimension: int) -> None:
     """Monomials of y1, y2 that are rational: all (G trivial), y1 y2 and its powers (G_m), none (Borel), those of mu_3, Q8."""
-    inspector = Inspector(kovacic.solve(text, var="x").S, Budget())
-    assert inspector.dimension_is_at_most(dimension, m)
-    assert dimension == 0 or not inspector.dimension_is_at_most(dimension - 1, m)
+    kernel = inspector(kovacic.solve(text, var="x").S)
+    assert kernel.dimension_is_at_most(dimension, m)
+    assert dimension == 0 or not kernel.dimension_is_at_most(dimension - 1, m)
 
 
 @pytest.mark.parametrize(
@@ -729,19 +602,17 @@ def test_a_residue_of_the_inverse_square_makes_a_logarithm(omega: RatFunc, famil
 # ------------------------------------------------------------------------------------------- orders modulo primes
 
 
-def through(h: RatFunc, at: int, value: int, residue: Fraction = Fraction(1)) -> RatFunc:
-    """H for which sqrt(H) dx on y^2 = h has the residues +-residue over x = at, where y = +-value, and no other ones."""
-    return residue * residue * value * value / (h * (X - at) ** 2)
-
-
 TORSION = [
-    (through(X**3 + 1, 2, 3), 3),  # P = (2, 3) has order 6, and 2 P - 2 infinity is P less its conjugate
-    (through(X**3 + 1, 0, 1), 3),
-    (through(X**3 + 4 * X, 2, 4), 2),  # order 4
-    (through(X**5 + 1, 0, 1), 5),  # y - 1 has the divisor 5 P - 5 infinity
-    (through(X**7 + 9, 0, 3), 7),
-    (through(X**6 + 1, 0, 1), 3),  # (y - 1)/x^3 has the divisor 3 P less its conjugate
-    (through(X**3 + 1, 2, 3)(X**3 + 1) * 9 * X**4, 3),  # the first one for x^3 + 1 in place of x: a zero of order 4
+    (transform.through(X**3 + 1, 2, 3), 3),  # P = (2, 3) has order 6, and 2 P - 2 infinity is P less its conjugate
+    (transform.through(X**3 + 1, 0, 1), 3),
+    (transform.through(X**3 + 4 * X, 2, 4), 2),  # order 4
+    (transform.through(X**5 + 1, 0, 1), 5),  # y - 1 has the divisor 5 P - 5 infinity
+    (transform.through(X**7 + 9, 0, 3), 7),
+    (transform.through(X**6 + 1, 0, 1), 3),  # (y - 1)/x^3 has the divisor 3 P less its conjugate
+    (
+        transform.through(X**3 + 1, 2, 3)(X**3 + 1) * 9 * X**4,
+        3,
+    ),  # the first one for x^3 + 1 in place of x: a zero of order 4
     ((X**2 + 3) ** 2 / (X**6 + 1), 3),  # residues over infinity, where y + x^3 has its zeros and poles
     (X**2 / (X**4 + 3), 2),  # y + x^2
     ((9 / (X**9 + 9 * X**2))(2 + 1 / X) / X**4, 7),  # infinity is neither a zero nor a pole
@@ -756,13 +627,13 @@ def test_orders_of_torsion_are_the_same_modulo_every_good_prime(H: RatFunc, orde
     good = primes_with(order)
     assert good[-9:] == [23, 29, 31, 37, 41, 43, 47, 53, 59, 61][-9:]
     assert primes_with(order, Fraction(1, 2)) == good  # l = 2: the same divisor
-    assert not any(primes_with(k) for k in range(2 * order + 1) if k != order)
+    assert not any(order_holds(H, {Fraction(1)}, p, k) for p in range(40) for k in range(2 * order + 1) if k != order)
 
 
 def test_infinite_order_is_seen_from_two_primes() -> None:
     """P = (3, 5) on y^2 = x^3 - 2 isn't torsion; the orders of its multiples, modulo p, by chords and tangents."""
     orders = {}
-    for p in (7, 11, 13, 17, 19, 23):
+    for p in (7, 11, 13, 19):
         x, y, n = 3, 5, 1
         while x is not None:
             n += 1
@@ -776,52 +647,20 @@ def test_infinite_order_is_seen_from_two_primes() -> None:
             x, y = new, (slope * (3 - new) - 5) % p
         orders[p] = n if n % 2 else n // 2
         for residue in (Fraction(1), Fraction(1, 3)):
-            H = through(X**3 - 2, 3, 5, residue)
+            H = transform.through(X**3 - 2, 3, 5, residue)
             assert [k for k in range(3 * p) if order_holds(H, {residue}, p, k)] == [orders[p]]
     assert len(set(orders.values())) > 2
-
-
-@settings(max_examples=30)
-@given(
-    st.lists(st.integers(-5, 5), min_size=4, max_size=6),
-    st.integers(1, 9),
-    st.sampled_from([5, 7, 11, 13, 17, 19, 23]),
-    st.fractions(Fraction(1, 4), 3, max_denominator=4),
-)
-def test_the_orders_of_the_kernel_are_those_of_cantors_arithmetic(
-    inner: list[int], value: int, p: int, residue: Fraction
-) -> None:
-    """Genus 1 to 3: P = (0, value) on y^2 = x^n + ... + value^2, for n odd; over P there is residue * denominator times D."""
-    h = QQ.poly([value * value, *inner, *([1] if len(inner) % 2 == 0 else [0, 1])])
-    image = nmod_poly([int(c) for c in h.coefficients()], p)  # type: ignore[attr-defined]
-    good = image.gcd(image.derivative()).degree() == 0 and value % p != 0
-    assume(residue.numerator * residue.denominator % p)
-    H = through(RatFunc(h), 0, value, residue)
-    if not good:
-        assert not any(order_holds(H, {residue}, p, k) for k in range(1, 30))
-        return
-    assume(any(pow(int(image(x)), p // 2, p) == p - 1 for x in range(1, p)))  # where the kernel puts infinity
-    curve = Jacobian(image)
-    point = curve.point(nmod_poly([0, 1], p), nmod_poly([value], p))
-    order = curve.order(curve.multiple(2 * residue.numerator, point))
-    others = {*range(1, 30), *(order // q for q in range(2, order + 1) if order % q == 0), 2 * order, 3 * order} - {
-        order
-    }
-    assert order_holds(H, {residue}, p, order)
-    assert not any(order_holds(H, {residue}, p, k) for k in others)
 
 
 INFINITE = [
     ((X**4 + X + 1) / (X + 2) ** 2, Ground.NOT_TORSION),
     ((X**6 + X + 1) / (X**2 + 2) ** 2, Ground.NOT_TORSION),  # genus 2
-    (1 / through(X**5 - X + 4, 0, 2, Fraction(2, 3)), Ground.NOT_TORSION),
+    (1 / transform.through(X**5 - X + 4, 0, 2, Fraction(2, 3)), Ground.NOT_TORSION),
 ]
 
 
 @pytest.mark.parametrize(("g", "ground"), INFINITE, ids=str)
 def test_an_infinite_group_on_a_curve_of_positive_genus_needs_its_orders(g: RatFunc, ground: Ground) -> None:
-    import transform
-
     S = transform.from_squared_product(g, 1)
     answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
     group = answer.group
@@ -850,9 +689,7 @@ def test_an_infinite_group_on_a_curve_of_positive_genus_needs_its_orders(g: RatF
 @pytest.mark.parametrize(("residue", "n"), [(1, 5), (Fraction(1, 2), 10), (Fraction(1, 3), 15), (Fraction(5, 2), 2)])
 def test_a_finite_order_on_a_curve_of_genus_two(residue: Fraction, n: int) -> None:
     """On y^2 = x^5 + 1 the differential 5 dx/(x y) is d log((y - 1)/(y + 1)), a function whose divisor is 5 D."""
-    import transform
-
-    S = transform.from_squared_product(1 / through(X**5 + 1, 0, 1, Fraction(residue)), 1)
+    S = transform.from_squared_product(1 / transform.through(X**5 + 1, 0, 1, Fraction(residue)), 1)
     answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
     assert answer.group is not None
     assert (answer.group.kind.value, answer.group.n) == ("dicyclic", n)
@@ -863,8 +700,6 @@ def test_a_finite_order_on_a_curve_of_genus_two(residue: Fraction, n: int) -> No
 
 def test_residues_that_agree_modulo_a_prime() -> None:
     """The residues 1 and 4 at (0, 1) and (1, 2) on y^2 = x^3 + 2 x + 1 have the same square modulo 5, which isn't taken."""
-    import transform
-
     H = (9 * X - 1) ** 2 / ((X**3 + 2 * X + 1) * (X * (X - 1)) ** 2)
     S = transform.from_squared_product(1 / H, 1)
     answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
@@ -879,8 +714,6 @@ def test_residues_that_agree_modulo_a_prime() -> None:
 
 def test_true_orders_dont_make_a_finite_group_infinite() -> None:
     """The units of Pell's equation: the form of degree 2 n is there, whatever orders are shown."""
-    import transform
-
     A = X**3 - 3 * X + 5
     S = transform.from_squared_product((A * A - 3) / A.derivative() ** 2, Fraction(4, 25))
     answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]

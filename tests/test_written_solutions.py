@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
+import re
 from pathlib import Path
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_textbook_equations import EQUATIONS
 
 import kovacic
-from kovacic.closed_form.structure import build
-from kovacic.views.products import written
 
 x = sympy.Symbol("x")
 DATA = Path(__file__).parent / "data" / "cases.jsonl"
@@ -25,8 +26,15 @@ def read(text: str) -> sympy.Expr:
     return sympy.sympify(text.replace("^", "**"))
 
 
-def texts_of(answer: kovacic.Solution) -> tuple[str, str] | None:
-    return None if answer.case is None else written(build(answer.S, answer.decision, answer.gauge), answer.variable)
+def texts_of(equation: str, *options: str) -> tuple[str, ...] | None:
+    """What the command prints, where it can be read as it is: neither shortened nor with sums over roots."""
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        assert run(["solve", equation, *options]) == 0
+    lines = [line.strip() for line in printed.getvalue().splitlines()]
+    texts = [line.partition(" = ")[2] for line in lines if line.startswith(("y1 = ", "y2 = "))]
+    readable = len(texts) == 2 and not any(re.search(r"Sum|Root|hyper|\.\.\.|elliptic", text) for text in texts)
+    return tuple(texts) if readable else None
 
 
 def vanishes(expression: sympy.Expr) -> bool:
@@ -34,12 +42,12 @@ def vanishes(expression: sympy.Expr) -> bool:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("equations", [CASES, [text for text, _ in EQUATIONS]], ids=["published", "textbooks"])
+@pytest.mark.parametrize("equations", [CASES[::4], [text for text, _ in EQUATIONS]], ids=["published", "textbooks"])
 def test_the_text_is_that_of_the_closed_form(equations: list[str]) -> None:
     seen = 0
     for equation in equations:
         answer = kovacic.solve(equation)
-        texts = texts_of(answer)
+        texts = texts_of(equation) if answer.case else None
         if texts is None:
             continue
         seen += 1
@@ -52,7 +60,7 @@ EXPONENTS = st.fractions(min_value=-2, max_value=2, max_denominator=3)
 
 
 @pytest.mark.long
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(
     st.tuples(EXPONENTS, EXPONENTS),
     st.tuples(EXPONENTS, EXPONENTS),
@@ -72,7 +80,7 @@ def test_products_come_back(first: tuple, second: tuple, a: int, exponent: str) 
     # y'' + b y' + c y = 0 with (u' + u^2) + b u + c = 0, and so for v.
     b = -((sympy.diff(u, x) + u**2) - (sympy.diff(v, x) + v**2)) / (u - v)
     c = -(sympy.diff(u, x) + u**2) - b * u
-    texts = texts_of(kovacic.solve(f"y'' + ({b})*y' + ({c})*y = 0"))
+    texts = texts_of(f"y'' + ({b})*y' + ({c})*y = 0")
     if texts is None:  # an integral of y1^-2 that is no product, where y1 is the only one
         return
     rates = [sympy.diff(read(text), x) / read(text) for text in texts]
@@ -94,7 +102,7 @@ def test_products_come_back(first: tuple, second: tuple, a: int, exponent: str) 
     ordinary=2,
 )
 def test_texts(S: str, texts: tuple[str, str] | None) -> None:
-    found = texts_of(kovacic.solve(S))
+    found = texts_of(S)
     assert found is not None
     if texts is None:
         for text in found:
@@ -107,5 +115,6 @@ def test_texts(S: str, texts: tuple[str, str] | None) -> None:
 
 
 @pytest.mark.parametrize("S", ["x^2 + 3", "1/x - 3/(16*x^2)", "3/x^2", "n^2"])
-def test_what_is_no_product_over_the_rationals_is_left_to_sympy(S: str) -> None:
-    assert texts_of(kovacic.solve(S, var="x")) is None
+def test_what_is_no_product_over_the_rationals_is_that_of_sympy(S: str) -> None:
+    answer = kovacic.solve(S, var="x")
+    assert texts_of(S, "--var", "x") == tuple(str(y).replace("**", "^") for y in answer.solutions)

@@ -208,3 +208,8 @@ def hypergeometric(at_zero: Scalar, at_one: Scalar, at_infinity: Scalar) -> RatF
     l2, m2, n2 = (Fraction(value) ** 2 for value in (at_zero, at_one, at_infinity))
     x, y = RatFunc(QQ.poly([0, 1])), RatFunc(QQ.poly([-1, 1]))
     return (l2 - 1) / (4 * x**2) + (m2 - 1) / (4 * y**2) - (l2 + m2 - n2 - 1) / (4 * x * y)
+
+
+def through(h: RatFunc, at: int, value: int, residue: Fraction = Fraction(1)) -> RatFunc:
+    """H for which sqrt(H) dx on y^2 = h has the residues +-residue over x = at, where y = +-value, and no other ones."""
+    return residue * residue * value * value / (h * (RatFunc(QQ.poly([-at, 1]))) ** 2)

@@ -53,13 +53,14 @@ class Inspector:
         A necessary condition that fails does, or the absence of the invariant; but a reducible group has one only where
         omega isn't unique, so that for it the absence of a unique omega is needed as well.
         """
-        if not all(self._holds(item, structure) for item in evidence):
+        if not all(self.holds(item, structure) for item in evidence):
             return False
         no_invariant = any(_is_about_invariant(item, structure) for item in evidence)
         no_unique_omega = structure is not Structure.REDUCIBLE or any(map(_is_about_omega, evidence))
         return any(map(_is_decisive, evidence)) or (no_invariant and no_unique_omega)
 
-    def _holds(self, item: Evidence, structure: Structure) -> bool:
+    def holds(self, item: Evidence, structure: Structure) -> bool:
+        """Is what one item says so, and does it say something about this structure?"""
         self.budget.check()
         if isinstance(item, NecessaryCondition):
             return condition_fails(item, structure, self.points)

@@ -1,0 +1,137 @@
+"""The search and the kernel, which share no code, find the same exponents, valuations and numbers of zeros."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import strategies
+import transform
+from build import QQ, Budget, RatFunc, analyse
+from forged import inspector
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+import kovacic
+from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
+from kovacic.engine.invariants import least_valuation
+from kovacic.verify import forms
+from kovacic.verify.residue import exponent_difference_squared
+from kovacic.verify.zeros import zero_counts
+
+X = RatFunc(QQ.poly([0, 1]))
+
+
+@settings(max_examples=12)
+@given(st.data())
+def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.DataObject) -> None:
+    """The residue of sqrt(S) at a rational point, term by term: S = (sum a_i t^(i-nu))^2 + O(t^(-nu))."""
+    nu, c = data.draw(st.integers(1, 7)), data.draw(strategies.integers(4))
+    a = [data.draw(strategies.fractions(5)) for _ in range(nu)]
+    assume(a[0])
+    t = X - c
+    root = sum((t ** (i - nu) * value for i, value in enumerate(a)), X * 0)
+    S = root * root + t ** (-nu) * data.draw(strategies.integers(3))
+    p = QQ.poly([-c, 1])
+    q, order = S.den.remove(p)
+    assert order == 2 * nu
+    assert exponent_difference_squared(S.num, q, p, nu) == 4 * a[-1] * a[-1]
+
+
+@settings(max_examples=15)
+@given(strategies.irreducibles(3), st.integers(1, 4), strategies.polynomials(0, 6), strategies.polynomials(0, 2))
+def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: Any, q: Any) -> None:
+    """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
+    assume(p.gcd(M * q).degree == 0)
+    assert exponent_difference_squared(M * M * q, q, p, nu) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+@settings(max_examples=20)
+@given(strategies.irreducibles(3), st.integers(2, 4), strategies.polynomials(0, 8), strategies.polynomials(0, 2))
+def test_the_search_and_the_kernel_find_the_same_exponents_at_irregular_places(p: Any, nu: int, N: Any, q: Any) -> None:
+    assume(p.gcd(N * q).degree == 0)
+    problem = analyse(RatFunc(N, p ** (2 * nu) * q), Budget())
+    place = next(place for place in problem.finite_places if place.factor == p)
+    assert irregular_difference_squared(place) == exponent_difference_squared(N, q, p, nu)
+
+
+@settings(max_examples=10)
+@given(strategies.irreducibles(3), st.integers(5, 9), strategies.polynomials(0, 26))
+def test_exponents_of_the_search_with_long_numerators(p: Any, nu: int, M: Any) -> None:
+    """sqrt(S) = M/p^nu: its residue at the class of x, and the difference of the exponents is twice that."""
+    assume(p.gcd(M).degree == 0)
+    place = analyse(RatFunc(M * M, p ** (2 * nu)), Budget()).places[0]
+    assert irregular_difference_squared(place) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+@pytest.mark.long
+@settings(max_examples=80)
+@given(st.one_of(strategies.omegas(), strategies.case_1_orthogonal()))
+@example((X + 1) / (X**2 - 2))
+@example((2 * X + 3) / (X**2 + 1) + 1 / (X - 1) + 1)
+@example((X**2 - 5) / (X**3 - 2) + X)
+@example((X + 1) / (X**2 - 3) + (5 * X - 2) / (X**2 + 1) ** 2)
+def test_a_solution_has_one_of_the_possible_numbers_of_zeros(given_: Any) -> None:
+    """For y with a rational omega the exponents at a place sum up to half its weights, plus or minus the choice there.
+
+    The sums are those of the residues of omega (at infinity 1 minus all of them), and the zeros of y number 1 minus the sum
+    of all exponents: both in the search and in the kernel.
+    """
+    omega = given_ if isinstance(given_, RatFunc) else kovacic.solve(str(given_.S)).omega
+    problem = analyse(transform.from_omega(omega), Budget())
+    places, points = problem.places, inspector(problem.S).points
+    sums = {place: _sum_of_residues(omega, place.factor) for place in problem.finite_places}
+    zeros = sum((_sum_of_residues(omega, p) for p, _ in QQ.factor(omega.den)), Fraction(0)) - sum(sums.values())
+    sums[places[-1]] = 1 - sum(sums.values()) - zeros
+    bound, counts = degree_bound(problem), zero_counts(points)
+    assert isinstance(bound, DegreeBound)
+    assert counts is not None
+    assert zeros <= bound.largest == counts.largest
+    assert [abs(half) for _, half in bound.choices] == [abs(half) for _, half in counts.choices]
+    for place, half in bound.choices:
+        assert abs(half) == abs(sums[place] - Fraction(place.degree * place.weight, 2))
+        allowed, point = bound.exponents(place), next(point for point in points if point.name == place.name)
+        if allowed is not None:
+            assert sums[place] in allowed
+            assert set(allowed) <= {Fraction(place.weight, 2) + sign * half for sign in (1, -1)}
+            assert {e for e, n in counts.by_exponent(point) or [] if n >= zeros} >= {sums[place]}
+    for place, e in sums.items():
+        if place.logarithm and place.delta is not None:
+            assert e == place.degree * (1 + place.delta) / 2
+
+
+def _sum_of_residues(f: RatFunc, p: Any) -> Fraction:
+    """Over the roots of p: the coefficient of 1/x at infinity of the part of f with the powers of p in its denominator."""
+    rest, order = f.den.remove(p)
+    if not order:
+        return Fraction(0)
+    part = f.num * rest.inverse_modulo(p**order) % p**order
+    return (part[order * p.degree - 1] / (p**order).lc).constant()
+
+
+def _residue(M: Any, p: Any, nu: int) -> Any:
+    """The residue of M/p^nu at the class of x: the coefficient of t^(nu-1) in M(x+t) (t/p(x+t))^nu, by Taylor's formula."""
+    terms, current = [], p
+    for k in range(1, nu + 1):
+        current = current.derivative() / k
+        terms.append(current % p)
+    inverse = [terms[0].inverse_modulo(p)]
+    for k in range(1, nu):
+        inverse.append(-sum((terms[j] * inverse[k - j] for j in range(1, k + 1)), M * 0) * inverse[0] % p)
+    series, current = [], M
+    for k in range(nu):
+        series.append(current % p)
+        current = current.derivative() / (k + 1)
+    for _ in range(nu):
+        series = [sum((series[i] * inverse[k - i] for i in range(k + 1)), M * 0) % p for k in range(nu)]
+    return series[nu - 1]
+
+
+@pytest.mark.parametrize("k", range(3, 10))
+@pytest.mark.parametrize("m", [2, 4, 6, 8, 12])
+def test_valuations_at_irregular_places_in_the_search_and_the_kernel(k: int, m: int) -> None:
+    """There y1 y2 has the valuation k/2, and only its powers can be rational: m k/4, if that is an integer."""
+    S = 1 / X**k + 1
+    (pole, _), point = analyse(S, Budget()).places, inspector(S).points[0]
+    assert least_valuation(pole, m) == forms.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
