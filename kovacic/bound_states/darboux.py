@@ -63,15 +63,16 @@ def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[Dar
         return
     q = sympy.Mul(*poles.apparent)
     for sign, signs_of_delta in product((-1, 1), product((1, -1), repeat=len(poles.regular))):
-        exponents = [(1 + s * delta) / 2 for s, (_, delta) in zip(signs_of_delta, poles.regular, strict=True)]
-        terms = [e / (x - c) for e, (c, _) in zip(exponents, poles.regular, strict=True)]
+        signed = zip(signs_of_delta, poles.regular, strict=True)
+        exponents = {pole: (1 + s * pole.delta) / 2 for s, pole in signed}
+        terms = [e / (x - pole.c) for pole, e in exponents.items()]
         W = sympy.together(-sympy.diff(q, x) / q + sympy.Add(*terms) + sign * line)
         energy = sympy.cancel(sympy.together(V - W**2 - sympy.diff(W, x)))
         if energy.has(x):
             continue
-        powers = [(x - c) ** e for e, (c, _) in zip(exponents, poles.regular, strict=True)]
+        powers = [(x - pole.c) ** e for pole, e in exponents.items()]
         wave = sympy.Mul(*powers) * sympy.exp(sympy.integrate(sign * line, x)) / q
-        is_level = _is_level(sign, dict(zip(poles.regular, exponents, strict=True)), domain, signs)
+        is_level = _is_level(sign, exponents, domain, signs)
         if is_level is not None:
             yield DarbouxStep(W, energy, wave, is_level)
 

@@ -18,18 +18,25 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
     meanings = dict(radicals or {})
-    squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
-    roots = {symbol: square for symbol, square in squares.items() if not _radicals(square)}
+    roots = _square_roots(meanings)
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
-    solved = [_solved(c, signs) for c in _paired(left, signs)]
-    squared = [_squared(c, roots) for c in solved]
     found = []
-    for condition, square in zip(solved, squared, strict=True):
-        found.append(condition.xreplace(meanings) if square is None else _solved(square, signs))
     implied = {sympy.true}
-    if any(square is not None for square in squared):
-        implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
+    for condition in _paired(left, signs):
+        solved = _solved(condition, signs)
+        squared = _squared(solved, roots)
+        if squared is None:
+            found.append(solved.xreplace(meanings))
+        else:
+            found.append(_solved(squared, signs))
+            implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
     return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
+
+
+def _square_roots(meanings: Mapping[Any, Any]) -> dict[Any, Any]:
+    """The squares of those symbols for roots whose squares have no roots in them."""
+    squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
+    return {symbol: square for symbol, square in squares.items() if not _radicals(square)}
 
 
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:

@@ -74,21 +74,30 @@ class Forcing:
                     hint="choose a point beside it",
                 )
         for function in (self.rational, self.over):
-            if self.embedded is None:
-                check_segment(System.of(function), a, b)
-            else:
-                check_apart((root for root, _ in self.embedded.poles(function)), to_acb(a), to_acb(b))
-        pieces = [(fmpq(0), fmpq(1))] if self.function is not None else []
+            self._check_poles(function, a, b)
+        if self.function is not None:
+            self._check_analytic(to_acb(a), to_acb(b))
+
+    def _check_poles(self, function: RatFunc, a: ExactPoint, b: ExactPoint) -> None:
+        """Raise InputError where a rational part has a pole on the way."""
+        if self.embedded is None:
+            check_segment(System.of(function), a, b)
+        else:
+            check_apart((root for root, _ in self.embedded.poles(function)), to_acb(a), to_acb(b))
+
+    def _check_analytic(self, a: acb, b: acb) -> None:
+        """Raise InputError where the function isn't seen to be analytic on a short piece of the way, its ends left out."""
+        pieces = [(fmpq(0), fmpq(1))]
         while pieces:
             low, high = pieces.pop()
             middle = (low + high) / 2
             inside = acb(arb(arb(middle), arb((high - low) / 2).upper()))
-            if self.value(to_acb(a) + (to_acb(b) - to_acb(a)) * inside, analytic=True).is_finite():
+            if self.value(a + (b - a) * inside, analytic=True).is_finite():
                 continue
             if high - low > _LEAST:
                 pieces += [(low, middle), (middle, high)]
             elif low > 0 and high < 1:
-                where = to_acb(a) + (to_acb(b) - to_acb(a)) * arb(middle)
+                where = a + (b - a) * arb(middle)
                 raise InputError(f"{self.function} isn't analytic near {where.mid().str(6, radius=False)}, on the way")
 
     def step(self, leg: Leg, growth: Callable[[acb, bool], acb]) -> State:

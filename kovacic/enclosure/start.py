@@ -112,9 +112,7 @@ def read_start(
     if which == "decaying":
         if dy0 is not None or has_coordinates:
             raise InputError("the decaying solution is given by y0 alone")
-        place = as_number(x0, "x0")
-        y = ExactPoint(1) if y0 is None else as_number(y0, "y0")
-        return Start(place, (y, ExactPoint(0)), decaying=True)
+        return _decaying_start(x0, y0)
     if [has_values, has_coordinates, which == "regular"].count(True) != 1:
         raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
     if has_values:
@@ -123,6 +121,13 @@ def read_start(
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
     singular = place_of(problem, x0, "x0")
     return Start(singular, _frobenius_coordinates(singular, frobenius))
+
+
+def _decaying_start(x0: object, y0: object) -> Start:
+    """By y(x0), 1 by default."""
+    place = as_number(x0, "x0")
+    y = ExactPoint(1) if y0 is None else as_number(y0, "y0")
+    return Start(place, (y, ExactPoint(0)), decaying=True)
 
 
 def _check_frobenius_allowed(problem: NumericProblem) -> None:
