@@ -206,22 +206,22 @@ class Basis:
         x = self.x
         coefficients = rates(self.equation, x)  # while there is time
         is_changed = self.equation.change is not None
-        integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
-        known = self._readable_integrals(integrands)
+        integrands = self._integrands(right, self.wronskian)
+        short = [powsimp(integrand) for integrand in integrands]
+        known = self._readable_integrals(short)
         if None not in known and not is_changed:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
                 return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, x, start))
-        integrals = list(known)
-        for k, integrand in enumerate(integrands):
-            if known[k] is None:
-                integrals[k] = _open(integrand, x, start)
-        solution = self._from_integrals(integrals)
+        solution = self._from_integrals(_with_open_ones(known, short, x, start))
         if is_changed or is_solution(solution, coefficients, right, x):
             return solution
         # Integrals that are known may have other branches.
-        W = self._by_definition
-        return self._from_integrals([_open(y * right / W, x, start) for y in (self.y2, self.y1)])
+        return self._from_integrals([_open(e, x, start) for e in self._integrands(right, self._by_definition)])
+
+    def _integrands(self, right: Expr, W: Expr) -> list[Expr]:
+        """y2 f/(a W) and y1 f/(a W)."""
+        return [y * right / W for y in (self.y2, self.y1)]
 
     def _readable_integrals(self, integrands: Sequence[Expr]) -> list[Any]:
         """The integrals that are known within the limits; none of them where they are harder to read than unknown ones."""
@@ -235,6 +235,17 @@ class Basis:
     def _from_integrals(self, integrals: Sequence[Expr]) -> Expr:
         """y2 int y1 f/(a W) dx - y1 int y2 f/(a W) dx, from the second and the first."""
         return self.y2 * integrals[1] - self.y1 * integrals[0]
+
+
+def _with_open_ones(known: Sequence[Any], integrands: Sequence[Expr], x: Expr, start: Expr | None) -> list[Expr]:
+    """The integrals, unevaluated where they aren't known."""
+    integrals = []
+    for found, integrand in zip(known, integrands, strict=True):
+        if found is None:
+            integrals.append(_open(integrand, x, start))
+        else:
+            integrals.append(found)
+    return integrals
 
 
 def _is_usable(c: Expr) -> bool:

@@ -605,22 +605,37 @@ class ParametricAnswer:
         >>> print(kovacic.conditions("n/x^2 + k").text(all=True).splitlines()[0])
         y'' = ((k*x^2 + n)/x^2) y, parameters n, k
         """
-        known = f" ({self.assumptions})" if self.assumptions else ""
-        lines = [f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}{known}"]
-        lines += [f"  note: {notice}" for notice in self.notices]
+        complete = f"complete {self.complete}"
+        if self.complete is True:
+            complete = "proven to be complete"
+        lines = [
+            *self._heading(),
+            *self._region_lines(is_whole=all),
+            f"  {self._where_generic}: {self.generic}",
+            f"  ({complete}; {self.theory})",
+        ]
+        return visible("\n".join(lines))
+
+    def _heading(self) -> list[str]:
+        """The equation, its parameters and what is known of them, and what is to be said about the equation."""
+        first = f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}"
+        if self.assumptions:
+            first += f" ({self.assumptions})"
+        lines = [first, *(f"  note: {notice}" for notice in self.notices)]
         if self.equation is not None and self.equation.change is not None:
             lines.append(f"  cases and groups over {self.equation.change.field}")
+        return lines
+
+    def _region_lines(self, *, is_whole: bool) -> list[str]:
+        """The regions, those in a row with the same case in one line; a screen of them, or all."""
         regions = in_one_line(self.regions)
         shown = regions
-        if not all and len(regions) > _SCREEN + 1:
+        if not is_whole and len(regions) > _SCREEN + 1:
             shown = regions[:_SCREEN]
-        lines += [f"  {region}" for region in shown]
+        lines = [f"  {region}" for region in shown]
         if len(shown) < len(regions):
             lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
-        lines.append(f"  {self._where_generic}: {self.generic}")
-        complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
-        lines.append(f"  ({complete}; {self.theory})")
-        return visible("\n".join(lines))
+        return lines
 
     @limited
     def explain(self) -> str:

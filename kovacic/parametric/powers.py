@@ -5,7 +5,7 @@ On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated; on 4 W + 1 =
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import gcd
 from typing import Any
@@ -104,12 +104,17 @@ def _in_factors(statement: Statement) -> Statement:
     if isinstance(statement, Congruence) and statement.form is None:
         return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
     if isinstance(statement, Natural) and statement.factors is not None:
-        factors: dict[FunctionPoly, None] = {}
-        for equation in statement.factors:
-            for factor, _ in equation.field.factor(equation):
-                factors[over_parameters(factor)] = None
-        return replace(statement, factors=tuple(factors))
+        return replace(statement, factors=_all_factors(statement.factors))
     return statement
+
+
+def _all_factors(equations: Iterable[FunctionPoly]) -> tuple[FunctionPoly, ...]:
+    """The irreducible factors of polynomials over Q(t), each once."""
+    factors: dict[FunctionPoly, None] = {}
+    for equation in equations:
+        for factor, _ in equation.field.factor(equation):
+            factors[over_parameters(factor)] = None
+    return tuple(factors)
 
 
 def _raised(powers: dict[str, int]) -> Callable[[FunctionPoly], FunctionPoly]:
