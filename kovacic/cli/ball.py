@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -14,6 +15,7 @@ from kovacic.shown import json_line
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from kovacic.ball import BallOnSphere
     from kovacic.ball.body import Rolling
 
 #: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
@@ -207,24 +209,12 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
     said, case = theorem(place)
     generic = "{} for generic values" if place.ratio.free_symbols else "{}"
     N = "{}, not an integer" if case == 2 else "{}"
-
-    def short(value: Any) -> str:
-        """With E and D for the polynomials that were shown."""
-        text = str(value)
-        for name, whole in (("E", f"({form.E})"), ("D", f"({place.D})")):
-            text = text.replace(f"{whole}**", f"{name}**").replace(whole, f"({name})")
-        return text
-
+    short = partial(_abbreviated, polynomials={"E": form.E, "D": place.D})
     rows = [AnswerRow("ratio", place.ratio, "R/R1"), AnswerRow("N", 2 * place.ratio, "N = 2R/R1", N)]
     note = f"x = cos u; x1, x2 are the roots of D(x) = {_D}, two different ones"
     if isinstance(place, BallOnSphere):
         note = "x = cos u; units are those of the input"
-        roots = ", ".join(map(str, place.roots))
-        rows += [
-            AnswerRow("ball", place.kind, "ball"),
-            AnswerRow("D", place.D, "D(x)"),
-            AnswerRow("roots", roots, "x1, x2"),
-        ]
+        rows += _about_the_ball(place)
     rows.append(AnswerRow("theorem", said, "theorem"))
     if place.ratio.free_symbols:
         lines = _conditions(place)
@@ -251,6 +241,24 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
         shown = "\n".join(f"({name}) {formula}" for name, formula in formulas.items())
         rows.append(AnswerRow("latex", formulas, "LaTeX", _as_is(shown)))
     return rows
+
+
+def _abbreviated(value: Any, *, polynomials: Mapping[str, Any]) -> str:
+    """A formula with the names of polynomials that were shown in their places."""
+    text = str(value)
+    for name, polynomial in polynomials.items():
+        whole = f"({polynomial})"
+        text = text.replace(f"{whole}**", f"{name}**").replace(whole, f"({name})")
+    return text
+
+
+def _about_the_ball(place: BallOnSphere) -> list[AnswerRow]:
+    """Which ball it is, and its polynomial D with the roots."""
+    return [
+        AnswerRow("ball", place.kind, "ball"),
+        AnswerRow("D", place.D, "D(x)"),
+        AnswerRow("roots", ", ".join(map(str, place.roots)), "x1, x2"),
+    ]
 
 
 def _conditions(place: Rolling) -> list[str]:
@@ -289,13 +297,13 @@ def _simulate(
         with needs("plot", "a picture"):
             draw(motion, times, plot, title=f"R/R1 = {sphere.ratio}")
     reaction = motion.reaction(times)
-    difference = {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()}
     least = None
     pulled = None
     if reaction is not None:
         least = float(reaction.min())
         if least < 0:
             pulled = float(times[reaction < 0][0])
+    difference = {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()}
     low, high = motion.turning_points
     said = _STEADY if low == high else _TURNING
     determined = motion.determined if np.isfinite(motion.determined) else None
