@@ -4,7 +4,8 @@ In goes S over Q(t1, ..., tk), out comes a `ParametricAnswer`: the partition of 
 statement with Kovacic's case, and whether the list is proven to be complete.  Read `api` first, then `partition`.  One step a
 module:
 
-1. `api` reads S, and makes an algebraic constant one more parameter; `assumptions` are what is known about the parameters;
+1. `api` reads S, and makes an algebraic constant one more parameter; `assumptions` are what is known about the parameters:
+   `facts` reads the words, and `sympy_words` has those for SymPy's symbols;
 2. `partition` asks the engine for the generic answer, and treats the values at which S changes by recursion on hypersurfaces:
    `restriction` says which these are, and gives S there;
 3. `theorems` describe all other values where there are few singular points, maybe in z = s^n: Kimura's (`riemann`, at most

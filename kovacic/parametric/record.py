@@ -8,7 +8,7 @@ has a root among these integers, null where there are too many; and an invariant
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -172,23 +172,50 @@ class StatementReader:
     def statement(self, data: Mapping[str, Any]) -> Statement:
         """The statement that `statement_data` wrote.  Raises `InputError` for any other data."""
         kind = data.get("kind")
-        if kind == "zero":
-            return Vanishes(self.polynomial(data["function"]))
-        if kind in ("and", "or"):
-            parts = tuple(map(self.statement, data["parts"]))
-            return Both(parts) if kind == "and" else Either(parts)
+        if not isinstance(kind, str) or kind not in _READERS:
+            raise InputError(f"{kind!r} isn't a kind of condition")
+        return _READERS[kind](self, data)
+
+    def statements(self, data: Mapping[str, Any]) -> tuple[Statement, ...]:
+        """The parts of one that is made of others."""
+        return tuple(map(self.statement, data["parts"]))
+
+    def vanishes(self, data: Mapping[str, Any]) -> Statement:
+        return Vanishes(self.polynomial(data["function"]))
+
+    def lattice(self, data: Mapping[str, Any]) -> Statement:
+        equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
+        return Congruence.make(equation, _residues(data), fraction(data["modulus"]))
+
+    def integer_root(self, data: Mapping[str, Any]) -> Statement:
         letter = data.get("unknown", "x")
-        residues = tuple(map(Fraction, data.get("residues", [0])))
-        if kind == "lattice":
-            equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
-            return Congruence.make(equation, residues, fraction(data["modulus"]))
-        if kind == "integer root":
-            return Congruence(self.polynomial(data["equation"], letter), residues, fraction(data["modulus"]), letter)
-        if kind == "natural number":
-            texts = data["equations"]
-            equations = None if texts is None else tuple(self.polynomial(text, letter) for text in texts)
-            S = self.function(data["S"], data["variable"])
-            return Natural(S, data["degree"], equations, Structure(data["structure"]), letter)
-        if kind == "schwarz":
-            return Schwarz(self.polynomial(data["squares"], letter), tuple(map(Structure, data["structures"])))
-        raise InputError(f"{kind!r} isn't a kind of condition")
+        return Congruence(self.polynomial(data["equation"], letter), _residues(data), fraction(data["modulus"]), letter)
+
+    def natural(self, data: Mapping[str, Any]) -> Statement:
+        letter = data.get("unknown", "x")
+        equations = None
+        if data["equations"] is not None:
+            equations = tuple(self.polynomial(text, letter) for text in data["equations"])
+        S = self.function(data["S"], data["variable"])
+        return Natural(S, data["degree"], equations, Structure(data["structure"]), letter)
+
+    def schwarz(self, data: Mapping[str, Any]) -> Statement:
+        squares = self.polynomial(data["squares"], data.get("unknown", "x"))
+        return Schwarz(squares, tuple(map(Structure, data["structures"])))
+
+
+def _residues(data: Mapping[str, Any]) -> tuple[Fraction, ...]:
+    """The classes; that of 0 where none are written."""
+    return tuple(map(Fraction, data.get("residues", [0])))
+
+
+#: How each kind of statement is read.
+_READERS: dict[str, Callable[[StatementReader, Mapping[str, Any]], Statement]] = {
+    "zero": StatementReader.vanishes,
+    "and": lambda reader, data: Both(reader.statements(data)),
+    "or": lambda reader, data: Either(reader.statements(data)),
+    "lattice": StatementReader.lattice,
+    "integer root": StatementReader.integer_root,
+    "natural number": StatementReader.natural,
+    "schwarz": StatementReader.schwarz,
+}
