@@ -11,20 +11,21 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, FunctionField, RatFunc
+from build import QQ, FunctionField, RatFunc, parametrize
 from flint import fmpz_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kovacic import Structure
 from kovacic.parametric.assumptions import read_assumptions
-from kovacic.parametric.formulas import root_written, written
+from kovacic.parametric.formulas import root_written, text_of, written
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.ranks import without_constant_pivots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
+from kovacic.parametric.spectra import Notation, alternatives
 from kovacic.parametric.statements import Statement, Vanishes, both
 
 F = Fraction
@@ -158,3 +159,52 @@ def test_roots_are_read_back_as_they_are_written() -> None:
             text = root_written(square)
             root = sympy.sympify(text.replace("^", "**"))
             assert sympy.cancel(sympy.expand(root**2) - square.to_sympy(sympy.Symbol("x"))) == 0, text
+
+
+# ------------------------------------------------------------------------------- families that a symmetry permutes
+
+FAMILY_FIELD = FunctionField(("n",))
+n, d = FAMILY_FIELD.generator("n"), FAMILY_FIELD.poly([0, 1])
+
+
+def values(text: str, n: Fraction, largest: int = 40) -> bool:
+    """What a line such as "n or -n - 1 = 2*d, d/2 + 1 or +-(d - 3)" says, with d up to a bound."""
+    left, right = text.split(" = ")
+    functions = right.replace(" or ", ", ").split(", ")
+    signed = [s + f.replace("+-", "") for f in functions for s in (("", "-") if f.startswith("+-") else ("",))]
+    return any(
+        eval(form, {"n": n}) == eval(f, {"d": Fraction(d)})  # arithmetic that this package wrote
+        for form in left.split(" or ")
+        for f in signed
+        for d in range(largest)
+    )
+
+
+@parametrize(
+    ("functions", "total", "expected"),
+    [
+        ([2 * d, 2 * d + 1, 2 * d + 3], -1, "n or -n - 1 = "),
+        ([(d + 1) / 4, (d + 9) / 4, d + Fraction(1, 2)], -1, "n or -n - 1 = "),
+        ([d / 2, 3 * d - 2], 5, "n or 5 - n = "),
+        ([d, 2 * d + 1], 0, "n = +-"),
+        ([3 * d + 1], -1, "n = 3*d + 1 or -3*d - 2"),
+    ],
+    ordinary=0,
+    long=3,
+)
+def test_symmetric_families_are_written_once(functions: list, total: int, expected: str) -> None:  # type: ignore[type-arg]
+    families = [*functions, *(total - f for f in functions)]
+    equations = [over_parameters((d * 0 + n - f).monic()) for f in families]
+    text = text_of(alternatives(equations, Notation(letter="d")))
+    assert text.startswith(expected)
+    assert text.count("d") == (2 if len(functions) == 1 else len(functions))
+    constants = [[Fraction(int(v.numerator), int(v.denominator)) for v in f.rational_coefficients()] for f in families]
+    for k in range(-60, 61):
+        value = Fraction(k, 4)
+        holds = any(c[0] + c[1] * number == value for c in constants for number in range(40))
+        assert values(text, value) == holds, (text, value)
+
+
+def test_a_family_without_its_mirror_image_is_not_merged() -> None:
+    equations = [over_parameters((n - f).monic()) for f in (2 * d, -2 * d - 1, 2 * d + 2, 3 * d + 5)]
+    assert text_of(alternatives(equations, Notation(letter="d"))).startswith("n = ")

@@ -21,6 +21,7 @@ def solves_riccati(omega: RatFunc, S: RatFunc) -> bool:
     return omega.derivative() + omega * omega == S
 
 
+@settings(max_examples=20)
 @given(omegas)
 def test_from_omega_solves_the_riccati_equation(omega: RatFunc) -> None:
     assert solves_riccati(omega, transform.from_omega(omega))
@@ -34,6 +35,7 @@ def test_from_product_has_both_omegas(F: RatFunc, w: int) -> None:
         assert solves_riccati((F.derivative() + sign * w) / (2 * F), S)
 
 
+@settings(max_examples=20)
 @given(strategies.products((-2, -1, 1, 2), 2, 2), strategies.nonzero(4))
 def test_product_squared_product_and_squared_difference_agree(F: RatFunc, W: int) -> None:
     S = transform.from_product(F, W)
@@ -41,6 +43,7 @@ def test_product_squared_product_and_squared_difference_agree(F: RatFunc, W: int
     assert transform.from_squared_difference(W / (F * F)) == S
 
 
+@settings(max_examples=20)
 @given(strategies.products((-2, -1, 1, 3), 2, 2), strategies.nonzero(4))
 def test_squared_product_satisfies_the_first_integral(g: RatFunc, W: int) -> None:
     """`F'^2 - 2 F F'' + 4 S F^2 = w^2` with F = sqrt(g), `F'/F = phi`, multiplied out by `F^2 = g`."""
@@ -48,6 +51,7 @@ def test_squared_product_satisfies_the_first_integral(g: RatFunc, W: int) -> Non
     assert g * (phi * phi - 2 * (phi.derivative() + phi * phi) + 4 * S) == W
 
 
+@settings(max_examples=20)
 @given(strategies.products((-1, 1, 2), 2, 2), st.integers(1, 4))
 def test_conjugate_omegas(F: RatFunc, w: int) -> None:
     first, second = ((F.derivative() + sign * w) / (2 * F) for sign in (1, -1))
@@ -115,6 +119,7 @@ def test_gauge_refuses_to_lose_a_solution() -> None:
         transform.gauge(transform.from_omega(X), -X, 1)
 
 
+@settings(max_examples=20)
 @given(strategies.fractions(6), strategies.fractions(6), strategies.fractions(6))
 def test_hypergeometric_has_its_exponent_differences(l: Fraction, m: Fraction, n: Fraction) -> None:  # noqa: E741
     """`x^2 S -> (Delta^2 - 1)/4` at each of the three points, and no other pole."""
