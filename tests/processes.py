@@ -6,11 +6,17 @@ A process imports the module of what it does: this one imports nothing that take
 from __future__ import annotations
 
 import subprocess
+import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+
+#: A test that waits for ever says nothing; this is many times what the slowest of them takes.
+_FOR_EVER = 300.0
 
 
 @contextmanager
@@ -21,6 +27,16 @@ def started(arguments: Sequence[str], **options: Any) -> Iterator[subprocess.Pop
             yield process
         finally:
             process.kill()
+
+
+def finished(work: Callable[[], T]) -> T:
+    """What `work` returns; a failure where it doesn't come back."""
+    results: list[T] = []
+    thread = threading.Thread(target=lambda: results.append(work()), daemon=True)
+    thread.start()
+    thread.join(_FOR_EVER)
+    assert results, "the batch has stopped, or failed"
+    return results[0]
 
 
 def values(how: str, *found: Any) -> Iterator[Any]:

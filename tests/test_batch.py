@@ -21,7 +21,7 @@ import workers
 from build import parametrize
 from hypothesis import given
 from hypothesis import strategies as st
-from processes import started
+from processes import finished, started
 
 import kovacic
 from kovacic import InputError, KovacicError, Limits
@@ -216,12 +216,32 @@ def test_lines_of_lost_processes_and_failed_checks(monkeypatch: pytest.MonkeyPat
     validator.validate(record.data)
 
 
-def test_answers_longer_than_a_pipe_arrive_whole() -> None:
+@pytest.fixture(scope="module")
+def single() -> Iterator[Pool]:
+    """One process."""
+    with Pool(1, Job()) as running:
+        yield running
+
+
+@parametrize("stream", [True, False], ordinary=1)
+def test_what_ends_an_input_too_early_is_raised_after_the_answers(single: Pool, stream: bool) -> None:
+    def torn() -> Iterator[Item]:
+        yield Item(1, "x")
+        yield Item(2, "x^2 + 17")
+        raise OSError("the disk is gone")
+
+    records = single.run(torn(), stream=stream)
+    first_two = finished(lambda: [next(records), next(records)])
+    assert [(record.number, record.label) for record in first_two] == [(1, "none"), (2, "case 1")]
+    with pytest.raises(OSError, match="the disk is gone"):
+        next(records)
+
+
+def test_answers_longer_than_a_pipe_arrive_whole(single: Pool) -> None:
     sizes = (0, 1, 65_000, 65_536, 131_072, 5, 900_000, 3, 400_000)
     some = [Item(k, "x", extra={"id": str(k % 10) * size}) for k, size in enumerate(sizes, start=1)]
-    with Pool(1, Job()) as pool:
-        for record, item in zip(pool.run(some), some, strict=True):
-            assert (record.number, record.label, record.data["id"]) == (item.number, "none", item.extra["id"])
+    for record, item in zip(single.run(some), some, strict=True):
+        assert (record.number, record.label, record.data["id"]) == (item.number, "none", item.extra["id"])
 
 
 @pytest.mark.long

@@ -7,40 +7,24 @@ import json
 import os
 import subprocess
 import sys
-import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 from batch_lines import KINDS, SLOW, Run, answers_of, lines_of, random_runs
 from build import parametrize
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from processes import finished
 
 import kovacic
 from kovacic.batch.files import read_items
 from kovacic.batch.pool import Pool
 from kovacic.batch.records import Item, Job, Record, label_of
 
-T = TypeVar("T")
-
 Pools = Callable[[int], Pool]
 
-# A test that waits for ever says nothing; this is many times what the slowest of them takes.
-_FOR_EVER = 300.0
-
 _JOB = Job(timeout=0.5)
-
-
-def finished(work: Callable[[], T]) -> T:
-    """What `work` returns; a failure where it doesn't come back."""
-    results: list[T] = []
-    thread = threading.Thread(target=lambda: results.append(work()), daemon=True)
-    thread.start()
-    thread.join(_FOR_EVER)
-    assert results, "the batch has stopped, or failed"
-    return results[0]
 
 
 @pytest.fixture(scope="module")
@@ -110,20 +94,6 @@ def test_bad_lines_without_end_keep_nobody_from_his_answer_nor_from_his_time_lim
 
     assert finished(wanted) == {1: "undecided", 2: "none"}
     records.close()  # type: ignore[attr-defined]
-
-
-@parametrize("stream", [True, False], ordinary=1)
-def test_what_ends_an_input_too_early_is_raised_after_the_answers(pools: Pools, stream: bool) -> None:
-    def torn() -> Iterator[Item]:
-        yield Item(1, "x")
-        yield Item(2, "x^2 + 17")
-        raise OSError("the disk is gone")
-
-    records = pools(1).run(torn(), stream=stream)
-    first_two = finished(lambda: [next(records), next(records)])
-    assert verdicts(first_two) == [(1, "none"), (2, "case 1")]
-    with pytest.raises(OSError, match="the disk is gone"):
-        next(records)
 
 
 @pytest.mark.long
