@@ -207,7 +207,7 @@ class _Cells(HTMLParser):
         self.rows[-1][-1] += data
 
 
-@pytest.mark.parametrize("text", EQUATIONS)
+@parametrize("text", EQUATIONS, ordinary=4)
 def test_the_table_for_jupyter(text: str) -> None:
     answer = kovacic.solve(text)
     parser = _Cells()

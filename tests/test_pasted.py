@@ -279,7 +279,7 @@ def test_values_in_two_places_are_refused() -> None:
         ("mx'' + k*x = 0", "m*x''"),
         ("my'' + c*y = 0", "m*y''"),
     ],
-    ordinary=10,
+    ordinary=5,
 )
 def test_a_product_without_its_sign_is_refused_with_what_was_meant(text: str, meant: str) -> None:
     var = "t" if "t" in text else None
@@ -381,7 +381,7 @@ def meant(text: str) -> Any:
     return sympy.sympify(text, locals=symbols)
 
 
-@parametrize("row", PASTED, ordinary=60, long=161, ids=[row["text"] for row in PASTED])
+@parametrize("row", PASTED, ordinary=30, long=161, ids=[row["text"] for row in PASTED])
 def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
     """The coefficients of an equation, its right-hand side, its variable and its values are those that a reader finds."""
     question = read_question(row["text"], None, None, None, kovacic.Limits())

@@ -365,7 +365,7 @@ def test_a_box_has_the_levels_of_its_waves() -> None:
     assert half.levels == ()
 
 
-@parametrize("V", ["(x^8 + a*x^3 + b)/(x^6 + c^2 + 1)", "x^30 + x^2/(x^20 + 1)", "x^2/(x^4 + x^2 + 1) + a"], ordinary=2)
+@parametrize("V", ["(x^8 + a*x^3 + b)/(x^6 + c^2 + 1)", "x^30 + x^2/(x^20 + 1)", "x^2/(x^4 + x^2 + 1) + a"], ordinary=1)
 def test_a_denominator_without_real_zeros_is_no_pole(V: str) -> None:
     """Whether its roots are real isn't seen by their radicals."""
     assert "isn't regular" not in kovacic.spectrum(V, max_degree=0).reason

@@ -56,7 +56,7 @@ PARTS = (
 )
 
 
-@pytest.mark.parametrize("part", PARTS)
+@parametrize("part", PARTS, ordinary=2)
 @pytest.mark.parametrize("known", [{"positive": True}, {"negative": True}, {"real": True, "nonzero": True}])
 def test_a_part_that_is_complex_by_what_is_assumed(part: Any, known: dict[str, bool]) -> None:
     """With t > 0 for -t - 1, t < 0 for t - 1, and a real t for i t: no relation is left to say."""
