@@ -37,7 +37,7 @@ def answers() -> dict[str, Conditions]:
     return Answers()
 
 
-@parametrize("family", FAMILIES, ordinary=3, ids=lambda family: family.name)
+@parametrize("family", FAMILIES, ordinary=7, ids=lambda family: family.name)
 def test_known_conditions_are_found_and_proven_complete(family: Family, answers: dict[str, Conditions]) -> None:
     answer = answers[family.name]
     assert answer.complete is True
@@ -559,7 +559,6 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
 @parametrize(
     ("S", "points"),
     [
-        ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
         # a b = c d is solved for one of them where its coefficient isn't zero; at these points it is.
         (
             "(a*b-c*d)*x^2 + a*x + d",
@@ -568,6 +567,7 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
         ("(a*b-c*d)*x^4 + a*x^2 + b/x^2 + d", [(5, 0, 0, 5), (4, 0, 0, 10), (0, 0, 0, 1), (1, 2, 2, 1)]),
         ("(a*b-c)*x^2 + a/x^2 + b", [(0, 0, 0), (2, 0, 0), (0, 3, 0), (2, 1, 2)]),
         ("(a*b-c*a-d)*x^2 + c*x + b", [(0, 1, 2, 0), (0, 1, 0, 0), (3, 1, 1, 0), (3, 0, 0, 0)]),
+        ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
     ],
     ordinary=1,
     long=2,
@@ -577,7 +577,7 @@ def test_values_at_which_a_parameter_cannot_be_eliminated(S: str, points: list[t
     for values in points:
         point = dict(zip(answer.parameters, values, strict=True))
         assert answer.case_at(point) == answer.solve_at(point).case, point
-    assert answer.check(60)
+    assert answer.check(20)
 
 
 @pytest.mark.parametrize(

@@ -252,12 +252,13 @@ def test_families_of_algebraic_solutions(p: str, q: str, r: str) -> None:
 
 
 def test_algebraic_solutions_of_degree_two() -> None:
-    found = solve_riccati("1/x - 3/(16*x^2)", 0, -1)
+    coefficients = ("1/x - 15/(16*x^2)", "1/x", "-1")
+    found = solve_riccati(*coefficients)
     assert found.rational == ()
     assert found.all_algebraic is False
     roots = sympy.solve(found.polynomial, w)
     assert len(roots) == 2
-    assert all(riccati_residual("1/x - 3/(16*x^2)", "0", "-1", value) == 0 for value in roots)
+    assert all(riccati_residual(*coefficients, value) == 0 for value in roots)
 
 
 def test_algebraic_solutions_of_degree_four() -> None:
@@ -371,12 +372,12 @@ def test_floats_are_decimals(value: object) -> None:
 @parametrize(
     ("text", "values"),
     [
+        ("(2*x+1)^2*y'' + 2*(2*x+1)*y' - 4*y = x", {}),
         ("x^2*y'' + x*y' + y = log(x)", {}),
         ("x^2*y'' + x*y' + (x^2 - 1/4)*y = x^(3/2)", {}),
         ("x*y'' + 2*y' + x*y = exp(x)", {}),
         ("x^2*y'' + 4*x*y' + 2*y = sin(log(x))", {}),
         ("x^2*y'' + x*y' - n^2*y = x^m", {"n": "1/3", "m": "5/7"}),
-        ("(2*x+1)^2*y'' + 2*(2*x+1)*y' - 4*y = x", {}),
         ("4*x^2*y'' + y = sqrt(x)", {}),
         ("y'' + w^2*y = cos(w*x) + x", {"w": "9/7"}),
         ("y'' + pi^2*y = sin(pi*x)", {}),
@@ -434,6 +435,15 @@ def test_steps_and_impulses(left: str, right: str) -> None:
     assert abs(sympy.N(slopes[1][0] - slopes[0][0], 30)) < 1e-20
     impulse = sympy.integrate(forcing, (x, 0, 2)) if "Dirac" in right else 0
     assert abs(sympy.N(slopes[1][1] - slopes[0][1] - impulse, 30)) < 1e-20
+
+
+def test_a_right_hand_side_by_cases() -> None:
+    """1 before 1, and 0 after it; on either side the equation, and no jump between."""
+    found = dsolve(sympy.Eq(D2 + D0, sympy.Piecewise((1, x < 1), (0, True)))).rhs.subs({C1: 2, C2: -3})
+    first, second = (found.replace(sympy.Heaviside, partial(step, side)) for side in (0, 1))
+    assert abs(sympy.N((first.diff(x, 2) + first - 1).subs(x, Rational(1, 3)), 30)) < 1e-20
+    assert abs(sympy.N((second.diff(x, 2) + second).subs(x, Rational(4, 3)), 30)) < 1e-20
+    assert all(abs(sympy.N((first - second).diff(x, k).subs(x, 1), 30)) < 1e-20 for k in (0, 1))
 
 
 def test_values_at_an_impulse_are_those_before_it() -> None:

@@ -28,6 +28,14 @@ def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: An
         assert abs(sympy.N(value, 20)) < 1e-12
 
 
+def test_integrals_have_the_function_under_them() -> None:
+    equation = D2 + D0 - g(x)
+    found = kovacic.dsolve(equation, y(x)).rhs
+    assert found.has(sympy.Integral)
+    assert sympy.simplify(found.diff(x, 2) + found - g(x)) == 0
+    assert any("is any function" in notice for notice in kovacic.solve(sympy.Eq(equation, 0)).notices)
+
+
 @pytest.mark.long
 def test_values() -> None:
     found = kovacic.dsolve(PROBLEMS[0], y(x), ics={y(0): 0, D1.subs(x, 0): 1}).rhs
