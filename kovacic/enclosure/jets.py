@@ -57,6 +57,11 @@ _BOX = 4.0
 """Bounds by boxes are so many times too large."""
 _LOG2_E = 1.4427
 _REACH = fmpq(1)
+_REAL_FUNCTIONS = {
+    *(sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.atan, sympy.asinh),
+    *(sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch),
+}
+"""Functions that are real for real arguments where they are analytic."""
 
 
 @dataclass(frozen=True)
@@ -168,12 +173,28 @@ def _polynomial(coefficients: list[Any], *, real: bool) -> Any:
 
 def are_real(coefficients: Coefficients) -> bool:
     """Is it known that they are real for real x where they are analytic?"""
-    real = {s: sympy.Dummy(real=True) for part in coefficients.parts for s in part.free_symbols}
     for part in coefficients.parts:
-        here = part.xreplace(real)
-        if not here.is_real and sympy.cancel(here - sympy.conjugate(here)) != 0:
+        if not (_is_of_real_parts(part) or _is_known_as_real(part)):
             return False
     return all(to_ball(value).imag.is_zero() for _, value in coefficients.values)
+
+
+def _is_known_as_real(expression: Any) -> bool:
+    """Does SymPy know, with real symbols?"""
+    here = expression.xreplace({s: sympy.Dummy(real=True) for s in expression.free_symbols})
+    return bool(here.is_real or sympy.cancel(here - sympy.conjugate(here)) == 0)
+
+
+def _is_of_real_parts(expression: Any) -> bool:
+    """Is it made of real symbols and numbers by what is real where it is analytic?  SymPy may take seconds."""
+    check_time()
+    if expression.is_Symbol:
+        return True
+    if expression.is_number:
+        return bool(expression.is_real)
+    if expression.is_Add or expression.is_Mul or expression.func in _REAL_FUNCTIONS:
+        return all(map(_is_of_real_parts, expression.args))
+    return bool(expression.is_Pow and expression.exp.is_Integer and _is_of_real_parts(expression.base))
 
 
 def _rate(beta: arb, gamma: arb) -> arb:
