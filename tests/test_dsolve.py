@@ -438,11 +438,11 @@ def test_steps_and_impulses(left: str, right: str) -> None:
 
 
 def test_a_right_hand_side_by_cases() -> None:
-    """1 before 1, and 0 after it; on either side the equation, and no jump between."""
-    found = dsolve(sympy.Eq(D2 + D0, sympy.Piecewise((1, x < 1), (0, True)))).rhs.subs({C1: 2, C2: -3})
+    """1 before 1, and 3 x after it; on either side the equation, and no jump between."""
+    found = dsolve(sympy.Eq(D2 + D0, sympy.Piecewise((1, x < 1), (3 * x, True)))).rhs.subs({C1: 2, C2: -3})
     first, second = (found.replace(sympy.Heaviside, partial(step, side)) for side in (0, 1))
     assert abs(sympy.N((first.diff(x, 2) + first - 1).subs(x, Rational(1, 3)), 30)) < 1e-20
-    assert abs(sympy.N((second.diff(x, 2) + second).subs(x, Rational(4, 3)), 30)) < 1e-20
+    assert abs(sympy.N((second.diff(x, 2) + second - 3 * x).subs(x, Rational(4, 3)), 30)) < 1e-20
     assert all(abs(sympy.N((first - second).diff(x, k).subs(x, 1), 30)) < 1e-20 for k in (0, 1))
 
 
