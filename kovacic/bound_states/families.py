@@ -116,9 +116,9 @@ def _jacobi_family(
     """The family with these exponent differences."""
     from kovacic.bound_states.waves import jacobi_wave
 
-    wave, norm = jacobi_wave(frame, roots, deltas, signs)
+    wave = jacobi_wave(frame, roots, deltas, signs)
     zeros = _zeros(frame, deltas, signs)
-    return LevelFamily(energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
+    return LevelFamily(energy, wave.y, tuple(conditions), zeros, wave.norm, _radicals(roots))
 
 
 def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
@@ -222,9 +222,9 @@ def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
             if possible(conditions, ends.signs):
                 from kovacic.bound_states.waves import laguerre_wave
 
-                wave, norm = laguerre_wave(frame, origin, rate, difference, ends.signs)
+                wave = laguerre_wave(frame, origin, rate, difference, ends.signs)
                 zeros = _zeros_for(origin, difference, ends.signs)
-                yield LevelFamily(found.energy, wave, tuple(conditions), zeros, norm, _radicals(roots))
+                yield LevelFamily(found.energy, wave.y, tuple(conditions), zeros, wave.norm, _radicals(roots))
 
 
 def _whittaker_coefficients(frame: SingularFrame) -> tuple[Any, Any, Any]:

@@ -7,7 +7,7 @@ are dropped, and the norm is that of what is shown.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
@@ -150,8 +150,15 @@ class _JacobiForm:
         return not self.scale.has(self.frame.z)
 
 
-def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> tuple[Any, Any]:
-    """The solution, and the integral of its square where it is known."""
+class Wave(NamedTuple):
+    """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None where it isn't known."""
+
+    y: Any
+    norm: Any = None
+
+
+def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> Wave:
+    """The solution by Jacobi's polynomials."""
     form = _jacobi_form(frame, roots, deltas, signs)
     if form.w.has(sympy.I):
         return _complex_pair(form)
@@ -160,11 +167,11 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     plus = as_product(frame, 1 + form.w)
     whole = WaveProduct().times(minus, first.exponent).times(plus, second.exponent)
     polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
-    wave = whole.shown() * polynomial
+    y = whole.shown() * polynomial
     norm = _norm(form) if form.has_constant_scale else None
     if norm is None:
-        return wave, None
-    return wave, _on_domain(frame, norm / whole.constant**2)
+        return Wave(y)
+    return Wave(y, _on_domain(frame, norm / whole.constant**2))
 
 
 def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> _JacobiForm:
@@ -209,34 +216,46 @@ def _argument(frame: SingularFrame, w: Any) -> Any:
     return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
 
 
-def _complex_pair(form: _JacobiForm) -> tuple[Any, Any]:
+def _complex_pair(form: _JacobiForm) -> Wave:
     """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
     first, second, _ = form.points
-    original = form.frame.original
-    t = sympy.Symbol(form.frame.problem_variable)
     n = form.n
     e1 = first.exponent
     p = sympy.expand((e1 + conjugate(e1)) / 2)
     q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
-    r_of_t = sympy.factor(form.w / sympy.I)
-    r = r_of_t.xreplace({t: original.t})
-    dropped = sympy.Integer(1)
-    if original.kind == "sinh" and sympy.expand(r_of_t**2 - t**2) == 0:
-        wave = sympy.cosh(original.theta) ** shortest(2 * p) * sympy.exp(2 * q * sympy.atan(r))
-    elif original.kind == "tan" and sympy.cancel(r_of_t**2 - t**-2) == 0:
-        sign = 1 if sympy.cancel(r_of_t - 1 / t) == 0 else -1
-        r = sign * sympy.cot(original.theta)
-        wave = sympy.sin(original.theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * original.theta)
-        dropped = sympy.exp(2 * sympy.pi * q * sign)
-    else:
-        wave = (1 + r**2) ** p * sympy.exp(2 * q * sympy.atan(r))
+    powers = _real_powers(form, p, q)
     a = shortest(first.delta)
     b = shortest(second.delta)
-    wave *= (-sympy.I) ** n * jacobi(n, a, b, sympy.I * r)
+    y = powers.written * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * powers.r))
     norm = _norm_on_line(form, a, b)
     if norm is None:
-        return wave, None
-    return wave, _tidy(-norm / dropped)
+        return Wave(y)
+    return Wave(y, _tidy(-norm / powers.dropped))
+
+
+class _RealPowers(NamedTuple):
+    """(1 + r^2)^p exp(2 q atan(r)) as it is written, without a constant whose square is `dropped`; and r in the variable."""
+
+    written: Any
+    r: Any
+    dropped: Any = sympy.S.One
+
+
+def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
+    """With 1 + r^2 = cosh^2 for r = +-sinh, and = 1/sin^2 for r = +-cot, where atan(r) is an angle, too."""
+    original = form.frame.original
+    theta = original.theta
+    t = sympy.Symbol(form.frame.problem_variable)
+    r_of_t = sympy.factor(form.w / sympy.I)
+    if original.kind == "tan" and sympy.cancel(r_of_t**2 - t**-2) == 0:
+        sign = 1 if sympy.cancel(r_of_t - 1 / t) == 0 else -1
+        written = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
+        return _RealPowers(written, r=sign * sympy.cot(theta), dropped=sympy.exp(2 * sympy.pi * q * sign))
+    r = r_of_t.xreplace({t: original.t})
+    rest = sympy.exp(2 * q * sympy.atan(r))
+    if original.kind == "sinh" and sympy.expand(r_of_t**2 - t**2) == 0:
+        return _RealPowers(sympy.cosh(theta) ** shortest(2 * p) * rest, r)
+    return _RealPowers((1 + r**2) ** p * rest, r)
 
 
 def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
@@ -303,23 +322,23 @@ def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
     return _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle)
 
 
-def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> tuple[Any, Any]:
-    """The solution, and the integral of its square where it is known."""
+def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> Wave:
+    """The solution by Laguerre's polynomials."""
     n = signs.n
     z = frame.z
     power = (1 + delta) / 2 - origin.mu / 4
     whole = WaveProduct().times(as_product(frame, frame.base), frame.m * power)
     in_x = _argument(frame, frame.base) ** frame.m
     rate = shortest(2 * kappa)
-    wave = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
+    y = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
     scale = sympy.simplify(frame.slope / z**origin.mu)
     weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
     known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
     j = 1 - origin.mu
     if j not in known or scale.has(z) or signs.sign(kappa) == -1:
-        return wave, None
+        return Wave(y)
     integral = rate ** (origin.mu - 2 - delta) * weight * known[j]
-    return wave, _on_domain(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2)
+    return Wave(y, _on_domain(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
 
 
 def _tidy(norm: Any) -> Any:
