@@ -41,9 +41,13 @@ def enclosure(constant: Poly) -> Any:
 
 
 def _value(constant: Poly, theta: Any) -> Any:
+    """The constant for this value of the generator, by Horner's rule."""
+    parts = constant.parts if isinstance(constant, ExtensionPoly) else (constant,)
     total = acb(0)
-    for part in reversed(constant.parts if isinstance(constant, ExtensionPoly) else (constant,)):
-        total = total * theta + (part.rational_coefficients()[0] if part else 0)
+    for part in reversed(parts):
+        total *= theta
+        if part:
+            total += part.rational_coefficients()[0]
     return total
 
 

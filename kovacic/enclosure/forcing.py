@@ -134,7 +134,9 @@ class Forcing:
             area = integral(integrand, start, stop) * unit
             error = (size * error_radii(arb((defect + 1, -expansion.w)), frame)[0]).upper()
             total = area + around_zero(error, real=real)
-            found.append(acb(total.real) if real else total)
+            if real:
+                total = acb(total.real)
+            found.append(total)
         here = (-found[1] * h, found[0])
         if leg.to_centre is None:
             return here

@@ -284,7 +284,8 @@ def _sizes_around(polynomial: acb_poly, point: acb) -> list[arb]:
     """The absolute values of the coefficients around a point."""
     degree = polynomial.degree()
     if degree > _LONG:
-        seconds = (_COMPLEX_MOVE_SECONDS if point.imag else _MOVE_SECONDS) * degree**2
+        each = _COMPLEX_MOVE_SECONDS if point.imag else _MOVE_SECONDS
+        seconds = each * degree**2
         check_duration(seconds, f"a bound for a polynomial of degree {degree}")
     elif degree > _SHORT:
         check_time()
