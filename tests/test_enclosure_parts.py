@@ -42,6 +42,7 @@ def test_numbers_of_every_kind_are_read_exactly() -> None:
     assert as_point("0.1", "x").re == as_point(Decimal("0.1"), "x").re == Fraction(1, 10)
     assert as_point(0.1, "x").re == as_point(np.float64(0.1), "x").re == Fraction(0.1) != Fraction(1, 10)
     assert as_point(mpmath.mpf("0.5"), "x") == as_point(sympy.Float(0.5), "x") == ExactPoint(Fraction(1, 2))
+    assert as_point(flint.arb(0.5), "x") == as_point(flint.acb(0.5), "x") == ExactPoint(Fraction(1, 2))
     assert as_point(mpmath.mpc(1, 2), "x") == as_point(1 + 2 * sympy.I, "x") == as_point(1 + 2j, "x")
 
 
@@ -205,7 +206,7 @@ def test_thousands_of_paths_take_few_discs() -> None:
     discs_stay_few(random.Random(2), 5000)
 
 
-@pytest.mark.parametrize("k", [0, 3, 6, 9])
+@pytest.mark.parametrize("k", range(12))
 def test_a_complex_path_comes_to_its_end(k: int) -> None:
     """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
     a, b = ExactPoint(Fraction(59, 64), Fraction(47, 64)), ExactPoint(Fraction(-63, 64), Fraction(13, 32))
