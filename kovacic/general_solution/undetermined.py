@@ -27,14 +27,14 @@ Expr = Any  # SymPy publishes no types
 _LARGEST = 200
 
 
-class Complex(NamedTuple):
+class RealAndImaginary(NamedTuple):
     """u + i v."""
 
     u: Expr
     v: Expr
 
-    def times(self, other: Complex) -> Complex:
-        return Complex(self.u * other.u - self.v * other.v, self.u * other.v + self.v * other.u)
+    def times(self, other: RealAndImaginary) -> RealAndImaginary:
+        return RealAndImaginary(self.u * other.u - self.v * other.v, self.u * other.v + self.v * other.u)
 
 
 class Rate(NamedTuple):
@@ -45,8 +45,8 @@ class Rate(NamedTuple):
 
 
 #: The coefficients of a polynomial, by the powers of x.
-Coefficients = dict[int, Complex]
-_NOTHING = Complex(0, 0)
+Coefficients = dict[int, RealAndImaginary]
+_NOTHING = RealAndImaginary(0, 0)
 
 
 def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
@@ -97,7 +97,7 @@ class _ForcingTerm:
 
     degree: int
     rate: Rate
-    coefficient: Complex
+    coefficient: RealAndImaginary
 
 
 def _polynomials(right: Expr, x: Expr) -> dict[Rate, Coefficients] | None:
@@ -112,7 +112,7 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, Coefficients] | None:
             return None
         P = result.setdefault(term.rate, {})
         known = P.get(term.degree, _NOTHING)
-        P[term.degree] = Complex(known.u + term.coefficient.u, known.v + term.coefficient.v)
+        P[term.degree] = RealAndImaginary(known.u + term.coefficient.u, known.v + term.coefficient.v)
     return result
 
 
@@ -164,7 +164,7 @@ def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
     if waves:
         return _beside_wave(degree, rho, constant, waves[0], x)
     nothing = sympy.Integer(0)
-    return _ForcingTerm(degree, Rate(rho, nothing), Complex(constant, nothing))
+    return _ForcingTerm(degree, Rate(rho, nothing), RealAndImaginary(constant, nothing))
 
 
 def _is_degree(exponent: Expr) -> bool:
@@ -184,8 +184,8 @@ def _beside_wave(degree: int, rho: Expr, constant: Expr, wave: Expr, x: Expr) ->
         real = constant * sin(phase)
         imaginary = -constant * cos(phase)
     if omega.could_extract_minus_sign():
-        return _ForcingTerm(degree, Rate(rho, -omega), Complex(real, -imaginary))
-    return _ForcingTerm(degree, Rate(rho, omega), Complex(real, imaginary))
+        return _ForcingTerm(degree, Rate(rho, -omega), RealAndImaginary(real, -imaginary))
+    return _ForcingTerm(degree, Rate(rho, omega), RealAndImaginary(real, imaginary))
 
 
 class _Line(NamedTuple):
@@ -204,41 +204,43 @@ def _line(expression: Expr, x: Expr) -> _Line | None:
     return _Line(rest, slope)
 
 
-def _factors(b: Expr, c: Expr, rate: Rate) -> list[Complex]:
+def _factors(b: Expr, c: Expr, rate: Rate) -> list[RealAndImaginary]:
     """Those of Q, Q' and Q'' in equation (1)."""
     rho, omega = rate
     return [
-        Complex(_constant(rho**2 - omega**2 + b * rho + c), _constant((2 * rho + b) * omega)),
-        Complex(_constant(2 * rho + b), 2 * omega),
-        Complex(sympy.Integer(1), sympy.Integer(0)),
+        RealAndImaginary(_constant(rho**2 - omega**2 + b * rho + c), _constant((2 * rho + b) * omega)),
+        RealAndImaginary(_constant(2 * rho + b), 2 * omega),
+        RealAndImaginary(sympy.Integer(1), sympy.Integer(0)),
     ]
 
 
-def _solved(factors: Sequence[Complex], P: Coefficients) -> Coefficients | None:
+def _solved(factors: Sequence[RealAndImaginary], P: Coefficients) -> Coefficients | None:
     """Q of equation (1); None where u^2 + v^2 = 0 for a factor u + i v other than 0."""
     m = next(k for k, factor in enumerate(factors) if factor != (0, 0))
     first = factors[m]
     norm = _constant(first.u**2 + first.v**2)
     if norm == 0:
         return None
-    conjugate = Complex(first.u, -first.v)
+    conjugate = RealAndImaginary(first.u, -first.v)
     Q: Coefficients = {}
     for n in range(max(P), -1, -1):
         rest = _without_known(P.get(n, _NOTHING), factors[m + 1 :], Q, n, m)
         scale = norm * perm(n + m, m)  # (u + i v)/(f + i g) = (u + i v) (f - i g)/norm
         above = rest.times(conjugate)
-        Q[n + m] = Complex(_constant(above.u / scale), _constant(above.v / scale))
+        Q[n + m] = RealAndImaginary(_constant(above.u / scale), _constant(above.v / scale))
     return Q
 
 
-def _without_known(p: Complex, later: Sequence[Complex], Q: Coefficients, n: int, m: int) -> Complex:
+def _without_known(
+    p: RealAndImaginary, later: Sequence[RealAndImaginary], Q: Coefficients, n: int, m: int
+) -> RealAndImaginary:
     """The coefficient p of x^n in P without what the derivatives after the first one with a factor, the m-th, give."""
     u, v = p
     for j, factor in enumerate(later, m + 1):
         known = factor.times(Q.get(n + j, _NOTHING))
         u -= perm(n + j, j) * known.u
         v -= perm(n + j, j) * known.v
-    return Complex(u, v)
+    return RealAndImaginary(u, v)
 
 
 def _constant(value: Expr) -> Expr:
