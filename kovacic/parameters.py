@@ -7,8 +7,8 @@ from dataclasses import fields
 from typing import Any
 
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
-from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
+from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.solution import Solution
 
 

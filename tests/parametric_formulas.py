@@ -12,10 +12,10 @@ import mpmath
 import sympy
 from build import AlgebraicField
 
-from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.check import Sampler
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion
 from kovacic.parametric.statements import Statement, both
 from tests.parametric_cases import FAMILIES

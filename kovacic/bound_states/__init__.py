@@ -2,11 +2,12 @@
 
 In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api` first.  One step a module:
 
-0. `question`: the potential, the domain and the assumptions as they were given;
+0. `question`: the potential, the domain and the assumptions as they were given; `letters` stand for constants with roots;
 1. `ends`: how many solutions are square integrable at each end; `signs`: what is known of the sign of an expression;
 2. `frame`: the coordinates z(x) in which the equation may be a standard one;
 3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E,
-   `waves` writes the solutions and their norms, `ranges` the conditions, `sequence` makes one of even and odd levels;
+   `waves` writes the solutions and their norms, `ranges` the conditions; `darboux` and `periodic`
+   bring other potentials to these;
 4. `quasi`: where no formula is known, levels one degree at a time; `liouvillian`: are these all with a closed form?
-5. `answer`: what is returned.
+5. `levels`: what is returned.
 """

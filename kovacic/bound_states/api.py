@@ -8,7 +8,6 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.answer import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.darboux import DarbouxStep, steps
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
@@ -22,6 +21,7 @@ from kovacic.bound_states.families import (
 )
 from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, Uncovered, frames, range_of
 from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
+from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.liouvillian import with_closed_forms
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.quasi import QuasiSolution, degree_beyond, found_of_degree, levels_of, zeros_inside

@@ -16,7 +16,7 @@ from typing import Any
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from kovacic.bound_states.answer import Algebraic, Levels, Spectrum
+from kovacic.bound_states.levels import Algebraic, Levels, Spectrum
 from kovacic.errors import InputError
 from kovacic.numerals import as_text
 from kovacic.reading.symbolic import names_of, read_expression

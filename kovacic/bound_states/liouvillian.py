@@ -20,13 +20,13 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.answer import Spectrum
+from kovacic.bound_states.levels import Spectrum
 from kovacic.equation import Parsed
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Limits
-from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.statements import Either, Statement, Vanishes
 
 

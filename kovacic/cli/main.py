@@ -29,18 +29,18 @@ PIPE_CLOSED = 141
 
 #: Name: the module kovacic.cli.<module> that has the click command of this name, and what it does.
 COMMANDS = {
-    "solve": ("answer", "Decide equations y'' = S(x) y: two solutions, or a proof that there is none."),
-    "dsolve": ("answer", "The general solution of an equation, or that with given initial values."),
+    "solve": ("equations", "Decide equations y'' = S(x) y: two solutions, or a proof that there is none."),
+    "dsolve": ("equations", "The general solution of an equation, or that with given initial values."),
     "evaluate": ("values", "Values of a solution with proven error bounds, to any number of digits."),
-    "explain": ("answer", "The derivation, step by step, as a reader of Kovacic's paper follows it."),
+    "explain": ("equations", "The derivation, step by step, as a reader of Kovacic's paper follows it."),
     "conditions": ("values", "For which values of the parameters do Liouvillian solutions exist?"),
     "spectrum": ("values", "Which energies? The bound states of a potential, with wave functions and norms."),
     "batch": ("many", "Decide many equations from a file, in parallel, with a result for every line."),
     "scan": ("many", "Tabulate the case over a grid of parameter values."),
-    "check": ("answer", "Prove answers in JSON anew, by a program that shares no code with this one."),
+    "check": ("equations", "Prove answers in JSON anew, by a program that shares no code with this one."),
     "ball": ("ball", "The ball on the sphere: its equation, its motion."),
     "plot": ("values", "Draw solutions."),
-    "schema": ("answer", "The JSON Schema of what the commands print as JSON."),
+    "schema": ("equations", "The JSON Schema of what the commands print as JSON."),
 }
 
 

@@ -14,6 +14,6 @@ module:
 5. both give exact `statements` about the parameters, true or false at every algebraic point: a function vanishes, an equation
    has a root among `integers`, Delta_d vanishes for a `natural` number d; `functions` has what they are made of;
 6. `regions`: statement, case and group, without those that earlier ones cover;
-7. `answer`: what is returned; statements are written by `spectra` and `formulas`, and as data by `record`; `check` compares
-   with the engine at exact points, `plot` draws.
+7. `parametric_answer`: what is returned; statements are written by `spectra` and `formulas`, and as data by `record`; `check`
+   compares with the engine at exact points, `map` draws.
 """

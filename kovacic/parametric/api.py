@@ -17,11 +17,11 @@ from kovacic.equation import PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 from kovacic.limits import Budget, Limits, bounded_work
-from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.cases import without_redundant
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty, without_implied

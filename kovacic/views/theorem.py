@@ -17,12 +17,12 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.decision import Structure
 from kovacic.equation import PI
 from kovacic.limits import DEFAULT_LIMITS, Budget
-from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.facts import WORDS
 from kovacic.parametric.formulas import equation_written, partial_fractions, sentence_of
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural
+from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.solutions import Given, PolynomialSolution, general, weight_by_signs

@@ -25,8 +25,8 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler
 from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
-from kovacic.parametric.plot import plot
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line, said_of
 from kovacic.parametric.restriction import NO_CONSTANT
