@@ -498,7 +498,9 @@ def test_equations_with_a_right_hand_side(equation: str, solution: str, x0: Any,
     found = evaluate(given, points, x0=x0, y0=start[0], dy0=start[1], path=path, digits=25, derivative=True)
     for point, pair in zip(points, found, strict=True):
         for ball, exact in zip(pair, (y, y.diff(t)), strict=True):
-            assert mp_close(ball, mpmath.mpmathify(sympy.N(exact.subs(t, sympy.sympify(point)), 60)), 40)
+            assert mp_close(
+                ball, mpmath.mpmathify(sympy.N(exact.subs(t, sympy.nsimplify(point, rational=True)), 60)), 40
+            )
         assert pair[0].digits >= 25
 
 
