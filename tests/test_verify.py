@@ -14,7 +14,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Budget, Ground, RatFunc, verify
+from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, verify
 from flint import nmod_poly
 from forged import (
     GroupClaim,
@@ -793,7 +793,13 @@ def test_factors_that_arent_irreducible_are_refused(S: str, monkeypatch: pytest.
     """Over a field in which the denominator has factors, were the search to find none: nothing is passed."""
     right = kovacic.solve(S, var="x")
     assert right.verified
-    monkeypatch.setattr(AlgebraicField, "_factor_squarefree", lambda self, polynomial: [polynomial.monic()])
+
+    def unfactored(field: AlgebraicField, polynomial: Poly) -> list[tuple[Poly, int]]:
+        whole = polynomial.monic()
+        radical = whole // whole.gcd(whole.derivative())
+        return [(radical, whole.remove(radical)[1])]
+
+    monkeypatch.setattr(AlgebraicField, "factor", unfactored)
     with pytest.raises(kovacic.KovacicError):
         kovacic.solve(S, var="x").group.name.strip()
 
