@@ -225,11 +225,12 @@ def the_ball() -> list[dict[str, Any]]:
 
 COUNTED = {
     "Taylor expansions": (transport, "expand"),
-    "evaluations of one": (transport, "states_at"),
+    "matrices of one": (transport, "transition"),
+    "solutions in one": (transport, "local_solution"),
     "Frobenius series": (frobenius, "_expand"),
-    "closed-form legs": (closed_form.ClosedForm, "leg"),
+    "closed-form legs": (closed_form.CaseOneForm, "leg"),
     "legs by FLINT's functions": (classical.Classical, "leg"),
-    "Frobenius solutions by these": (classical.Solutions, "_frobenius"),
+    "Frobenius solutions by these": (classical, "_frobenius"),
     "runs": (journey.Journey, "states"),
 }
 
