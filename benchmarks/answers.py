@@ -105,11 +105,11 @@ def questions() -> Iterator[tuple[str, str]]:
     """All inputs, in a fixed order."""
     import closed_forms
     import parametric_cases
-    import textbook
+    import textbook_equations
 
     lines = (HERE.parent / "tests" / "data" / "cases.jsonl").read_text(encoding="utf-8").splitlines()
     published = [json.loads(line)["S"] for line in lines]
-    books = [*closed_forms.TEXTBOOK, *(entry.S for entry in textbook.equations())]
+    books = [*closed_forms.TEXTBOOK, *(entry.S for entry in textbook_equations.equations())]
     yield from (("answer", text) for text in (*published, *books, *random_equations()))
     yield from (("broken", text) for text in broken_texts(Random(13), [*published, *books]))
     yield from (("family", entry.S) for entry in parametric_cases.FAMILIES)

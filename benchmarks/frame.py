@@ -20,7 +20,7 @@ import kovacic
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
 #: Modules that scripts import, and no scripts themselves.
-PARTS = {"frame", "families", "stability_families", "textbook", "dsolve_problems"}
+PARTS = {"frame", "families", "stability_families", "textbook_equations", "dsolve_problems"}
 
 _INTRODUCTION = """# Benchmarks
 

@@ -29,7 +29,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parent))
 
 import families
-import textbook
+import textbook_equations
 from peer_systems.process import Answer, Reply, System
 from peer_systems.systems import ALL, Dsolve, SolveRiccati
 
@@ -93,7 +93,7 @@ def corpora(sizes: tuple[int, ...], every: int) -> Iterator[Equation]:
     published = [json.loads(line) for line in CASES.read_text().splitlines()]
     for row in published[::every]:
         yield Equation("published", row["id"], row["S"].replace("**", "^"), row["case"])
-    for entry in textbook.equations()[::every]:
+    for entry in textbook_equations.equations()[::every]:
         yield Equation("textbook", entry.name, entry.S, entry.case)
     for family in families.FAMILIES:
         for n in sizes:
