@@ -95,7 +95,7 @@ def corpora(sizes: tuple[int, ...], every: int) -> Iterator[Equation]:
         yield Equation("published", row["id"], row["S"].replace("**", "^"), row["case"])
     for entry in textbook_equations.equations()[::every]:
         yield Equation("textbook", entry.name, entry.S, entry.case)
-    for family in families.FAMILIES:
+    for family in _SMALLEST:
         for n in sizes:
             one = _generated(family, n)
             if one is not None:
@@ -110,7 +110,7 @@ def _generated(family: str, n: int) -> families.Sample | None:
     return families.by_size(family, n)
 
 
-# The least number of poles of each construction.
+# The families, and the least number of poles of each construction.
 _SMALLEST = {
     "case 1, unique, rational poles": 1,
     "case 1, unique, quintics": 5,
