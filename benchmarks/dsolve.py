@@ -185,9 +185,9 @@ def checked(problem: Problem, solution: Any) -> str:
 
 def _checked(problem: Problem, solution: Any) -> str:
     equation, given = sympy_problem(problem)
-    equation = equation.xreplace({number: sympy.Rational(number) for number in equation.atoms(sympy.Float)})
+    equation = _exact(equation)
     own = symbols(problem)
-    solution = solution.xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
+    solution = _exact(solution).xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
     values = {
         s: sympy.Rational(23 + 4 * k, 17) for k, s in enumerate(sorted(own.values(), key=str)) if not s.is_integer
     }
@@ -217,6 +217,11 @@ def _checked(problem: Problem, solution: Any) -> str:
         if abs(_number(wronskian, _POINTS[0])) < 1e-15:
             return "wrong"
     return "right with integrals" if solution.has(sympy.Integral) else "right"
+
+
+def _exact(e: Any) -> Any:
+    """With the fraction that each floating-point number is."""
+    return e.xreplace({number: sympy.Rational(number) for number in e.atoms(sympy.Float)})
 
 
 def _holds(left: Any, solution: Any, point: Any) -> bool | None:
