@@ -43,9 +43,6 @@ BESSEL = "x^2*y'' + x*y' + (x^2 - 1/9)*y = 0"
 GAUSS = "x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0"
 THIRD = flint.fmpq(1, 3)
 
-#: By FLINT's functions; the default takes Taylor's method there, with which a first value is found sooner.
-FROM_0 = {"x0": 0, "which": "regular", "method": "closed form"}
-
 
 def gauss_function(z: Any) -> Any:
     """2F1(1/2, 1/3; 5/4; z)."""
@@ -57,9 +54,7 @@ FUNCTIONS: list[tuple[str, str, Any, dict[str, Any], Callable[[Any], Any]]] = [
     ("Airy, from 0", "x", 2, {"x0": 0, "y0": 1, "dy0": 0}, lambda z: z.airy_ai()),
     ("Bessel 1/3, from 1", BESSEL, 3, {"x0": 1, "y0": 1, "dy0": 0}, lambda z: z.bessel_j(flint.arb(THIRD))),
     ("Bessel 1/3, from 0", BESSEL, 3, {"x0": 0, "which": "regular"}, lambda z: z.bessel_j(flint.arb(THIRD))),
-    ("Bessel 1/3, from 0, closed form", BESSEL, 3, FROM_0, lambda z: z.bessel_j(flint.arb(THIRD))),
     ("2F1, from 0", GAUSS, Fraction(1, 3), {"x0": 0, "which": "regular"}, gauss_function),
-    ("2F1, from 0, closed form", GAUSS, Fraction(1, 3), FROM_0, gauss_function),
 ]
 GOALS = {15: 10, 50: 10, 1000: 5, 10_000: 2}
 

@@ -335,3 +335,32 @@ def test_coefficients_of_thousands_of_digits_crash_nothing(sign: str, method: An
         except LimitExceeded:
             continue
         assert value.digits >= 15
+
+
+BESSEL = "x^2*y'' + x*y' + (x^2 - 1/9)*y = 0"
+
+
+@pytest.mark.parametrize(
+    ("equation", "x0", "x"),
+    [
+        (BESSEL, 0, 3),
+        (BESSEL, 0, 300),
+        ("x*(1-x)*y'' + (5/4 - 11/6*x)*y' - y/6 = 0", 0, "9/10"),
+        ("x*y'' + (3/2 - x)*y' - y/3 = 0", 0, 20),
+        ("(1-x^2)*y'' - 2*x*y' + y/3 = 0", 1, "-1/2"),
+    ],
+)
+def test_discs_from_a_singular_point_on_are_foreseen(equation: str, x0: int, x: Any) -> None:
+    """They aren't free: functions that FLINT has are found, and agree with Taylor's method."""
+    start: dict[str, Any] = {"x0": x0, "which": "regular", "digits": 20}
+    value = evaluate(equation, x, **start)
+    assert value.route is not None
+    assert value.route.method == "closed form"
+    assert value.overlaps(evaluate(equation, x, method="taylor", **start))
+
+
+@pytest.mark.parametrize("b", [10**4, 10**8])
+def test_beside_a_pole_growth_that_no_step_lessens_is_foreseen(b: int) -> None:
+    """S = b/x^2: over half a step from 0 a solution grows as much as over a whole one, and halving never ends."""
+    value = evaluate(f"{b}*(x + 1)/x^2", "1/1000", x0=0, which="regular", digits=15)
+    assert value.digits >= 15

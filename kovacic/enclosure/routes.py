@@ -8,7 +8,8 @@ is given up where Taylor's method would be through; an equation given as text ha
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import pairwise
 
 from flint import acb, acb_poly, arb
@@ -36,9 +37,10 @@ _WORTH = 1.0  # milliseconds that Taylor's method takes where a closed form is s
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
+_HELPS = 0.9  # to half a step the growth falls by more
 _LOG_2 = 0.69
 _MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
-_SEARCH = 0.6  # what it may take of them: before it the equation was decided
+_SEARCH = 0.6  # what it may take of them where the equation was decided before it
 _BITS = 64
 
 
@@ -115,7 +117,8 @@ def _functions(journey: Journey, foreseen: Foreseen) -> ChosenForm | None:
     from_zero = isinstance(journey.start.place, Singular)
     if not (from_zero or foreseen.reaches(_WORTH)):
         return None
-    classical = journey.classical(int(_SEARCH * foreseen.price(_MOST_SEARCH) / prices.UNIT))
+    share = 1.0 if from_zero else _SEARCH
+    classical = journey.classical(int(share * foreseen.price(_MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
     return ChosenForm(classical) if from_zero else foreseen.choice(classical)
@@ -184,17 +187,39 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
         while gone < length:
             with working_precision(_BITS):
                 x = start + direction * gone
-                radii = [abs(x - pole).mid() * _SHARE for pole in poles]
+                radii = _radii(x, poles)
                 rate = _rate(num, den, x)
                 if rate > 0:
                     radii.append(growth / rate)
                 step = min([*radii, (length - gone).mid()])
-                while step > 0 and _rate(num, den, x + direction * 2 * step) * step > growth:
-                    step /= 2
+                step = _within(growth, step, partial(_rate_beyond, num, den, x, direction))
                 gone = (gone + 2 * step).mid()
             if not step > 0:
                 return
             yield step
+
+
+def _radii(x: acb, poles: Sequence[acb]) -> list[arb]:
+    """Of discs around x, by the distances of singular points; around one of them, where a solution starts, by the others."""
+    distances = [abs(x - pole) for pole in poles]
+    return [distance.mid() * _SHARE for distance in distances if not distance.contains(0)]
+
+
+def _within(growth: float, step: arb, rate: Callable[[arb], arb]) -> arb:
+    """The step, halved until a solution grows no more at its far end; or as long as that helps: beside a pole it doesn't."""
+    grown = rate(2 * step) * step
+    while step > 0 and grown > growth:
+        step /= 2
+        before = grown
+        grown = rate(2 * step) * step
+        if not grown < before * _HELPS:
+            break
+    return step
+
+
+def _rate_beyond(num: acb_poly, den: acb_poly, x: acb, direction: acb, distance: arb) -> arb:
+    """So far from x."""
+    return _rate(num, den, x + direction * distance)
 
 
 def _rate(num: acb_poly, den: acb_poly, x: acb) -> arb:
