@@ -15,7 +15,7 @@ from documents import PAGES, ROOT, check_command, check_links, check_python, ses
 import kovacic
 
 #: Modules that the scripts import.
-BENCHMARK_PARTS = {"frame", "families", "stability_families", "textbook", "dsolve_problems"}
+BENCHMARK_PARTS = {"frame", "families", "stability_families", "textbook_equations", "dsolve_problems"}
 SESSIONS = sessions(*PAGES)
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
