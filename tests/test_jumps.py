@@ -136,3 +136,27 @@ def test_an_impulse_where_only_the_coordinate_is_singular() -> None:
     response = found.xreplace(dict.fromkeys(found.free_symbols - {t}, sympy.Integer(0)))
     assert response.subs(t, -1) == 0
     assert response.subs(t, 1) == sympy.sin(1)
+
+
+@pytest.mark.parametrize(
+    ("cases", "has_a_gap"),
+    [
+        (Piecewise((1, (x > 0) & (x < 1))), True),
+        (Piecewise((1, x < 0), (2, x > 1)), True),
+        (Piecewise((x, x < sympy.Symbol("a", positive=True))), True),
+        (Piecewise((1, sympy.Eq(x, 0)), (2, x > 0)), True),
+        (Piecewise((1, x > 0), (sympy.nan, True)), True),
+        (Piecewise((1, x < 0), (2, x > 0)), False),
+        (Piecewise((1, x <= 0), (2, x >= 0)), False),
+        (Piecewise((1, x < 0), (x, x < 2), (3, True)), False),
+    ],
+    ids=str,
+)
+def test_cases_with_a_gap_are_refused(cases: sympy.Expr, has_a_gap: bool) -> None:
+    """Where no case holds there is no right-hand side; a single point doesn't matter."""
+    equation = sympy.Eq(y(x).diff(x, 2) + y(x), cases)
+    if has_a_gap:
+        with pytest.raises(kovacic.InputError, match="no value where no case holds"):
+            kovacic.dsolve(equation)
+    else:
+        assert kovacic.dsolve(equation).lhs == y(x)

@@ -11,12 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import sympy
 from sympy import DiracDelta, Heaviside
 from sympy.logic.boolalg import And, Or
 
+from kovacic.errors import InputError
 from kovacic.general_solution.steps import JUMPING, place_of, taken_apart, with_single_steps
 
 Expr = Any  # SymPy publishes no types
@@ -280,7 +282,12 @@ def _extremum_near(e: Expr, x: Expr, point: Expr) -> Expr:
 
 
 def _cases(e: Expr, x: Expr) -> Expr | None:
-    """The sum of the cases times the indicators of their conditions, without those before."""
+    """The sum of the cases times the indicators of their conditions, without those before.
+
+    Raises `InputError` where the function has no value, because no case holds.
+    """
+    if not _has_a_case_everywhere(e, x):
+        raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
     total = sympy.Integer(0)
     rest = sympy.Integer(1)
     for value, condition in e.args:
@@ -292,13 +299,37 @@ def _cases(e: Expr, x: Expr) -> Expr | None:
     return total
 
 
+def _has_a_case_everywhere(e: Expr, x: Expr) -> bool:
+    """Does some condition hold at each x, but for single points?  With parameters that is tried at one value of each."""
+    if any(value is sympy.nan for value, _ in e.args):
+        return False
+    values = {parameter: _some_value(parameter) for parameter in e.free_symbols - {x}}
+    somewhere = sympy.Or(*(condition for _, condition in e.args)).subs(values)
+    if somewhere in (True, False):
+        return bool(somewhere)
+    borders = set().union(*(sympy.solve(border.subs(values), x) for border in _borders_of_cases(e)))
+    ordered = sorted(border for border in borders if border.is_real)
+    if not ordered:
+        return True
+    between = [(left + right) / 2 for left, right in pairwise(ordered)]  # where conditions are constant
+    points = [ordered[0] - 1, *between, ordered[-1] + 1]
+    return all(somewhere.subs(x, point) != sympy.false for point in points)
+
+
+def _some_value(parameter: Expr) -> Expr:
+    """A number that the parameter may be."""
+    size = sympy.Integer(2) if parameter.is_integer else sympy.Rational(7, 5)
+    return -size if parameter.is_negative else size
+
+
 def _borders_of_cases(e: Expr) -> list[Expr]:
     relations = set().union(*(condition.atoms(sympy.core.relational.Relational) for _, condition in e.args))
     return [relation.lhs - relation.rhs for relation in relations]
 
 
 def _case_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    return next(value for value, condition in e.args if condition.subs(x, point) == True)  # noqa: E712
+    """The cases of which one holds everywhere."""
+    return next(value for value, condition in e.args if condition.subs(x, point) == sympy.true)
 
 
 def _indicator(condition: Expr, x: Expr) -> Expr | None:
