@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 import pytest
 import strategies
 import transform
-from build import QQ, Budget, RatFunc, analyse
+from build import QQ, Budget, RatFunc, analyse, function
 from forged import inspector
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
@@ -126,6 +127,26 @@ def _residue(M: Any, p: Any, nu: int) -> Any:
     for _ in range(nu):
         series = [sum((series[i] * inverse[k - i] for i in range(k + 1)), M * 0) % p for k in range(nu)]
     return series[nu - 1]
+
+
+@settings(max_examples=15)
+@given(
+    st.sampled_from(["x", "x", "sqrt(2)*x"]),
+    st.dictionaries(st.integers(-6, 6), st.integers(1, 7), min_size=2, max_size=5),
+    st.lists(st.integers(-9, 9), min_size=1, max_size=9),
+    st.integers(1, 5),
+)
+def test_the_kernel_expands_at_many_poles_of_any_orders(t: str, poles: Any, quotient: Any, rest: int) -> None:
+    """S = N/(p^k q) + O(p^(nu - k)): N den - num p^k q has the factor p^(k + nu), whichever way N and q were found."""
+    t = function(t).num
+    den = prod(((t - c) ** order for c, order in poles.items()), start=t**0)
+    num = den.field.poly(quotient) * den + rest
+    finite = [point for point in inspector(RatFunc(num, den)).points if not point.at_infinity]
+    assert sorted(point.order for point in finite) == sorted(poles.values())
+    for point in finite:
+        p, k = point.factor, point.order
+        N, q = point.near
+        assert not (N * den - num * p**k * q) % p ** (k + max(k // 2, 1))
 
 
 @pytest.mark.parametrize("k", range(3, 10))

@@ -183,13 +183,25 @@ class Expansions:
 
     @cached_property
     def together(self) -> dict[Poly, tuple[Poly, Poly]]:
-        """By the remainders modulo products of the factors."""
-        nus = [max(order // 2, 1) for _, order in self.factors]
-        above = _remainders(self.S.num, [p**nu for (p, _), nu in zip(self.factors, nus, strict=True)])
-        below = _remainders(self.S.den, [p ** (order + nu) for (p, order), nu in zip(self.factors, nus, strict=True)])
+        """All of them, order by order: the numbers of their product are much shorter than those of its power in den."""
         found = {}
-        for (p, order), N, rest in zip(self.factors, above, below, strict=True):
-            found[p] = (N, rest // p**order)
+        for order in {order for _, order in self.factors}:
+            places = [p for p, other in self.factors if other == order]
+            found.update(self._of_order(places, order))
+        return found
+
+    def _of_order(self, places: list[Poly], order: int) -> dict[Poly, tuple[Poly, Poly]]:
+        """With den = P^order R, P the product of the places: q = (P/p)^order R."""
+        nu = max(order // 2, 1)
+        P = product(places)
+        R = self.S.den // P**order
+        moduli = [p**nu for p in places]
+        nums = _remainders(self.S.num, moduli)
+        outer = _remainders(R, moduli)
+        inner = _remainders(P, [p ** (nu + 1) for p in places])
+        found = {}
+        for p, modulus, N, far, near in zip(places, moduli, nums, outer, inner, strict=True):
+            found[p] = (N, _power_modulo(near // p, order, modulus) * far % modulus)
         return found
 
 
@@ -202,6 +214,16 @@ def _remainders(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
     first = polynomial % product(moduli[:half])
     second = polynomial % product(moduli[half:])
     return [*_remainders(first, moduli[:half]), *_remainders(second, moduli[half:])]
+
+
+def _power_modulo(base: Poly, exponent: int, modulus: Poly) -> Poly:
+    """By squares: no power is longer than twice the modulus."""
+    power = base**0
+    for digit in f"{exponent:b}":
+        power = power * power % modulus
+        if digit == "1":
+            power = power * base % modulus
+    return power
 
 
 def has_no_series(M: Any, E: Any, n: int) -> bool:
