@@ -13,6 +13,7 @@ import kovacic
 
 x = sympy.Symbol("x", real=True)
 y = sympy.Function("y")
+A = sympy.Symbol("a", real=True)
 
 #: Coefficients b, c of y'' + b y' + c y.
 EQUATIONS = [(0, 1), (3, 2), (2 / x, 1), (1 / x, -4 / x**2), (0, -(x**2) - 3)]
@@ -160,3 +161,33 @@ def test_cases_with_a_gap_are_refused(cases: sympy.Expr, has_a_gap: bool) -> Non
             kovacic.dsolve(equation)
     else:
         assert kovacic.dsolve(equation).lhs == y(x)
+
+
+@parametrize(
+    "f",
+    [
+        Heaviside(x - A),
+        DiracDelta(x - A),
+        sympy.exp(-x) * Heaviside(x - A),
+        x * Heaviside(A - x),
+        Heaviside(2 * A - 2 * x) + DiracDelta(x - A) / 3,
+        sympy.Abs(x - A),
+        Heaviside(x - A) - Heaviside(x - A - 1),
+        DiracDelta(x - A) - 2 * DiracDelta(x - 1),
+        DiracDelta(x - A, 1),
+        DiracDelta(x - A, 2),
+        Piecewise((x, x < A), (1, True)),
+    ],
+    ordinary=2,
+)
+@pytest.mark.parametrize("left", [(0, 1), (3, 2)])
+def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, Any]) -> None:
+    """At every value of a, before the given point, behind it and there, the answer with a is the one for that value."""
+    b, c = map(sympy.sympify, left)
+    start = sympy.Integer(2)
+    ics = {y(start): 1, y(x).diff(x).subs(x, start): -2}
+    found = kovacic.dsolve(sympy.Eq(applied(b, c, y(x)), f), y(x), ics=ics).rhs
+    assert not found.atoms(DiracDelta)
+    for value in (sympy.Rational(1, 2), sympy.Integer(1), start, sympy.Rational(7, 2)):
+        member = kovacic.dsolve(sympy.Eq(applied(b, c, y(x)), f.subs(A, value)), y(x), ics=ics).rhs
+        agree(found.subs(A, value), member, [sympy.Rational(k, 7) for k in (-3, 5, 10, 18, 30)])

@@ -71,7 +71,7 @@ class _Evaluator(BallEvaluator):
         if _is_antiderivative(e):
             slope = _lifted(self(e.diff(next(iter(self.values)))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
-        if isinstance(e, sympy.Abs | sympy.sign):
+        if isinstance(e, sympy.Abs | sympy.sign | sympy.Heaviside):
             return self._of_sign(e)
         if self._is_unknown(e):
             return parameter_value(str(e))
@@ -118,7 +118,7 @@ class _Evaluator(BallEvaluator):
         return _taylor(z, values[:3])
 
     def _of_sign(self, e: Any) -> BallValue:
-        """|f| or the sign of f: for a function of the variable, near a point where it isn't zero, and real."""
+        """|f|, the sign of f or the step H(f): for a function of the variable, near a point where it isn't zero, and real."""
         value = self(e.args[0])
         middle = value if isinstance(value, acb) else value[0]
         if isinstance(value, acb) and isinstance(e, sympy.Abs):
@@ -128,6 +128,8 @@ class _Evaluator(BallEvaluator):
         sign = 1 if middle.real > 0 else -1
         if isinstance(e, sympy.Abs):
             return value * sign
+        if isinstance(e, sympy.Heaviside):
+            return acb(max(sign, 0))
         return acb(sign)
 
     def _roots(self, polynomial: Any) -> list[Acb]:

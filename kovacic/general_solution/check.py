@@ -340,8 +340,21 @@ def _is_violated(question: Question, value: Expr, condition: Condition, numbers:
     total = total.xreplace(numbers)
     unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
     letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
+    total = total.xreplace(letters)
+    return any(_is_not_zero(total.xreplace(sample)) for sample in _on_both_sides(total))
+
+
+def _on_both_sides(total: Expr) -> Iterator[dict[Expr, Expr]]:
+    """Values of the parameters, where a step depends on them: on either side of it as a rule."""
+    steps = total.atoms(sympy.Heaviside)
+    symbols = set().union(*(step.free_symbols for step in steps))
+    return islice(samples(symbols), _SAMPLES if symbols else 1)
+
+
+def _is_not_zero(number: Expr) -> bool:
+    """Seen by its value, that of a parameter being one that isn't special.  Raises as `_is_wrong_at` does."""
     with ctx.workdps(2 * DIGITS):
-        found = jet(total.xreplace(letters), sympy.Dummy(), acb(0))[0]
+        found = jet(number, sympy.Dummy(), acb(0))[0]
         if not found.is_finite():
             raise NotImplementedError("a value isn't finite")
         return bool(abs(found) > _SMALL)

@@ -9,8 +9,9 @@ import sympy
 
 from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.expansion import UnknownBehaviour
+from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value
-from kovacic.general_solution.zero import Zero, agree, when_zero
+from kovacic.general_solution.zero import Zero, agree, is_zero, when_zero
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -36,7 +37,7 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     e = sympy.sympify(expression, strict=True)
     if not e.has_free(x):
         return _ZERO if order else e
-    e = _before_jumps(e, x, point)
+    e = _with_constant_jumps(e, x, point, order)
     if order:
         e = e.diff(x)
     value = finite_value(e, x, point)
@@ -48,12 +49,46 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     return value
 
 
-def _before_jumps(e: Expr, x: Expr, point: Expr) -> Expr:
-    """With 0 for steps and impulses at the point."""
-    jumps = e.atoms(sympy.Heaviside, sympy.DiracDelta)
+def _with_constant_jumps(e: Expr, x: Expr, point: Expr, order: int) -> Expr:
+    """With the values that steps and impulses have just before the point: neither has a slope there."""
+    jumps = [jump for jump in e.atoms(sympy.Heaviside, sympy.DiracDelta) if jump.has(x)]
     if not jumps:
         return e
-    return e.xreplace({jump: _ZERO for jump in jumps if jump.args[0].subs(x, point) == 0})
+    return e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in jumps})
+
+
+def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
+    """The value of a step or an impulse just before the point; as H(u, 0) where parameters may put the point on the step."""
+    if isinstance(jump, sympy.DiracDelta):
+        return _ZERO
+    u = sympy.expand(jump.args[0].subs(x, point))
+    at_the_jump = _value_before(jump, x)
+    if u == 0:
+        return at_the_jump
+    step = sympy.Heaviside(u)
+    if not isinstance(step, sympy.Heaviside) or _is_smooth_across(e, jump, x, order):
+        return step
+    return sympy.Heaviside(u, at_the_jump)
+
+
+def _value_before(step: Expr, x: Expr) -> Expr:
+    """That of H(s (x - a)) just before a: 1 where s is negative."""
+    place = place_of(step, x)
+    if place is not None and place.slope.is_negative:
+        return sympy.Integer(1)
+    return _ZERO
+
+
+def _is_smooth_across(e: Expr, step: Expr, x: Expr, order: int) -> bool:
+    """Has the function, or its slope, no jump where the step has one?"""
+    place = place_of(step, x)
+    if place is None:
+        return False
+    jump = e.xreplace({step: sympy.Integer(1)}) - e.xreplace({step: _ZERO})
+    if order:
+        jump = jump.diff(x)
+    value = finite_value(jump, x, place.a)
+    return value is not None and is_zero(value)
 
 
 def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
