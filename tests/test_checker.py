@@ -524,7 +524,6 @@ def test_another_group_on_a_curve_of_genus_two_is_refuted(change: dict[str, Any]
     assert checker.verdict(json.dumps(data)).startswith("refuted: ")
 
 
-@pytest.mark.long
 def test_a_power_of_the_function_doesnt_make_the_order_larger() -> None:
     """Of (y - 1)^2/x^5, and of a function in three pieces, one of them with an odd exponent and a norm that isn't constant."""
     x = RatFunc(QQ.poly([0, 1]))

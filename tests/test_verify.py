@@ -18,6 +18,7 @@ from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, verify
 from flint import nmod_poly
 from forged import (
     GroupClaim,
+    Inspector,
     NoInvariant,
     NoRationalOmega,
     Rule,
@@ -411,6 +412,18 @@ def test_a_prime_at_which_two_places_meet_shows_nothing() -> None:
         evidence = (NoInvariant(2), NoRationalOmega(largest, 101, name))
         assert not kernel.excludes(Structure.REDUCIBLE, evidence)
         assert not kernel.holds(evidence[1], Structure.REDUCIBLE)
+
+
+def test_only_an_odd_prime_at_which_the_exponents_differ_shows_that_there_is_no_omega() -> None:
+    """(7 x^2 + 1)^2 + 14 x + 1 has the leading coefficient 49, 0 modulo 7, where the two formal solutions are one."""
+    kernel = inspector((7 * X**2 + 1) ** 2 + 14 * X + 1)
+    largest = kernel.zero_counts.largest
+    usable = [prime for prime in (-7, 0, 1, 2, 7, 9, 101, 2**61 - 1) if shows_no_omega(kernel, largest, prime)]
+    assert usable == [101, 2**61 - 1]
+
+
+def shows_no_omega(kernel: Inspector, largest: int, prime: int) -> bool:
+    return kernel.holds(NoRationalOmega(largest, prime, "infinity"), Structure.REDUCIBLE)
 
 
 @pytest.mark.parametrize(
