@@ -515,3 +515,28 @@ def test_a_right_hand_side_that_is_another_function(right: str) -> None:
         own = mpmath.odefun(lambda t, s: [s[1], f(t) - mpmath.exp(t) * s[0]], 1, [0, 0])(2)[0]
     assert abs(float(value) - float(own)) < 1e-14
     assert kovacic.tabulate(equation, 1, 2, **start)(2.0) == pytest.approx(float(own), rel=1e-14)
+
+
+NOT_ALGEBRAIC = [
+    f"{number}*{factor}"
+    for number in ("pi", "e", "log(2)", "2^pi", "(pi + sqrt(2))")
+    for factor in ("1", "exp(x)", "(1 + exp(2*x))", "exp(a)")
+]
+
+
+@pytest.mark.parametrize("coefficient", ["2 + cos(x)", "pi*exp(x)", "sinh(2*x)"])
+@parametrize("right", NOT_ALGEBRAIC, ordinary=3)
+def test_numbers_on_the_right_that_are_not_algebraic_are_read(coefficient: str, right: str) -> None:
+    """It ended in an AssertionError: such numbers are no constants of the equation in exp(x)."""
+    equation = kovacic.solve(f"y'' + ({coefficient})*y = {right}").equation
+    assert not equation.is_homogeneous
+    assert equation.S == kovacic.solve(f"y'' + ({coefficient})*y = 0").equation.S
+
+
+@parametrize("right", NOT_ALGEBRAIC, ordinary=0, long=4)
+def test_solutions_with_numbers_on_the_right_that_are_not_algebraic(right: str) -> None:
+    found = kovacic.dsolve(f"y'' - y' + exp(2*x)*y = {right}").rhs
+    values = {"C1": 2, "C2": 3, "a": sympy.Rational(1, 4)}
+    left = found.diff(x, 2) - found.diff(x) + sympy.exp(2 * x) * found
+    residual = left - sympy.sympify(right.replace("e*", "E*"))
+    assert abs(sympy.N(residual.subs(values).subs(x, sympy.Rational(3, 4)), 20)) < 1e-15

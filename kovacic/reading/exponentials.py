@@ -40,11 +40,18 @@ from kovacic.reading.source import Source, read_source, source_of
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
+class _ReadEquation(NamedTuple):
+    """An equation, and what the user should know about how it was read."""
+
+    equation: Equation
+    notices: tuple[str, ...]
+
+
 def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None for any other input.
 
-    What isn't rational in exp(k x) on the right-hand side is kept as the equation's h.  Raises `NotRational` where x occurs
-    beside exp(k x), and for rates whose quotient isn't rational.
+    What isn't rational in exp(k x) on the right-hand side is kept as the equation's h, and with numbers that aren't algebraic
+    all of it.  Raises `NotRational` where x occurs beside exp(k x), and for rates whose quotient isn't rational.
     """
     x = sympy.Symbol(source.variable)
     parts, notices = parts_of(source, limits)
@@ -64,11 +71,12 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     unknown = source.unknown or UNKNOWN
     t = new_variable((a, b, c, rest, k), {x.name, unknown})
     Y = sympy.Function(f"{unknown}_")(t)
-    whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest  # (1)
-    read = read_source(source_of(whole.xreplace({T: t}), None, equation=True), limits)
-    assert read.equation is not None
-    assert read.equation.h is None
-    best = _best(read.equation, k, x + common.offset)
+    left = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y  # (1)
+    equation, said = _read_in(t, (left + rest).xreplace({T: t}), limits)
+    if equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
+        h = -parts[3]
+        equation, said = _read_in(t, left.xreplace({T: t}), limits)
+    best = _best(equation, k, x + common.offset)
     p, q, f = best.monic
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     p = p * denominator
@@ -76,7 +84,14 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     f = f * denominator
     expression = as_text(best.function)
     result = Equation(denominator, p, q, f, h and h / parts[0], t.name, unknown, Change(x.name, expression))
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
+    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *said), result)
+
+
+def _read_in(t: Any, expression: Any, limits: Limits) -> _ReadEquation:
+    """The equation that says that an expression with an unknown function of t is zero."""
+    read = read_source(source_of(expression, t.name, limits, equation=True), limits)
+    assert read.equation is not None
+    return _ReadEquation(read.equation, read.notices)
 
 
 def _common_power_of_parts(parts: list[Any], x: Any, T: Any) -> CommonPower | None:
