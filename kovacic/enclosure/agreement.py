@@ -23,12 +23,13 @@ References: M. van der Put and M. F. Singer, "Galois Theory of Linear Differenti
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum, auto
 from fractions import Fraction
 from itertools import combinations
 
-from flint import acb, acb_mat, arb, fmpq
+from flint import acb, acb_mat, arb, fmpq, fmpz
 
 from kovacic import derived
 from kovacic.answer import Answer
@@ -47,6 +48,8 @@ _TWO = acb(2)
 _HIGHEST_ORDER = 120  # eigenvalues are compared with roots of unity up to this order
 _DIAGONAL = (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE)
 _TRIANGULAR = (*_DIAGONAL, GroupKind.ADDITIVE, GroupKind.BOREL)
+#: The eigenvalues are roots of unity of one order, which is the group's n.
+_WITH_ROOTS_OF_UNITY = (GroupKind.CYCLIC, GroupKind.ADDITIVE)
 _IMPRIMITIVE = (GroupKind.DICYCLIC, GroupKind.INFINITE_DIHEDRAL, GroupKind.IMPRIMITIVE)
 #: The number of elements of trace 2 cos(2 pi angle) by the angle, at most 1/2.
 _PRIMITIVE = {
@@ -135,11 +138,19 @@ def _angles(group: Group) -> dict[Fraction, int] | None:
         return {Fraction(angle): count for angle, count in _PRIMITIVE[group.kind].items()}
     if group.order is None or group.n is None or group.order > _LARGEST:
         return None
-    n = group.n if group.kind is GroupKind.CYCLIC else 2 * group.n
-    found = Counter(min(Fraction(k, n), 1 - Fraction(k, n)) for k in range(n))
-    if group.kind is GroupKind.DICYCLIC:
-        found[Fraction(1, 4)] += n
-    return dict(found)
+    if group.kind is GroupKind.CYCLIC:
+        return _angles_of_roots(group.n)
+    # Dicyclic: the roots of unity of order 2 n, and as many elements of order 4.
+    found = _angles_of_roots(2 * group.n)
+    quarter = Fraction(1, 4)
+    found[quarter] = found.get(quarter, 0) + 2 * group.n
+    return found
+
+
+def _angles_of_roots(n: int) -> dict[Fraction, int]:
+    """The angles of the n-th roots of unity; a root and its inverse have one."""
+    turns = [Fraction(k, n) for k in range(n)]
+    return dict(Counter(min(turn, 1 - turn) for turn in turns))
 
 
 def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Group) -> Agreement:
@@ -178,20 +189,33 @@ class _Enumeration:
         angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
         if not angles:
             return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
-        quotients = {self._kind(candidate * _inverse(element)) for element in self.elements}
-        if _Element.UNIPOTENT in quotients:
+        beside_known = self._beside_known(candidate)
+        if beside_known is _Element.UNIPOTENT:
             return Agreement(False, f"the monodromy group has a unipotent element, unlike {self.group}")
-        is_known = _Element.IDENTITY in quotients
-        is_unclear = _Element.UNCLEAR in quotients and not is_known
-        if is_unclear or len(angles) > 1:
+        if beside_known is _Element.UNCLEAR or len(angles) > 1:
             return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
-        if is_known:
-            return None
-        self.elements.append(candidate)
-        self.found[angles[0]] += 1
+        if beside_known is _Element.OTHER:
+            return self._add_new(candidate, angles[0])
+        return None
+
+    def _add_new(self, element: acb_mat, angle: Fraction) -> Agreement | None:
+        """An element that differs from all the others; a verdict where these are too many then."""
+        self.elements.append(element)
+        self.found[angle] += 1
         if len(self.elements) > self.order:
             return Agreement(False, f"the monodromy group has more elements than {self.group}")
         return None
+
+    def _beside_known(self, candidate: acb_mat) -> _Element:
+        """What the quotients of a matrix by the known elements are: the first of these kinds that is among them.
+
+        The identity comes before what is unclear: an element that is known is no other one.
+        """
+        quotients = {self._kind(candidate * _inverse(element)) for element in self.elements}
+        for kind in (_Element.UNIPOTENT, _Element.IDENTITY, _Element.UNCLEAR):
+            if kind in quotients:
+                return kind
+        return _Element.OTHER
 
     def _kind(self, element: acb_mat) -> _Element:
         """Which an element is whose trace is one of these."""
@@ -200,7 +224,9 @@ class _Enumeration:
             return _Element.OTHER
         if any(trace.overlaps(value) for angle, value in self.traces.items() if angle):
             return _Element.UNCLEAR
-        return _Element.IDENTITY if _may_be_identity(element) else _Element.UNIPOTENT
+        if _may_be_identity(element):
+            return _Element.IDENTITY
+        return _Element.UNIPOTENT
 
     def verdict(self) -> Agreement:
         """That on all elements: no product of generators is a new one."""
@@ -223,14 +249,14 @@ class _Possible:
 
     @classmethod
     def of(cls, words: list[acb_mat]) -> _Possible:
-        commutators = [_commutator(a, b) for a, b in combinations(words, 2)]
-        of_squares = [_commutator(a**2, b**2) for a, b in combinations(words, 2)]
+        commutators = _commutators(words)
+        of_squares = _commutators([word**2 for word in words])
         return cls(
             words,
             commutators,
-            commuting=all(_may_be_identity(c) for c in commutators),
+            commuting=_may_be_identities(commutators),
             reducible=all(c.trace().overlaps(_TWO) for c in commutators),
-            monomial=all(_may_be_identity(c) for c in of_squares),
+            monomial=_may_be_identities(of_squares),
         )
 
     def torsion(self) -> bool:
@@ -239,9 +265,8 @@ class _Possible:
 
     def primitive(self) -> bool:
         """Is one of the three finite groups possible?"""
-        products = [a * b for a, b in combinations(self.words, 2)]
-        longer = [*self.words, *self.commutators, *products]
-        return any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
+        longer = [*self.words, *self.commutators, *_products(self.words)]
+        return any(_may_lie_in(longer, kind) for kind in _PRIMITIVE)
 
 
 def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
@@ -251,14 +276,19 @@ def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreem
     if contradiction is not None:
         return Agreement(False, f"{contradiction} {group}")
     if group.kind is GroupKind.SL2:
-        if possible.reducible or possible.monomial or possible.primitive():
-            return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
-        return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
+        return _density(possible)
     if not fuchsian:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
     if _may_be_smaller(possible, group):
         return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
     return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
+
+
+def _density(possible: _Possible) -> Agreement:
+    """Is the monodromy dense in SL2, that is in no proper algebraic subgroup?"""
+    if possible.reducible or possible.monomial or possible.primitive():
+        return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
+    return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
 
 
 def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | None:
@@ -269,11 +299,16 @@ def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | N
         return "the monodromy matrices don't commute, unlike"
     if group.kind in _IMPRIMITIVE and not possible.monomial:
         return "the squares of the monodromy matrices don't commute, unlike those of"
-    if group.n is None or group.kind not in (GroupKind.CYCLIC, GroupKind.ADDITIVE):
-        return None
-    if not all(_may_have_order(word, group.n) for word in possible.words):
+    if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
+        return _contradiction_of_order(possible.words, group.n, fuchsian)
+    return None
+
+
+def _contradiction_of_order(words: list[acb_mat], n: int, fuchsian: bool) -> str | None:
+    """The same for a group whose eigenvalues are the n-th roots of unity."""
+    if not all(_may_have_order(word, n) for word in words):
         return "an eigenvalue of a monodromy matrix isn't a root of unity of"
-    if fuchsian and _is_proper_order(possible.words, group.n):
+    if fuchsian and _is_proper_order(words, n):
         return "the eigenvalues of the monodromy matrices have a lower order than those of"
     return None
 
@@ -283,14 +318,19 @@ def _may_be_smaller(possible: _Possible, group: Group) -> bool:
     if group.kind is GroupKind.MULTIPLICATIVE:
         return possible.torsion()
     if group.kind is GroupKind.ADDITIVE:
-        order = group.n or 1
-        unipotent = order >= _LARGEST_POWER or all(_may_be_identity(word**order) for word in possible.words)
-        return possible.commuting and unipotent
+        return possible.commuting and _may_have_trivial_powers(possible.words, group.n or 1)
     if group.kind is GroupKind.BOREL:
         return possible.commuting or possible.torsion()
     if group.kind is GroupKind.INFINITE_DIHEDRAL:
         return possible.reducible or possible.torsion()
     return True  # of the others nothing is tried
+
+
+def _may_have_trivial_powers(words: list[acb_mat], n: int) -> bool:
+    """Can all the n-th powers be 1?"""
+    if n >= _LARGEST_POWER:
+        return True
+    return _may_be_identities(word**n for word in words)
 
 
 def _may_have_finite_order(m: acb_mat) -> bool:
@@ -309,12 +349,8 @@ def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
     if n > _LARGEST:
         return False
-    prime_divisors = [p for p in range(2, n + 1) if n % p == 0 and _is_prime(p)]
+    prime_divisors = [int(p) for p, _ in fmpz(n).factor()]
     return any(_have_order(words, n // p, p) for p in prime_divisors)
-
-
-def _is_prime(p: int) -> bool:
-    return all(p % q for q in range(2, p))
 
 
 def _have_order(words: list[acb_mat], k: int, p: int) -> bool:
@@ -328,16 +364,31 @@ def _have_order(words: list[acb_mat], k: int, p: int) -> bool:
 
 def _words(generators: list[acb_mat]) -> list[acb_mat]:
     """The generators and their products in pairs; with one generator, itself and its square."""
-    products = [a * b for a, b in combinations(generators, 2)] or [g**2 for g in generators]
-    return [*generators, *products][: max(_WORDS, len(generators))]
+    longer = _products(generators)
+    if len(generators) == 1:
+        longer = [generators[0] ** 2]
+    return [*generators, *longer][: max(_WORDS, len(generators))]
 
 
-def _commutator(a: acb_mat, b: acb_mat) -> acb_mat:
-    return a * b * _inverse(a) * _inverse(b)
+def _products(words: list[acb_mat]) -> list[acb_mat]:
+    return [a * b for a, b in combinations(words, 2)]
+
+
+def _commutators(words: list[acb_mat]) -> list[acb_mat]:
+    return [a * b * _inverse(a) * _inverse(b) for a, b in combinations(words, 2)]
 
 
 def _may_be_identity(m: acb_mat) -> bool:
     return bool(m.overlaps(acb_mat([[1, 0], [0, 1]])))
+
+
+def _may_be_identities(matrices: Iterable[acb_mat]) -> bool:
+    return all(map(_may_be_identity, matrices))
+
+
+def _may_lie_in(matrices: Iterable[acb_mat], kind: GroupKind) -> bool:
+    """Can all these matrices be elements of this primitive group?"""
+    return all(_may_be_in(m, kind) for m in matrices)
 
 
 def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:
