@@ -85,14 +85,31 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
         return sympy.exp(sympy.log(power.base) * power.exp, evaluate=False)
 
     def is_shifted(e: Expr) -> bool:
-        known = isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction)
-        return known and e.has(x) and e.args[0].expand().as_independent(x, as_Add=True)[0] != 0
+        if not isinstance(e, _EXPONENTIALS_AND_WAVES) or not e.has(x):
+            return False
+        return bool(_shifted(e.args[0], x).constant != 0)
 
     def apart(e: Expr) -> Expr:
-        constant, rest = e.args[0].expand().as_independent(x, as_Add=True)
-        return sympy.expand(e.func(inner + shift), trig=True).xreplace({inner: rest, shift: constant})
+        argument = _shifted(e.args[0], x)
+        by_theorem = sympy.expand(e.func(inner + shift), trig=True)
+        return by_theorem.xreplace({inner: argument.rest, shift: argument.constant})
 
     return part.replace(is_power_of_constant, as_exponential).replace(is_shifted, apart)
+
+
+_EXPONENTIALS_AND_WAVES = (sympy.exp, TrigonometricFunction, HyperbolicFunction)
+
+
+class _Shifted(NamedTuple):
+    """constant + rest, where each term of the rest has x."""
+
+    constant: Expr
+    rest: Expr
+
+
+def _shifted(argument: Expr, x: Expr) -> _Shifted:
+    constant, rest = argument.expand().as_independent(x, as_Add=True)
+    return _Shifted(constant, rest)
 
 
 def _innermost(parts: Sequence[Expr], x: Expr) -> list[Expr]:
@@ -163,10 +180,7 @@ class _LetterTable:
         depending = _depending(kernels)
         if depending:
             return tuple(part.xreplace(depending) for part in parts)
-        values: Meanings = {}
-        for kernel in kernels:
-            if not _is_power(kernel):
-                values[kernel] = self.letter(kernel)
+        values: Meanings = {kernel: self.letter(kernel) for kernel in kernels if not _is_power(kernel)}
         symbols: Meanings = {}
         for base, powers in _by_bases(kernels).items():
             found = self._powers_of(base, powers, replaced=symbols)
@@ -180,21 +194,19 @@ class _LetterTable:
 
         A base that is linear in a symbol which isn't `replaced` yet becomes a power of the letter, and so does the symbol.
         """
+        one = sympy.S.One  # the monomial of base^r, and its rate in the base itself
         exponents = {power: _monomials(power) for power in powers}
         rates = _rates(exponents.values())
         line = None
-        if sympy.S.One in rates:
+        if one in rates:
             line = _solved_for(base, replaced)
         if line is not None:
-            rates[sympy.S.One].append(sympy.S.One)  # that of the base itself
+            rates[one].append(one)
         roots = {monomial: self._root_of(base, monomial, of_monomial) for monomial, of_monomial in rates.items()}
-        found: Meanings = {}
-        for power, terms in exponents.items():
-            found[power] = sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
+        found = {power: _in_roots(roots, terms) for power, terms in exponents.items()}
         if line is None:
             return _PowersInLetters(found, {})
-        value = roots[sympy.S.One].power(sympy.S.One)
-        return _PowersInLetters(found, {line.symbol: line.symbol_for(value)})
+        return _PowersInLetters(found, {line.symbol: line.symbol_for(roots[one].power(one))})
 
     def _root_of(self, base: Expr, monomial: Expr, rates: Sequence[Expr]) -> _RootLetter:
         """A letter by which base^(r m) is rational for each of the rates r of a monomial m."""
@@ -220,6 +232,11 @@ class _RootLetter(NamedTuple):
     def power(self, rate: Expr) -> Expr:
         """base^(rate m)."""
         return self.letter ** (rate / self.unit)
+
+
+def _in_roots(roots: dict[Expr, _RootLetter], terms: dict[Expr, Expr]) -> Expr:
+    """base^(sum of r m) by the roots for the monomials m: the product of the base^(r m)."""
+    return sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
 
 
 class _LinearForm(NamedTuple):
@@ -281,7 +298,9 @@ def _unit(rates: Sequence[Expr]) -> Expr:
     """The greatest common divisor of rational numbers, negative where they all are negative."""
     divisor = reduce(sympy.gcd, rates)
     are_negative = all(rate < 0 for rate in rates)
-    return -divisor if are_negative and divisor > 0 else divisor
+    if are_negative and divisor > 0:
+        return -divisor
+    return divisor
 
 
 def _solved_for(base: Expr, known: Meanings) -> _LinearForm | None:
@@ -301,16 +320,39 @@ def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
     if isinstance(kernel, sympy.log):
         return _log_by_primes(kernel)
     if isinstance(kernel, TrigonometricFunction):
-        return _by_waves(kernel, _of_kind(kernels, TrigonometricFunction), sympy.sin, sympy.cos)
+        return _by_waves(kernel, _of_kind(kernels, TrigonometricFunction), _TRIGONOMETRIC)
     if isinstance(kernel, HyperbolicFunction):
         if _of_kind(kernels, sympy.exp):
             return kernel.rewrite(sympy.exp)
-        return _by_waves(kernel, _of_kind(kernels, HyperbolicFunction), sympy.sinh, sympy.cosh)
+        return _by_waves(kernel, _of_kind(kernels, HyperbolicFunction), _HYPERBOLIC)
     return _power_by_primes(kernel)
 
 
 def _of_kind(kernels: Sequence[Expr], kind: Any) -> list[Expr]:
     return [kernel for kernel in kernels if isinstance(kernel, kind)]
+
+
+@dataclass(frozen=True)
+class _SineAndCosine:
+    """The functions s and c of which the other waves of their kind are quotients, with s^2 = sign (1 - c^2)."""
+
+    sine: Any
+    cosine: Any
+    sign: int
+
+    def quotient(self, wave: Expr) -> Expr:
+        """A wave that is neither, as a quotient of s and c of its argument."""
+        s = self.sine(*wave.args)
+        c = self.cosine(*wave.args)
+        forms = {"tan": s / c, "cot": c / s, "sec": 1 / c, "csc": 1 / s}
+        return forms[wave.func.__name__.removesuffix("h")]
+
+    def square_of_sine(self, argument: Expr) -> Expr:
+        return self.sign * (1 - self.cosine(argument) ** 2)
+
+
+_TRIGONOMETRIC = _SineAndCosine(sympy.sin, sympy.cos, 1)
+_HYPERBOLIC = _SineAndCosine(sympy.sinh, sympy.cosh, -1)
 
 
 def _log_by_primes(logarithm: Expr) -> Expr:
@@ -329,40 +371,38 @@ def _power_by_primes(power: Expr) -> Expr:
     return power
 
 
-def _by_waves(kernel: Expr, waves: Sequence[Expr], sine: Any, cosine: Any) -> Expr:
+def _by_waves(kernel: Expr, waves: Sequence[Expr], pair: _SineAndCosine) -> Expr:
     """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
     (argument,) = kernel.args
-    beside = [wave for wave in waves if wave.args == kernel.args and wave != kernel]
-    of_others = [wave.args[0] for wave in waves if wave.args != kernel.args]
-    if any((argument / other).is_Integer for other in of_others):
+    arguments = {wave.args[0] for wave in waves}
+    if any(_is_multiple(argument, other) for other in arguments):
         return sympy.expand_trig(kernel)
-    if not beside or isinstance(kernel, (sine, cosine)):
+    has_others_beside = any(wave.args == kernel.args and wave != kernel for wave in waves)
+    if not has_others_beside or isinstance(kernel, (pair.sine, pair.cosine)):
         return kernel
-    s = sine(argument)
-    c = cosine(argument)
-    forms = {"tan": s / c, "cot": c / s, "sec": 1 / c, "csc": 1 / s}
-    return forms[kernel.func.__name__.removesuffix("h")]
+    return pair.quotient(kernel)
 
 
-class _Cosine(NamedTuple):
-    """The function c beside a sine s, with s^2 = sign (1 - c^2)."""
-
-    function: Any
-    sign: int
-
-
-_COSINES = {sympy.sin: _Cosine(sympy.cos, 1), sympy.sinh: _Cosine(sympy.cosh, -1)}
+def _is_multiple(argument: Expr, other: Expr) -> bool:
+    """Is it an integral multiple of another argument?"""
+    return bool(argument != other and (argument / other).is_Integer)
 
 
 def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
     """With 1 - cos^2 in the place of sin^2, where sine and cosine of one argument are among the constants; and with sinh^2."""
-    squares: Meanings = {}
-    for wave in kernels:
-        cosine = _COSINES.get(wave.func)
-        if cosine is not None and cosine.function(*wave.args) in kernels:
-            squares[wave] = cosine.sign * (1 - cosine.function(*wave.args) ** 2)
+    squares = _squares_of_sines(kernels)
     lower: Meanings = {}
     for power in part.atoms(sympy.Pow):
         if power.base in squares and power.exp.is_Integer:
             lower[power] = power.base ** (power.exp % 2) * squares[power.base] ** (power.exp // 2)
     return part.xreplace(lower)
+
+
+def _squares_of_sines(kernels: Sequence[Expr]) -> Meanings:
+    """By the sines beside whose cosine they stand, their squares."""
+    squares: Meanings = {}
+    for pair in (_TRIGONOMETRIC, _HYPERBOLIC):
+        for wave in _of_kind(kernels, pair.sine):
+            if pair.cosine(*wave.args) in kernels:
+                squares[wave] = pair.square_of_sine(*wave.args)
+    return squares
