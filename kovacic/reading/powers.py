@@ -12,13 +12,12 @@ coefficients in exp(c u), read by `exponentials`.  x is positive.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import sympy
 
-from kovacic.equation import UNKNOWN, Change, Parsed
+from kovacic.equation import UNKNOWN, Change, Equation, Parsed
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
@@ -40,20 +39,21 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     a, b, c, rest = parts
     if a == 0:
         return None
-    if (b / a).is_rational_function(x) and (c / a).is_rational_function(x):
+    coefficients = (b / a, c / a)
+    if all(coefficient.is_rational_function(x) for coefficient in coefficients):
         return None  # what isn't rational is a constant
     form = _ThetaForm(sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a))
-    functions = (b / a).atoms(*_WAVES) | (c / a).atoms(*_WAVES)
-    waves = [e for e in functions if e.has(x)]
-    found = None
-    with suppress(NotRational):
-        found = _of_waves(form, waves, source, limits) if waves else _of_power(form, source, limits)
-    if found is None or found.equation is None or found.equation.change is None:
+    try:
+        found = _in_a_power(form, _waves_in(coefficients, x), source, limits)
+    except NotRational:
         return None
-    h = None if rest == 0 else sympy.expand(-rest / a)
-    equation = replace(found.equation, h=h)
-    said = f"in {equation.variable} = {found.equation.change.expression}: {equation}"
-    return replace(found, equation=equation, notices=(said, *notices, *found.notices[1:]))
+    if found is None:
+        return None
+    equation = found.equation
+    if rest != 0:
+        equation = replace(equation, h=sympy.expand(-rest / a))
+    said = f"in {equation.variable} = {found.change.expression}: {equation}"
+    return Parsed(equation.S, equation.variable, (said, *notices, *found.notices), equation)
 
 
 class _ThetaForm(NamedTuple):
@@ -63,10 +63,33 @@ class _ThetaForm(NamedTuple):
     Q: Expr
 
 
+class _InPower(NamedTuple):
+    """An equation in a power of x, or in a function of one, and what the user should know about how it was read."""
+
+    equation: Equation
+    change: Change
+    notices: tuple[str, ...]
+
+
 _WAVES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
 
 
-def _of_power(form: _ThetaForm, source: Source, limits: Limits) -> Parsed | None:
+def _waves_in(coefficients: Sequence[Expr], x: Expr) -> list[Expr]:
+    """The exponentials and waves with x in their arguments."""
+    found: set[Expr] = set()
+    for coefficient in coefficients:
+        found |= coefficient.atoms(*_WAVES)
+    return [wave for wave in found if wave.has(x)]
+
+
+def _in_a_power(form: _ThetaForm, waves: Sequence[Expr], source: Source, limits: Limits) -> _InPower | None:
+    """The form (1); with waves of a power in an exponential of it.  None, or `NotRational`, where there is none."""
+    if waves:
+        return _of_waves(form, waves, source, limits)
+    return _of_power(form, source, limits)
+
+
+def _of_power(form: _ThetaForm, source: Source, limits: Limits) -> _InPower | None:
     """In T = x^k: with x = exp(s) for the moment, powers of x are exponentials of s, and T is exp(k s)."""
     x = sympy.Symbol(source.variable)
     s = sympy.Dummy("s")
@@ -85,22 +108,29 @@ def _of_power(form: _ThetaForm, source: Source, limits: Limits) -> Parsed | None
     return _read_in(T, (k**2 * T**2, (k**2 + k * P) * T, Q), x**k, source, limits)
 
 
-def _of_waves(form: _ThetaForm, waves: Sequence[Expr], source: Source, limits: Limits) -> Parsed | None:
+def _of_waves(form: _ThetaForm, waves: Sequence[Expr], source: Source, limits: Limits) -> _InPower | None:
     """In u = x^m, and then in exp(c u)."""
     x = sympy.Symbol(source.variable)
     m = _power_in(waves, x)
     if m is None:
         return None
-    u = sympy.Dummy("u", positive=True)
-    P, Q = (sympy.powdenest(part.subs(x, u ** (1 / m)), force=True) for part in form)
-    monic = [sympy.S.One, sympy.cancel((m**2 + m * P) / (m**2 * u)), sympy.cancel(Q / (m**2 * u**2)), sympy.S.Zero]
-    plain = sympy.Symbol("v") if x.name == "u" else sympy.Symbol("u")
-    inner = source_of_parts([part.xreplace({u: plain}) for part in monic], _renamed(source, plain.name))
+    u = sympy.Symbol("v") if x.name == "u" else sympy.Symbol("u")
+    inner = source_of_parts(_monic_in(form, x, m, u), _renamed(source, u.name))
     found = in_exponentials(inner, limits)
     if found is None or found.equation is None or found.equation.change is None:
         return None
-    change = Change(x.name, as_text(function_of_x(found.equation).subs(plain, x**m)))
-    return replace(found, equation=replace(found.equation, unknown=source.unknown or UNKNOWN, change=change))
+    change = Change(x.name, as_text(function_of_x(found.equation).subs(u, x**m)))
+    equation = replace(found.equation, unknown=source.unknown or UNKNOWN, change=change)
+    return _InPower(equation, change, found.notices[1:])
+
+
+def _monic_in(form: _ThetaForm, x: Expr, m: Expr, u: Expr) -> list[Expr]:
+    """The coefficients of (1) in u = x^m, divided by that of the second derivative."""
+    T = sympy.Dummy("T", positive=True)
+    P, Q = (sympy.powdenest(part.subs(x, T ** (1 / m)), force=True) for part in form)
+    first = sympy.cancel((m**2 + m * P) / (m**2 * T))
+    zeroth = sympy.cancel(Q / (m**2 * T**2))
+    return [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
 
 
 def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
@@ -115,7 +145,9 @@ def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
     if len(exponents) != 1:
         return None
     (m,) = exponents
-    return None if m.has(x) else m
+    if m.has(x):
+        return None
+    return m
 
 
 def _renamed(source: Source, variable: str) -> Source:
@@ -130,7 +162,7 @@ def _in_logarithm(part: Expr, x: Expr, s: Expr) -> Expr:
     return sympy.powsimp(inside.xreplace({x: sympy.exp(s)}), combine="exp")
 
 
-def _read_in(T: Expr, left: Sequence[Expr], value: Expr, source: Source, limits: Limits) -> Parsed | None:
+def _read_in(T: Expr, left: Sequence[Expr], value: Expr, source: Source, limits: Limits) -> _InPower | None:
     """The equation in T = value, with rational coefficients."""
     t = new_variable(left, {source.variable, source.unknown})
     parts = [part.xreplace({T: t}) for part in (*left, sympy.Integer(0))]
@@ -138,4 +170,4 @@ def _read_in(T: Expr, left: Sequence[Expr], value: Expr, source: Source, limits:
     if read.equation is None:
         return None
     change = Change(source.variable, as_text(value))
-    return replace(read, equation=replace(read.equation, change=change), notices=("", *read.notices))
+    return _InPower(replace(read.equation, change=change), change, read.notices)
