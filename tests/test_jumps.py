@@ -191,3 +191,68 @@ def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, 
     for value in (sympy.Rational(1, 2), sympy.Integer(1), start, sympy.Rational(7, 2)):
         member = kovacic.dsolve(sympy.Eq(applied(b, c, y(x)), f.subs(A, value)), y(x), ics=ics).rhs
         agree(found.subs(A, value), member, [sympy.Rational(k, 7) for k in (-3, 5, 10, 18, 30)])
+
+
+@parametrize("s", [sympy.Integer(0), sympy.Rational(3, 2), sympy.Integer(-2), A], ordinary=2)
+@parametrize(
+    ("b", "c", "f", "wanted"),
+    [
+        (0, -1, DiracDelta(x), -sympy.exp(-abs(x)) / 2),
+        (0, -4, DiracDelta(x, 1), sympy.sign(x) * sympy.exp(-2 * abs(x)) / 2),
+        (0, -1, sympy.sign(x), sympy.sign(x) * (sympy.exp(-abs(x)) - 1)),
+        (0, -1, sympy.exp(-abs(x)), -(1 + abs(x)) * sympy.exp(-abs(x)) / 2),
+        (1, -2, DiracDelta(x), -Piecewise((sympy.exp(-2 * x), x > 0), (sympy.exp(x), True)) / 3),
+        (0, -4, sympy.exp(-abs(x)), (sympy.exp(-2 * abs(x)) / 2 - sympy.exp(-abs(x))) / 3),
+    ],
+    ordinary=3,
+)
+def test_bounded_solutions_about_a_source(b: int, c: int, f: Any, wanted: Any, s: Any) -> None:
+    """The bounded solution on the whole line, for a source at any place: its own Green's function, moved there."""
+    equation = sympy.Eq(applied(b, c, y(x)), f.subs(x, x - s))
+    ics = {y(-sympy.oo): "bounded", y(sympy.oo): "bounded"}
+    found = kovacic.dsolve(equation, y(x), ics=ics).rhs
+    values = {A: sympy.Rational(4, 3)}
+    points = [sympy.Rational(k, 7) for k in (-20, -9, -1, 2, 12, 25)]
+    agree(found.subs(values), wanted.subs(x, x - s).subs(values), points)
+
+
+@pytest.mark.parametrize(
+    ("left", "below", "above"),
+    [
+        ("x*y'' + y' - x*y", lambda u: sympy.besseli(0, u), lambda v: sympy.besselk(0, v)),
+        ("y'' - (1 + 2/x^2)*y", lambda u: sympy.cosh(u) - sympy.sinh(u) / u, lambda v: sympy.exp(-v) * (1 + 1 / v)),
+    ],
+)
+def test_green_functions_from_a_singular_point_to_infinity(left: str, below: Any, above: Any) -> None:
+    """-u(x) v(1) below the source at 1 and -u(1) v(x) above it, where the Wronskian there is -1."""
+    found = kovacic.dsolve(f"{left} = DiracDelta(x - 1)", ics="y(0)=bounded, y(oo)=0").rhs
+    found = found.subs(next(iter(found.free_symbols)), x)
+    agree(found, -below(x) * above(1), [sympy.Rational(1, 5), sympy.Rational(4, 5)])
+    agree(found, -below(1) * above(x), [sympy.Rational(6, 5), sympy.Integer(4)])
+
+
+@parametrize(
+    "f",
+    [
+        sympy.exp(-abs(x - A)),
+        sympy.sin(abs(x - 1)),
+        sympy.cos(x * Heaviside(x - 1)),
+        x * sympy.exp(-(x**2) * Heaviside(x)),
+        sympy.exp(-abs(x) - abs(x - 1)),
+        2 ** sympy.sign(x - 1),
+        sympy.exp(-sympy.Max(x, 1)),
+        sympy.cosh(abs(x)) * abs(x - 1),
+        sympy.exp(sympy.sin(sympy.sign(x))),
+    ],
+    ordinary=3,
+)
+def test_functions_of_steps_are_integrated_on_either_side(f: Any) -> None:
+    """No integral is left; y = H u + (1 - H) v, checked at points on all sides."""
+    found = kovacic.dsolve(sympy.Eq(applied(3, 2, y(x)), f), y(x), ics={y(2): 0, y(x).diff(x).subs(x, 2): 1}).rhs
+    assert not found.atoms(sympy.Integral)
+    values = {A: sympy.Rational(4, 3)}
+    found, f = found.subs(values), f.subs(values)
+    for point in (sympy.Rational(-3, 2), sympy.Rational(1, 3), sympy.Rational(7, 6), sympy.Rational(5, 2)):
+        near = found.xreplace({step: step.subs(x, point) for step in found.atoms(Heaviside)})
+        residual = (applied(3, 2, near) - f).subs(x, point)
+        assert abs(residual.evalf(20)) < 1e-12

@@ -121,6 +121,10 @@ class _Expander:
         return self(e.exp * log(e.base)).exp(self.depth)
 
     def _function(self, e: Expr) -> Expansion:
+        if isinstance(e, sympy.Heaviside):
+            return Expansion.constant(_step_at(self(e.args[0])))
+        if isinstance(e, sympy.DiracDelta):
+            return Expansion({})
         if isinstance(e, _HYPERBOLIC):
             return self(e.rewrite(exp))
         if isinstance(e, _QUOTIENTS):
@@ -174,6 +178,18 @@ class _Expander:
             beside = self(error)
             rest += [*beside.terms, *beside.errors]
         return total + Expansion({}, rest)
+
+
+def _step_at(inner: Expansion) -> Expr:
+    """H(u) close to the point, for the expansion of u: 1 or 0 by its sign there."""
+    parts = inner.parts
+    if parts.large or parts.constant == 0:
+        first = inner.leading()
+        m = first.monomial
+        if m.growth or m.k:
+            raise UnknownBehaviour("how a step behaves there isn't known")
+        return sympy.Heaviside(first.coefficient)
+    return sympy.Heaviside(parts.constant)
 
 
 def _rules_near(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:

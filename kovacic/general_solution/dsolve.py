@@ -84,7 +84,8 @@ def dsolve(
         Conditions.  The constants that they determine are found exactly; those that stay are free.
 
         - Values as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text, "y(0)=1, y'(0)=2" or
-          {"y(0)": 1, "y'(0)": 2}, at one point or at several.  At an impulse or a step they are those just before it.
+          {"y(0)": 1, "y'(0)": 2}, at one point or at several.  At an impulse or a step they are those just before it; where
+          a parameter may put it on the point, the answer has Heaviside(u, 0), which is 0 there.
         - Linear conditions: periodic, {y(0): y(2*pi)} or "y'(0)=y'(2*pi)"; Robin's, "y'(0)=h*y(0)".
         - At a singular point, and at oo and -oo, y(a) = v says that y tends to v, and y(a) = "bounded" that y is bounded,
           from the side on which the other points are, else from the right: {"y(0)": "bounded", "y(oo)": 0}.

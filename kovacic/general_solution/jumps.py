@@ -1,6 +1,7 @@
 """Functions that jump, or whose slopes do, as sums of steps H(x - a); and what they are between the jumps.
 
 - |u| = u sign(u), sign(u) = 2 H(u) - 1, max(u, v) = v + (u - v) H(u - v).
+- A function of a step is F(H) = F(0) + (F(1) - F(0)) H.
 - A function given by cases is the sum of its cases times their indicators.
 - For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.
 
@@ -15,7 +16,7 @@ from itertools import pairwise
 from typing import Any
 
 import sympy
-from sympy import DiracDelta, Heaviside
+from sympy import DiracDelta, Heaviside, exp
 from sympy.logic.boolalg import And, Or
 
 from kovacic.errors import InputError
@@ -24,6 +25,19 @@ from kovacic.general_solution.steps import JUMPING, place_of, taken_apart, with_
 Expr = Any  # SymPy publishes no types
 #: The largest degree of a polynomial whose sign is asked for.
 _LARGEST_DEGREE = 8
+#: Functions without singular points on the real line.
+_ANALYTIC = (
+    exp,
+    sympy.sin,
+    sympy.cos,
+    sympy.sinh,
+    sympy.cosh,
+    sympy.tanh,
+    sympy.sech,
+    sympy.atan,
+    sympy.asinh,
+    sympy.erf,
+)
 
 
 @dataclass(frozen=True)
@@ -62,7 +76,42 @@ def in_steps(right: Expr, x: Expr) -> Expr:
         found = found.xreplace(changed)
     if not found.has(*JUMPING):
         return found
-    return with_single_steps(sympy.expand(found))
+    outside = found.replace(lambda e: _is_function_of_steps(e, x), lambda e: _with_steps_outside(e, x))
+    return with_single_steps(sympy.expand(outside))
+
+
+def _is_function_of_steps(e: Expr, x: Expr) -> bool:
+    """Is it a function of something with a step inside, analytic on the whole line on either side of the step?
+
+    sqrt(|x|) isn't: sqrt(-x), which it is on one side, isn't real on the other.
+    """
+    if not _is_function(e) or not any(step.has(x) for step in e.atoms(Heaviside)):
+        return False
+    return all(_keeps_analytic(part) for part in sympy.preorder_traversal(e) if part.has(x))
+
+
+def _is_function(e: Expr) -> bool:
+    """exp, sin and the like, or a power with a positive number for its base."""
+    if e.is_Pow:
+        return bool(e.base.is_positive and e.base.is_number)
+    return isinstance(e, _ANALYTIC)
+
+
+def _keeps_analytic(e: Expr) -> bool:
+    """Is it analytic on the whole line where its arguments are?  A step is a constant on either side."""
+    if e.is_Pow and e.exp.is_Integer:
+        return bool(e.exp.is_positive)
+    return e.is_Symbol or e.is_Add or e.is_Mul or isinstance(e, Heaviside) or _is_function(e)
+
+
+def _with_steps_outside(e: Expr, x: Expr) -> Expr:
+    """F(H) = F(0) + (F(1) - F(0)) H, for one step after the other."""
+    for step in sorted(e.atoms(Heaviside), key=str):
+        if step.has(x):
+            before = e.xreplace({step: sympy.Integer(0)})
+            after = e.xreplace({step: sympy.Integer(1)})
+            e = before + (after - before) * step
+    return e
 
 
 def _innermost_rewritten(e: Expr, x: Expr) -> dict[Expr, Expr]:
