@@ -80,3 +80,84 @@ def test_a_complex_rate() -> None:
 def test_a_line_of_the_output(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["dsolve", "y'' + w^2*y = cos(v*x)"]) == 0
     assert "real and valid for v + w != 0, v - w != 0, w != 0" in capsys.readouterr().out
+
+
+#: Functions that are real and finite on one side of a point, or between two, with SymPy's values.
+CUT = (
+    *(sympy.log, sympy.Ei, sympy.Ci, sympy.asin, sympy.acos, sympy.acosh, sympy.atanh),
+    *(sympy.tan, sympy.sec, sympy.cot, sympy.csc, sympy.coth, sympy.csch, sympy.elliptic_k, sympy.elliptic_e),
+    *(lambda u, power=power: u**power for power in sympy.sympify("1/2, -1/2, 1/3, -2/3, 5/3, -1, -3, pi")),
+    *(lambda u, f=f: f(sympy.Rational(1, 3), u) for f in (sympy.uppergamma, sympy.lowergamma, sympy.legendre)),
+    *(lambda u, f=f: f(0, u) for f in (sympy.bessely, sympy.besselk, sympy.uppergamma)),
+    *(lambda u, f=f: f(sympy.Rational(1, 3), u) for f in (sympy.besselj, sympy.besseli)),
+    *(lambda u, f=f: f(2, u) for f in (sympy.besselj, sympy.yn, sympy.polylog, sympy.legendre)),
+    *(lambda u, m=m: sympy.elliptic_f(sympy.asin(u), m) for m in (-1, 3)),
+    *(lambda u, m=m: sympy.elliptic_e(sympy.asin(u), m) for m in (-1, 3)),
+    *(lambda u, n=n: sympy.elliptic_pi(n, sympy.asin(u), sympy.S.Half) for n in (-2, 3)),
+    *(lambda u, m=m: sympy.assoc_legendre(sympy.Rational(1, 3), m, u) for m in (1, 2)),
+    lambda u: sympy.hyper((1, 2), (sympy.S.Half,), u),
+    lambda u: sympy.hyper((-3, 2), (sympy.S.Half,), u),
+    lambda u: sympy.hyper((1,), (sympy.S.Half,), u),
+    lambda u: sympy.hyper((1, sympy.S.Half), (), u),
+    lambda u: sympy.RootSum(a**5 - a + 1, sympy.Lambda(a, a * sympy.log(u - a)), auto=False),
+)
+NUMBERS = [sympy.Rational(n, 2) for n in (-5, -3, -1, 0, 1, 2, 3, 5)]
+
+
+def _holds(found: kovacic.Validity, point: object) -> bool:
+    return all(relation.subs(x, point) == sympy.true for relation in found.real)
+
+
+@parametrize("part", CUT, ordinary=6)
+@pytest.mark.parametrize("argument", [x, (x + 1) / 2])
+def test_a_part_is_real_where_it_is_said(part: Any, argument: Any) -> None:
+    """At numbers where all holds that is needed; and there are such numbers."""
+    value = part(argument)
+    found = kovacic.validity(sympy.Eq(sympy.Function("y")(x), value))
+    points = [point for point in NUMBERS if _holds(found, point)]
+    assert points
+    for point in points:
+        there = value.subs(x, point).evalf(15)
+        assert there.is_finite, (value, point)
+        assert abs(sympy.im(there)) < 1e-10, (value, point, there)
+
+
+@parametrize(
+    "equation",
+    [
+        *("y'' + y = 1/x", "y'' - y = 1/x", "y'' = x^(-1/3)", "y'' = exp(-x)*x^(1/3)"),
+        *("x*(1-x)*y'' + (1/3-2*x)*y' - y = 0", "(1-x^2)*y'' - 2*x*y' + 10/9*y = 0", "y'' = 1/(x^5+x+1)"),
+    ],
+    ordinary=2,
+)
+def test_a_solution_is_real_where_it_is_said(equation: str) -> None:
+    solution = kovacic.dsolve(equation)
+    found = kovacic.validity(solution)
+    value = solution.rhs.subs(dict.fromkeys(solution.rhs.free_symbols - {x}, 1))
+    points = [point for point in NUMBERS if _holds(found, point)]
+    assert 0 < len(points) < len(NUMBERS)
+    for point in points:
+        assert abs(sympy.im(value.subs(x, point).evalf(15))) < 1e-10, point
+
+
+@parametrize(
+    ("equation", "ics", "needed"),
+    [
+        ("y'' = acosh(x)", None, "x - 1 >= 0"),
+        ("y'' = x^x", "y(1)=0, y'(1)=0", "x > 0"),
+        ("y'' = exp(x)/sqrt(x^3+1)", None, "x**3 + 1 > 0"),
+    ],
+    ordinary=1,
+)
+def test_integrals_that_stay_need_what_is_integrated(equation: str, ics: str | None, needed: str) -> None:
+    assert str(kovacic.validity(kovacic.dsolve(equation, ics=ics))) == needed
+
+
+def test_a_sum_over_roots_names_no_other_symbol() -> None:
+    """Of the needs of its terms those at the real roots are said: they stood there in the name that is summed over."""
+    found = kovacic.validity(kovacic.dsolve("y'' = 1/(x^5+x+1)"))
+    assert all(relation.free_symbols == {x} for relation in found.real)
+
+
+def test_conjugate_parts_need_only_be_finite() -> None:
+    assert str(kovacic.validity(kovacic.dsolve("y'' + y = exp(x)/x"))) == "x != 0"

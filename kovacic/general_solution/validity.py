@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,7 @@ import sympy
 
 from kovacic.errors import InputError
 from kovacic.general_solution.constants import vanishing_factors
+from kovacic.general_solution.needs import needs_of
 from kovacic.general_solution.substitution import finite_value, size
 
 Expr = Any  # SymPy publishes no types
@@ -19,8 +20,6 @@ _LARGEST = 400
 #: Functions in Wronskians whose zeros are said.
 _ELEMENTARY = {sympy.exp, sympy.sin, sympy.cos, sympy.log}
 _CONSTANT = re.compile(r"C\d+")
-#: Functions with a branch point at z = 0, whatever their order is.
-_BRANCHED = (sympy.bessely, sympy.besselk)
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,9 @@ class Validity:
         """`x > 0, c**2 - 4*k*m != 0`."""
         if sympy.false in self.real:
             return "no value"
-        return ", ".join([*map(_relation_text, self.real), *(f"{e} != 0" for e in self.exceptions)])
+        texts = [_relation_text(relation) for relation in self.real]
+        texts += [f"{e} != 0" for e in self.exceptions]
+        return ", ".join(texts)
 
 
 def _relation_text(relation: Expr) -> str:
@@ -56,9 +57,11 @@ def _relation_text(relation: Expr) -> str:
 def validity(solution: Any) -> Validity:
     """What a solution needs to be real and valid: an interval, and exceptional values of parameters.
 
-    The conditions are read off the formula, part by part: arguments of even roots, of logarithms and of Bessel functions are
-    positive, denominators aren't zero, and the Wronskian of the two solutions isn't.  They are sufficient; where complex parts
-    cancel, they aren't necessary.  What is assumed of symbols is used; `real` is `false` alone where it makes a part complex.
+    The conditions are read off the formula, part by part: arguments of roots, of logarithms and of other functions with a cut
+    lie beside that, denominators aren't zero, and the Wronskian of the two solutions isn't.  Roots are SymPy's: x^(1/3) is
+    complex for x < 0.  They are sufficient for real symbols; where complex parts cancel, they aren't necessary.
+    What is assumed of symbols is used; `real` is `false` alone where it makes a part complex.  That gamma(a) and other
+    functions of parameters alone may have poles isn't said.
 
     Parameters
     ----------
@@ -87,11 +90,11 @@ def validity(solution: Any) -> Validity:
     False
     """
     value, x = _value_and_variable(solution)
-    needed = _apart(_needs(value), x)
-    exceptions: list[Expr] = []
-    for e in (*needed.nonzero, _wronskian(value, x)):
-        exceptions += _exceptions(e)
-    return Validity(_without_weaker(needed.on_x), tuple(dict.fromkeys(exceptions)))
+    needed = _sorted(needs_of(value), x)
+    exceptions: dict[Expr, None] = {}
+    for nonzero in (*needed.nonzero, _wronskian_somewhere(value, x)):
+        exceptions |= dict.fromkeys(_exceptions(nonzero))
+    return Validity(_without_weaker(needed.on_x), tuple(exceptions))
 
 
 @dataclass(frozen=True)
@@ -112,14 +115,14 @@ def _value_and_variable(solution: Any) -> tuple[Expr, Expr]:
     return value, arguments[0]
 
 
-def _apart(relations: Iterable[Expr], x: Expr) -> _Relations:
-    """Relations, each once; `true` says nothing."""
+def _sorted(relations: Iterable[Expr], x: Expr) -> _Relations:
+    """Each once, by what it is about."""
     on_x = []
     nonzero = []
     for relation in dict.fromkeys(relations):
         if _is_on_parameters(relation, x):
             nonzero.append(relation.lhs)
-        elif relation != sympy.true:
+        elif not _holds_for_real_symbols(relation):
             on_x.append(relation)
     return _Relations(on_x, nonzero)
 
@@ -129,105 +132,42 @@ def _is_on_parameters(relation: Expr, x: Expr) -> bool:
     return isinstance(relation, sympy.Ne) and not relation.has(x)
 
 
+def _holds_for_real_symbols(relation: Expr) -> bool:
+    """As exp(x) + 1 != 0 and x^2 + 1 > 0 do; nothing has to be said then."""
+    real = {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
+    try:
+        return bool(relation.xreplace(real) == sympy.true)
+    except TypeError:  # what is complex has no sign
+        return False
+
+
 def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     """Without e >= 0 and e != 0 beside e > 0; `false` alone where it is one of them."""
     if sympy.false in relations:
         return (sympy.false,)
-    strict = [relation for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
-    positive = {relation.lhs for relation in strict}
-    return tuple(relation for relation in relations if relation in strict or relation.lhs not in positive)
+    positive = {relation.lhs for relation in relations if _is_strict(relation)}
+    return tuple(relation for relation in relations if _is_strict(relation) or relation.lhs not in positive)
 
 
-def _needs(e: Expr) -> Iterator[Expr]:
-    """Relations that make the parts of an expression real and finite, by the first need of each part."""
-    if isinstance(e, sympy.Integral):
-        return
-    for argument in e.args:
-        yield from _needs(argument)
-    for need in _NEEDS:
-        if need.concerns(e):
-            yield need.relation(e)
-            return
-
-
-# ------------------------------------------------------------------------------------------------------ needs of parts
-
-
-@dataclass(frozen=True)
-class _Need:
-    """What parts of one kind need."""
-
-    claim: str
-    #: Is it such a part?
-    concerns: Callable[[Expr], bool]
-    #: What makes it real and finite.
-    relation: Callable[[Expr], Expr]
-
-
-def _positive(e: Expr) -> Expr:
-    """e > 0, which SymPy refuses to write for what is known not to be real."""
-    if e.is_extended_real is False:
-        return sympy.false
-    return e > 0
-
-
-def _not_negative(e: Expr) -> Expr:
-    """e >= 0, which SymPy refuses to write for what is known not to be real."""
-    if e.is_extended_real is False:
-        return sympy.false
-    return e >= 0
-
-
-def _is_logarithm(e: Expr) -> bool:
-    return isinstance(e, sympy.log)
-
-
-def _is_branched(e: Expr) -> bool:
-    """Is it one of Bessel's functions with a branch point at 0?"""
-    if isinstance(e, sympy.besselj | sympy.besseli):
-        return not e.args[0].is_integer
-    return isinstance(e, _BRANCHED)
-
-
-def _is_power(e: Expr) -> bool:
-    """A power that may not be real or finite: not of a number, nor with a symbol that is an integer, nor exp."""
-    if not e.is_Pow or isinstance(e, sympy.exp):
-        return False
-    is_symbolic_integer = e.exp.is_integer and not e.exp.is_Integer
-    return not (e.base.is_number or is_symbolic_integer)
-
-
-def _is_general_power(e: Expr) -> bool:
-    return _is_power(e) and not e.exp.is_Rational
-
-
-def _is_even_root(e: Expr) -> bool:
-    return _is_power(e) and e.exp.is_Rational and e.exp.q % 2 == 0
-
-
-def _is_below_the_line(e: Expr) -> bool:
-    return _is_power(e) and e.exp.is_Rational and e.exp < 0
-
-
-_NEEDS = (
-    _Need("log(u): u > 0", _is_logarithm, lambda e: _positive(e.args[-1])),
-    _Need("J_n(u) and the like with a branch point at 0: u > 0", _is_branched, lambda e: _positive(e.args[-1])),
-    _Need("u^e, where e isn't rational: u > 0", _is_general_power, lambda e: _positive(e.base)),
-    _Need("1/sqrt(u): u > 0", lambda e: _is_even_root(e) and _is_below_the_line(e), lambda e: _positive(e.base)),
-    _Need("sqrt(u): u >= 0", _is_even_root, lambda e: _not_negative(e.base)),
-    _Need("1/u: u != 0", _is_below_the_line, lambda e: sympy.Ne(e.base, 0)),
-)
+def _is_strict(relation: Expr) -> bool:
+    """Is it e > 0?"""
+    return isinstance(relation, sympy.StrictGreaterThan)
 
 
 # ---------------------------------------------------------------------------------------------------------- exceptions
 
 
-def _wronskian(value: Expr, x: Expr) -> Expr:
-    """That of a general solution at a point, up to what isn't known; 1 where there are no two constants."""
+def _wronskian_somewhere(value: Expr, x: Expr) -> Expr:
+    """W = y1 y2' - y1' y2 of a general solution C1 y1 + C2 y2 + y0 at a point where that is short and elementary, else 1.
+
+    It is zero at no ordinary point, unless y1 and y2 are dependent.
+    """
     constants = [symbol for symbol in value.free_symbols if _CONSTANT.fullmatch(symbol.name)]
     if len(constants) != 2 or value.has(sympy.Integral):
         return sympy.S.One
-    y1, y2 = (value.diff(constant) for constant in sorted(constants, key=str))
+    first, second = sorted(constants, key=str)
+    y1 = value.diff(first)
+    y2 = value.diff(second)
     W = y1 * y2.diff(x) - y1.diff(x) * y2
     if size(W) > _LARGEST or W.has(*constants):
         return sympy.S.One
@@ -249,9 +189,9 @@ def _is_elementary(e: Expr) -> bool:
     return {f.func for f in e.atoms(sympy.Function)} <= _ELEMENTARY
 
 
-def _exceptions(value: Expr) -> Iterator[Expr]:
+def _exceptions(nonzero: Expr) -> Iterator[Expr]:
     """The factors with parameters that may be zero, each once and without a sign."""
-    for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(value))):
+    for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(nonzero))):
         base = _without_sign(_base(factor))
         if base.free_symbols:
             yield base

@@ -1,0 +1,269 @@
+"""What a formula needs to be real and finite at real x: a relation for each part that isn't so everywhere.
+
+Powers, roots and functions have the values that SymPy gives them: x^(1/3), too, is complex for a negative x.  A function with
+a cut needs an argument u beside it.  Where the argument has an i, as in Ei((1 + i) x), the part is complex and its conjugate
+is another part; what is needed then is that u isn't the branch point.
+
+Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8.2 (gamma functions), 10.2, 10.25 (Bessel),
+14.3 (Legendre), 15.2, 16.2 (hypergeometric functions), 19.2 (elliptic integrals), 25.12 (polylogarithms).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import sympy
+
+Expr = Any  # SymPy publishes no types
+#: What a function needs, from an application of it.
+Need = Callable[[Expr], Expr]
+
+
+def needs_of(e: Expr) -> Iterator[Expr]:
+    """Relations that make an expression real and finite, part by part; `false` for a part that is complex.
+
+    >>> x = sympy.Symbol("x")
+    >>> list(needs_of(1 / sympy.log(x)))
+    [x > 0, Ne(log(x), 0)]
+    """
+    if isinstance(e, sympy.Integral):
+        yield from _needs_of_integral(e)
+        return
+    if isinstance(e, sympy.RootSum):
+        yield from _needs_at_real_roots(e)
+        return
+    for argument in e.args:
+        yield from needs_of(argument)
+    for relation in sympy.And.make_args(_need_of_part(e)):
+        if relation != sympy.true:
+            yield relation
+
+
+def _needs_of_integral(integral: Expr) -> Iterator[Expr]:
+    """Those of the integrand at x, where it is integrated up to x.  An end without x may be a singular point of it."""
+    variable, *ends = integral.limits[0]
+    upper = variable
+    if ends:
+        upper = ends[-1]
+    if upper.free_symbols:
+        yield from needs_of(integral.function.subs(variable, upper))
+
+
+def _needs_at_real_roots(total: Expr) -> Iterator[Expr]:
+    """Those of the terms of a `RootSum` at its real roots: the others come in pairs.  Roots with parameters aren't known."""
+    polynomial = total.poly
+    if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
+        return
+    for root, _ in sympy.real_roots(polynomial, multiple=False):
+        yield from needs_of(total.fun(root))
+
+
+def _need_of_part(e: Expr) -> Expr:
+    """What a part needs whose arguments are real and finite."""
+    if e.is_Pow and not isinstance(e, sympy.exp):
+        return _of_power(e)
+    need = _OF_FUNCTIONS.get(e.func)
+    if need is None:
+        return sympy.true
+    return need(e)
+
+
+def _of_power(e: Expr) -> Expr:
+    if e.base.is_number:
+        return sympy.true
+    if e.exp.is_nonnegative and e.exp.is_integer:
+        return sympy.true
+    if e.exp.is_integer:
+        return sympy.Ne(e.base, 0)
+    if e.exp.is_Rational and e.exp > 0:
+        return _not_negative(e.base)
+    return _positive(e.base)
+
+
+# ----------------------------------------------------------------------------------------------------------- relations
+
+
+def _positive(u: Expr) -> Expr:
+    """u > 0, which SymPy refuses to write for what is known not to be real."""
+    short = _of_the_same_sign(u)
+    if short.is_extended_real is False:
+        return sympy.false
+    return short > 0
+
+
+def _not_negative(u: Expr) -> Expr:
+    """u >= 0, which SymPy refuses to write for what is known not to be real."""
+    short = _of_the_same_sign(u)
+    if short.is_extended_real is False:
+        return sympy.false
+    return short >= 0
+
+
+def _of_the_same_sign(u: Expr) -> Expr:
+    """Without a positive factor that is rational; the base of a root or an odd power, u being real."""
+    _, short = u.as_content_primitive()
+    is_even_power = short.is_Pow and short.exp.is_even
+    if short.is_Pow and short.exp.is_Rational and not is_even_power:
+        return short.base
+    return short
+
+
+def _nonzero(u: Expr) -> Expr:
+    """u != 0, said without factors that are numbers, and without the denominator, which needs something itself."""
+    factors = sympy.Mul.make_args(sympy.numer(u))
+    return sympy.Ne(sympy.Mul(*(factor for factor in factors if not factor.is_number)), 0)
+
+
+def _off_the_cut(u: Expr) -> Expr:
+    """u > 0 for a cut from 0 to -oo; of an argument with an i it is said that it isn't 0."""
+    if u.has(sympy.I):
+        return _nonzero(u)
+    return _positive(u)
+
+
+# ----------------------------------------------------------------------------------------------------------- functions
+
+
+def _positive_argument(e: Expr) -> Expr:
+    return _positive(e.args[-1])
+
+
+def _argument_off_the_cut(e: Expr) -> Expr:
+    return _off_the_cut(e.args[-1])
+
+
+def _nonzero_argument(e: Expr) -> Expr:
+    return _nonzero(e.args[-1])
+
+
+def _argument_below_one(e: Expr) -> Expr:
+    return _off_the_cut(1 - e.args[-1])
+
+
+def _no_pole_of_tangent(e: Expr) -> Expr:
+    return _nonzero(sympy.cos(e.args[0]))
+
+
+def _no_pole_of_cotangent(e: Expr) -> Expr:
+    return _nonzero(sympy.sin(e.args[0]))
+
+
+def _argument_within_one(e: Expr) -> Expr:
+    """asin(u), acos(u): u^2 <= 1."""
+    return _not_negative(1 - e.args[0] ** 2)
+
+
+def _argument_strictly_within_one(e: Expr) -> Expr:
+    """atanh(u): u^2 < 1."""
+    return _positive(1 - e.args[0] ** 2)
+
+
+def _argument_from_one_on(e: Expr) -> Expr:
+    """acosh(u): u >= 1."""
+    return _not_negative(e.args[0] - 1)
+
+
+def _of_first_kind(e: Expr) -> Expr:
+    """J_n(u), I_n(u): (u/2)^n times an entire function."""
+    order = e.args[0]
+    if order.is_integer:
+        return sympy.true
+    return _positive(e.args[1])
+
+
+def _of_spherical_second_kind(e: Expr) -> Expr:
+    """y_n(u): rational in u beside waves for an integer n."""
+    order = e.args[0]
+    if order.is_integer:
+        return _nonzero(e.args[1])
+    return _positive(e.args[1])
+
+
+def _of_polynomial_order(e: Expr) -> Expr:
+    """P_n(u) and the like: polynomials for an integer n; else u > -1."""
+    order = e.args[0]
+    if order.is_integer:
+        return sympy.true
+    return _off_the_cut(e.args[-1] + 1)
+
+
+def _of_associated_legendre(e: Expr) -> Expr:
+    """P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m."""
+    n, m, u = e.args
+    if n.is_integer and m.is_even:
+        return sympy.true
+    return _off_the_cut(1 - u**2)
+
+
+def _of_elliptic_integral(e: Expr) -> Expr:
+    """F(phi, m) and E(phi, m), and E(m) for phi = pi/2: the root of 1 - m sin(phi)^2 is real up to phi."""
+    m = e.args[-1]
+    if len(e.args) == 1:
+        return _argument_below_one(e)
+    return _off_the_cut(1 - m * sympy.sin(e.args[0]) ** 2)
+
+
+def _of_third_elliptic_integral(e: Expr) -> Expr:
+    """Pi(n, phi, m), where 1 - n sin(phi)^2 has no zero, either."""
+    n, *others = e.args
+    if len(others) == 1:
+        return sympy.And(_off_the_cut(1 - n), _argument_below_one(e))
+    square = sympy.sin(others[0]) ** 2
+    return sympy.And(_off_the_cut(1 - n * square), _off_the_cut(1 - others[1] * square))
+
+
+def _of_hypergeometric(e: Expr) -> Expr:
+    """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial."""
+    u = e.argument
+    if len(e.ap) <= len(e.bq) or any(map(_is_nonpositive_integer, e.ap)):
+        return sympy.true
+    if len(e.ap) == len(e.bq) + 1:
+        return _argument_below_one(e)
+    return _off_the_cut(-u)
+
+
+def _is_nonpositive_integer(a: Expr) -> bool:
+    return bool(a.is_integer and a.is_nonpositive)
+
+
+_OF_FUNCTIONS: dict[Any, Need] = {
+    sympy.log: _positive_argument,
+    # inverse functions, and those with poles
+    sympy.asin: _argument_within_one,
+    sympy.acos: _argument_within_one,
+    sympy.acosh: _argument_from_one_on,
+    sympy.atanh: _argument_strictly_within_one,
+    sympy.tan: _no_pole_of_tangent,
+    sympy.sec: _no_pole_of_tangent,
+    sympy.cot: _no_pole_of_cotangent,
+    sympy.csc: _no_pole_of_cotangent,
+    sympy.coth: _nonzero_argument,
+    sympy.csch: _nonzero_argument,
+    # integrals
+    sympy.Ei: _nonzero_argument,
+    sympy.Ci: _argument_off_the_cut,
+    sympy.expint: _argument_off_the_cut,
+    sympy.uppergamma: _argument_off_the_cut,
+    sympy.lowergamma: _argument_off_the_cut,
+    sympy.polylog: _argument_below_one,
+    sympy.elliptic_k: _argument_below_one,
+    sympy.elliptic_e: _of_elliptic_integral,
+    sympy.elliptic_f: _of_elliptic_integral,
+    sympy.elliptic_pi: _of_third_elliptic_integral,
+    # Bessel functions
+    sympy.besselj: _of_first_kind,
+    sympy.besseli: _of_first_kind,
+    sympy.bessely: _positive_argument,
+    sympy.besselk: _positive_argument,
+    sympy.jn: _of_first_kind,
+    sympy.yn: _of_spherical_second_kind,
+    # Legendre functions, hypergeometric functions
+    sympy.legendre: _of_polynomial_order,
+    sympy.gegenbauer: _of_polynomial_order,
+    sympy.jacobi: _of_polynomial_order,
+    sympy.chebyshevt: _of_polynomial_order,
+    sympy.chebyshevu: _of_polynomial_order,
+    sympy.assoc_legendre: _of_associated_legendre,
+    sympy.hyper: _of_hypergeometric,
+}
