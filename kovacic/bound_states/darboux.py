@@ -62,19 +62,24 @@ def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[Dar
     if line is None:
         return
     q = sympy.Mul(*poles.apparent)
-    for sign, signs_of_delta in product((-1, 1), product((1, -1), repeat=len(poles.regular))):
-        signed = zip(signs_of_delta, poles.regular, strict=True)
-        exponents = {pole: (1 + s * pole.delta) / 2 for s, pole in signed}
-        terms = [e / (x - pole.c) for pole, e in exponents.items()]
-        W = sympy.together(-sympy.diff(q, x) / q + sympy.Add(*terms) + sign * line)
-        energy = sympy.cancel(sympy.together(V - W**2 - sympy.diff(W, x)))
-        if energy.has(x):
-            continue
-        powers = [(x - pole.c) ** e for pole, e in exponents.items()]
-        wave = sympy.Mul(*powers) * sympy.exp(sympy.integrate(sign * line, x)) / q
-        is_level = _is_level(sign, exponents, domain, signs)
-        if is_level is not None:
-            yield DarbouxStep(W, energy, wave, is_level)
+    for sign in (-1, 1):
+        for exponents in _exponents(poles.regular):
+            terms = [e / (x - pole.c) for pole, e in exponents.items()]
+            W = sympy.together(-sympy.diff(q, x) / q + sympy.Add(*terms) + sign * line)
+            energy = sympy.cancel(sympy.together(V - W**2 - sympy.diff(W, x)))
+            if energy.has(x):
+                continue
+            powers = [(x - pole.c) ** e for pole, e in exponents.items()]
+            wave = sympy.Mul(*powers) * sympy.exp(sympy.integrate(sign * line, x)) / q
+            is_level = _is_level(sign, exponents, domain, signs)
+            if is_level is not None:
+                yield DarbouxStep(W, energy, wave, is_level)
+
+
+def _exponents(poles: list[_Regular]) -> Iterator[dict[_Regular, Any]]:
+    """One of its two exponents for each pole, in all ways."""
+    for signs in product((1, -1), repeat=len(poles)):
+        yield {pole: (1 + sign * pole.delta) / 2 for sign, pole in zip(signs, poles, strict=True)}
 
 
 def _line(V: Any, x: Any, signs: Signs) -> Any:
@@ -96,15 +101,23 @@ def _poles(V: Any, x: Any) -> _Poles | None:
         if _is_apparent(factor, V, x):
             poles.apparent.append(factor)
             continue
-        if sympy.degree(factor, x) > 1:
+        regular = _regular(factor, V, x)
+        if regular is None:
             return None
-        (c,) = sympy.solve(factor, x)
-        b = sympy.factor(sympy.cancel(V * (x - c) ** 2).subs(x, c))
-        delta = exact_root(sympy.factor(1 + 4 * b))
-        if delta is None:
-            return None
-        poles.regular.append(_Regular(c, delta))
+        poles.regular.append(regular)
     return poles
+
+
+def _regular(factor: Any, V: Any, x: Any) -> _Regular | None:
+    """The root c of a linear factor, where V ~ b/(x - c)^2; None for another factor, or where delta is no function."""
+    if sympy.degree(factor, x) > 1:
+        return None
+    (c,) = sympy.solve(factor, x)
+    b = sympy.factor(sympy.cancel(V * (x - c) ** 2).subs(x, c))
+    delta = exact_root(sympy.factor(1 + 4 * b))
+    if delta is None:
+        return None
+    return _Regular(c, delta)
 
 
 def _is_apparent(factor: Any, V: Any, x: Any) -> bool:
@@ -116,12 +129,11 @@ def _is_apparent(factor: Any, V: Any, x: Any) -> bool:
 
 def _is_level(sign: int, exponents: dict[_Regular, Any], domain: tuple[Any, Any], signs: Signs) -> bool | None:
     """Is y0 = exp(sign kappa x^2/2) ... the smaller solution at both ends?  None where that isn't known."""
-    if sign > 0 and any(end.is_infinite for end in domain):
+    finite = [end for end in domain if not end.is_infinite]
+    if sign > 0 and len(finite) < len(domain):
         return False
-    for end in domain:
-        if end.is_infinite:
-            continue
-        exponent = next((e for pole, e in exponents.items() if sympy.simplify(pole.c - end) == 0), None)
+    for end in finite:
+        exponent = _exponent_at(end, exponents)
         if exponent is None:
             return None
         excess = signs.sign(2 * exponent - 1)
@@ -130,3 +142,11 @@ def _is_level(sign: int, exponents: dict[_Regular, Any], domain: tuple[Any, Any]
         if excess < 0:
             return False
     return True
+
+
+def _exponent_at(end: Any, exponents: dict[_Regular, Any]) -> Any:
+    """The one at the pole that is this end; None where none is."""
+    for pole, exponent in exponents.items():
+        if sympy.simplify(pole.c - end) == 0:
+            return exponent
+    return None

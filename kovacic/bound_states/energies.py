@@ -7,8 +7,8 @@ unknowns with a sign, rho^2 = D(E), and E is eliminated: D is linear in E, and s
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import sympy
 
@@ -34,11 +34,17 @@ class Root:
         root = exact_root(square)
         if root is not None:
             return cls(square, root)
-        if not square.has(sympy.I):
-            symbol = sympy.Dummy("r", positive=True)
-            return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),))
-        # sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)
-        re, im = (sympy.factor(part(sympy.expand(square))) for part in (sympy.re, sympy.im))
+        if square.has(sympy.I):
+            return cls._complex(square)
+        symbol = sympy.Dummy("r", positive=True)
+        return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),))
+
+    @classmethod
+    def _complex(cls, square: Any) -> Root:
+        """sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)."""
+        expanded = sympy.expand(square)
+        re = sympy.factor(sympy.re(expanded))
+        im = sympy.factor(sympy.im(expanded))
         size = sympy.sqrt(sympy.factor(re**2 + im**2))
         real = sympy.sqrt(2) * sympy.sqrt(size + re) / 2
         p = sympy.Dummy("p", positive=True)
@@ -54,22 +60,29 @@ def exact_root(square: Any) -> Any:
     num, den = sympy.fraction(sympy.together(square))
     root = sympy.Integer(1)
     for part, sign in ((num, 1), (den, -1)):
-        constant, factors = _factored(part, is_complex=is_complex)
-        if any(multiplicity % 2 for _, multiplicity in factors):
+        factored = _factored(part, is_complex=is_complex)
+        if any(multiplicity % 2 for _, multiplicity in factored.factors):
             return None
-        root *= constant**sign
-        for factor, multiplicity in factors:
+        root *= factored.root_of_constant**sign
+        for factor, multiplicity in factored.factors:
             root *= factor ** (sign * multiplicity // 2)
     return sympy.expand(root) if root.has(sympy.I) else root
 
 
-def _factored(polynomial: Any, *, is_complex: bool) -> tuple[Any, list[tuple[Any, int]]]:
-    """The root of the constant factor, and the other factors with their multiplicities, over Q or Q(i)."""
+class _Factored(NamedTuple):
+    """The root of the constant factor of a polynomial, and its other factors with their multiplicities."""
+
+    root_of_constant: Any
+    factors: list[tuple[Any, int]]
+
+
+def _factored(polynomial: Any, *, is_complex: bool) -> _Factored:
+    """Over Q or Q(i)."""
     if is_complex:
         constant, factors = sympy.factor_list(polynomial, extension=sympy.I)
-        return sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))), factors
+        return _Factored(sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))), factors)
     constant, factors = sympy.factor_list(polynomial)
-    return sympy.sqrt(constant), factors
+    return _Factored(sympy.sqrt(constant), factors)
 
 
 def _root_of_number(square: Any) -> Any:
@@ -101,28 +114,52 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
     """
     unknown = [root for root in roots if root.unknown and equation.has(root.value)]
     if not unknown:
-        energies = _zeros(equation, E) if equation.has(E) else []
-        for energy in energies:
-            yield Solved(shortest(energy), {})
-        return
-    if len(unknown) > 2:
+        yield from _solved_without_roots(equation, E)
+    elif len(unknown) == 1:
+        yield from _solved_with_root(equation, unknown[0], E)
+    elif len(unknown) == 2:
+        yield from _solved_with_two_roots(equation, unknown[0], unknown[1], E)
+    else:
         raise Uncovered("more than two exponents depend on the energy")
-    rho = unknown[0].value
-    E_of_rho = _only_zero(
-        unknown[0].square - rho**2, E, "an exponent isn't the root of a linear function of the energy"
-    )
-    reduced = equation.subs(E, E_of_rho)
-    others_of_rho: dict[Any, Any] = {}
-    if len(unknown) == 2:
-        other = unknown[1]
-        other_of_rho = _only_zero(reduced, other.value, "the exponents satisfy no linear equation")
-        others_of_rho[other.value] = other_of_rho
-        reduced = other.square.subs(E, E_of_rho) - other_of_rho**2
-    for value in _zeros(reduced, rho):
-        at = shortest(value)
-        others = {sigma: shortest(function.subs(rho, value)) for sigma, function in others_of_rho.items()}
-        energy = shortest(E_of_rho.subs(rho, at), E_of_rho.subs(rho, value))
-        yield Solved(energy, {rho: at, **others})
+
+
+def _solved_without_roots(equation: Any, E: Any) -> Iterator[Solved]:
+    """The zeros of a function of E."""
+    if equation.has(E):
+        for energy in _zeros(equation, E):
+            yield Solved(shortest(energy), {})
+
+
+def _solved_with_root(equation: Any, root: Root, E: Any) -> Iterator[Solved]:
+    """By E = E(rho)."""
+    rho = root.value
+    E_of_rho = _energy_of(root, E)
+    for value in _zeros(equation.subs(E, E_of_rho), rho):
+        yield _at(value, rho, E_of_rho)
+
+
+def _solved_with_two_roots(equation: Any, root: Root, other: Root, E: Any) -> Iterator[Solved]:
+    """By E = E(rho), and sigma = sigma(rho) for the other root, whose square is D(E(rho))."""
+    rho = root.value
+    sigma = other.value
+    E_of_rho = _energy_of(root, E)
+    sigma_of_rho = _only_zero(equation.subs(E, E_of_rho), sigma, "the exponents satisfy no linear equation")
+    for value in _zeros(other.square.subs(E, E_of_rho) - sigma_of_rho**2, rho):
+        found = _at(value, rho, E_of_rho)
+        yield replace(found, values={**found.values, sigma: shortest(sigma_of_rho.subs(rho, value))})
+
+
+def _energy_of(root: Root, E: Any) -> Any:
+    """E as a function of the root."""
+    equation = root.square - root.value**2
+    return _only_zero(equation, E, "an exponent isn't the root of a linear function of the energy")
+
+
+def _at(value: Any, rho: Any, E_of_rho: Any) -> Solved:
+    """The energy where the root rho has a value."""
+    short = shortest(value)
+    energy = shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value))
+    return Solved(energy, {rho: short})
 
 
 def _only_zero(equation: Any, unknown: Any, otherwise: str) -> Any:
@@ -145,11 +182,17 @@ def _zeros(equation: Any, unknown: Any) -> list[Any]:
 def shortest(*forms: Any) -> Any:
     """The shortest of some ways to write what the forms are: as products, as sums, as partial fractions in n."""
     real = [_real_part(form) for form in forms if form.has(sympy.I)]
-    forms = (*(form for form in real if form is not None), *forms)
-    candidates = [*forms]
-    for form in forms:
+    known = [*(form for form in real if form is not None), *forms]
+    candidates = [*known]
+    for form in known:
         candidates += _written(form)
-    return min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(str(form)), str(form)))
+    return min(candidates, key=_length)
+
+
+def _length(form: Any) -> tuple[bool, int, int, str]:
+    """What is longer is larger; what has I in it, larger than all without."""
+    text = str(form)
+    return form.has(sympy.I), sympy.count_ops(form), len(text), text
 
 
 def _written(form: Any) -> Iterator[Any]:
@@ -157,10 +200,18 @@ def _written(form: Any) -> Iterator[Any]:
     factored = sympy.factor(form)
     expanded = sympy.expand(form)
     yield from (factored, expanded, sympy.factor_terms(expanded))
-    number = next((s for s in form.free_symbols if isinstance(s, sympy.Dummy) and s.is_integer), None)
-    if number is not None and form.is_rational_function(number):
-        fractions = sympy.Add.make_args(sympy.apart(factored, number))
-        yield sympy.Add(*(_shifted(part, number) for part in fractions))
+    n = _number_in(form)
+    if n is not None and form.is_rational_function(n):
+        fractions = sympy.Add.make_args(sympy.apart(factored, n))
+        yield sympy.Add(*(_factored_in(n, part) for part in fractions))
+
+
+def _number_in(form: Any) -> Any:
+    """The number n of a level; None where the form doesn't depend on it."""
+    for symbol in form.free_symbols:
+        if isinstance(symbol, sympy.Dummy) and symbol.is_integer:
+            return symbol
+    return None
 
 
 def _real_part(form: Any) -> Any:
@@ -175,6 +226,6 @@ def _real_part(form: Any) -> Any:
     )
 
 
-def _shifted(part: Any, number: Any) -> Any:
+def _factored_in(n: Any, part: Any) -> Any:
     """A partial fraction c/(b n - a)^k as +-c/(a - b n)^k where that has fewer signs, its numerator as a product."""
-    return sympy.factor(part) if part.has(number) else part
+    return sympy.factor(part) if part.has(n) else part

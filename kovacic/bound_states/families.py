@@ -30,12 +30,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations, product
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
 from kovacic.bound_states.energies import Root, conjugate, solved
-from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered
+from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered, end_with_role
 from kovacic.bound_states.signs import Signs
 
 
@@ -63,7 +63,8 @@ class Ends:
 
     def conditions(self, domain: tuple[Any, Any], spot: Spot, delta: Any) -> list[Any]:
         """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the Friedrichs one."""
-        return [self._condition(domain[role == "right"], spot, delta) for role in spot.roles if role != "fold"]
+        ends = [end_with_role(domain, role) for role in spot.end_roles]
+        return [self._condition(end, spot, delta) for end in ends]
 
     def _condition(self, end: Any, spot: Spot, delta: Any) -> Any:
         if end.is_infinite and spot.mu < 2:
@@ -80,22 +81,25 @@ def _above(delta: Any, least: Any, *, strict: bool) -> Any:
     """delta > least, or >=."""
     if delta.is_number and delta.is_real is False:
         return sympy.false
-    return sympy.Gt(delta, least) if strict else sympy.Ge(delta, least)
+    relation = sympy.Gt if strict else sympy.Ge
+    return relation(delta, least)
 
 
 def _radicals(roots: list[Root]) -> tuple[tuple[Any, Any], ...]:
+    """The symbols for square roots, and what they mean."""
     return tuple(radical for root in roots for radical in root.radicals)
 
 
 def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
     """That what stands under the square roots isn't negative; or that it is positive."""
     relation = sympy.Gt if positive else sympy.Ge
-    return [relation(root.square, 0) for root in roots if root.radicals and not root.square.has(sympy.I)]
+    squares = [root.square for root in roots if root.radicals]
+    return [relation(square, 0) for square in squares if not square.has(sympy.I)]
 
 
 def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """Equation (1)."""
-    if len(frame.spots) != 3 or any(spot.square is None for spot in frame.spots):
+    if len(frame.spots) != 3 or not frame.is_fuchsian:
         raise Uncovered("the equation hasn't three singular points, all of them regular")
     _check_ends(frame)
     roots = [Root.of(spot.square, E) for spot in frame.spots]
@@ -103,11 +107,17 @@ def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelF
         equation = sympy.expand(-1 - sympy.Add(*deltas) - 2 * ends.signs.n)
         for found in solved(equation, roots, E):
             values = [delta.xreplace(found.values) for delta in deltas]
-            conditions = _are_real(roots)
-            for spot, delta in zip(frame.spots, values, strict=True):
-                conditions += ends.conditions(frame.domain, spot, delta)
+            conditions = [*_are_real(roots), *_at_the_spots(frame, ends, values)]
             if possible(conditions, ends.signs):
                 yield _jacobi_family(frame, roots, values, energy=found.energy, conditions=conditions, signs=ends.signs)
+
+
+def _at_the_spots(frame: SingularFrame, ends: Ends, deltas: list[Any]) -> list[Any]:
+    """What is demanded of the exponent differences at the points of the frame."""
+    conditions: list[Any] = []
+    for spot, delta in zip(frame.spots, deltas, strict=True):
+        conditions += ends.conditions(frame.domain, spot, delta)
+    return conditions
 
 
 def _jacobi_family(
@@ -126,7 +136,7 @@ def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
 
     A pair of complex conjugate roots has one sign, since n is real.
     """
-    are_complex = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
+    are_complex = [k for k, root in enumerate(roots) if _is_complex(root)]
     if len(are_complex) == 1:
         return  # n isn't real
     if len(are_complex) == 3:
@@ -143,6 +153,11 @@ def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
         yield choice
 
 
+def _is_complex(root: Root) -> bool:
+    """Isn't it real?  An unknown root is."""
+    return not root.unknown and bool(root.value.has(sympy.I))
+
+
 def _signed(k: int, spots: tuple[Spot, ...], roots: list[Root]) -> list[Any]:
     """The root of number k with each of its signs: an unknown with that of an earlier one of the same square.
 
@@ -151,12 +166,20 @@ def _signed(k: int, spots: tuple[Spot, ...], roots: list[Root]) -> list[Any]:
     root = roots[k]
     if not root.unknown:
         return _with_signs(root)
-    earlier = next((j for j in range(k) if roots[j].unknown and roots[j].square == root.square), None)
+    earlier = _earlier_with_the_square(k, roots)
     if earlier is None:
         return [root.value]
     known = roots[earlier].value
     are_ends = spots[k].roles and spots[earlier].roles
     return [known] if are_ends else [known, -known]
+
+
+def _earlier_with_the_square(k: int, roots: list[Root]) -> int | None:
+    """The first unknown root before that of number k with its square; None where there is none."""
+    for j in range(k):
+        if roots[j].unknown and roots[j].square == roots[k].square:
+            return j
+    return None
 
 
 def _with_signs(root: Root) -> list[Any]:
@@ -170,8 +193,10 @@ def possible(conditions: list[Any], signs: Signs) -> bool:
     """Is none of the conditions false for all values, nor the sum of two of them?"""
     if any(signs.holds(condition) is False for condition in conditions):
         return False
-    gaps = [condition.gts - condition.lts for condition in dict.fromkeys(conditions) if condition not in (True, False)]
-    return all(signs.is_nonnegative(sympy.expand(a + b)) is not False for a, b in combinations(gaps, 2))
+    relations = [condition for condition in dict.fromkeys(conditions) if condition not in (True, False)]
+    gaps = [relation.gts - relation.lts for relation in relations]
+    sums = (sympy.expand(first + second) for first, second in combinations(gaps, 2))
+    return all(signs.is_nonnegative(total) is not False for total in sums)
 
 
 def _check_ends(frame: SingularFrame) -> None:
@@ -181,35 +206,37 @@ def _check_ends(frame: SingularFrame) -> None:
     if roles != needed:
         raise Uncovered("an end of the domain is an ordinary point of the equation")
     for spot in frame.spots:
-        if "fold" in spot.roles and sympy.simplify(spot.square * spot.p**2 - 1) != 0:
+        if spot.is_fold and sympy.simplify(spot.square * spot.p**2 - 1) != 0:
             raise Uncovered(f"V isn't regular at {frame.x} = {frame.fold}, inside the domain")
 
 
 def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs) -> Any:
     """The number of zeros inside the domain, with the differences at the points of the frame."""
     for spot, delta in zip(frame.spots, deltas, strict=True):
-        if "fold" in spot.roles:
+        if spot.is_fold:
             return _zeros_for(spot, delta, signs)
     return signs.n
 
 
 def _zeros_for(spot: Spot, delta: Any, signs: Signs) -> Any:
     """n; twice as many, and maybe one in the middle, where this point is the middle of the domain."""
-    if "fold" not in spot.roles:
+    if not spot.is_fold:
         return signs.n
-    return 2 * signs.n + int(bool(delta.is_positive))
+    is_odd = bool(delta.is_positive)
+    return 2 * signs.n + int(is_odd)
 
 
 def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """Equation (2)."""
-    q, r, b = _whittaker_coefficients(frame)
+    S = _whittaker(frame)
     _check_ends(frame)
-    origin = next((spot for spot in frame.spots if spot.point == 0), Spot(sympy.Integer(0), 1 + 4 * b, 0))
-    root_of_q = Root.of(sympy.factor(q), E)
-    root_at_0 = Root.of(sympy.factor(1 + 4 * b), E)
+    square_at_0 = 1 + 4 * S.b
+    origin = _spot_at(0, frame) or Spot(sympy.Integer(0), square_at_0, 0)
+    root_of_q = Root.of(sympy.factor(S.q), E)
+    root_at_0 = Root.of(sympy.factor(square_at_0), E)
     roots = [root_of_q, root_at_0]
     for kappa, delta in product(_with_signs(root_of_q), _with_signs(root_at_0)):
-        equation = -r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
+        equation = -S.r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
         for found in solved(equation, roots, E):
             rate = kappa.xreplace(found.values)
             difference = delta.xreplace(found.values)
@@ -227,24 +254,42 @@ def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
                 yield LevelFamily(found.energy, wave.y, tuple(conditions), zeros, wave.norm, _radicals(roots))
 
 
-def _whittaker_coefficients(frame: SingularFrame) -> tuple[Any, Any, Any]:
-    """q, r and b of S_z = q + r/z + b/z^2."""
+class _Whittaker(NamedTuple):
+    """S_z = q + r/z + b/z^2."""
+
+    q: Any
+    r: Any
+    b: Any
+
+
+def _whittaker(frame: SingularFrame) -> _Whittaker:
+    """Raises `Uncovered` where S_z isn't of that form."""
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
-    if sympy.denom(square).has(z) or sympy.degree(sympy.numer(square), z) != 2:
+    if not _is_polynomial_of_degree(2, square, z):
         raise Uncovered("the equation isn't Whittaker's")
     parts = sympy.Poly(square, z)
-    q, r, b = (parts.coeff_monomial(z**k) for k in (2, 1, 0))
-    return q, r, b
+    return _Whittaker(q=parts.coeff_monomial(z**2), r=parts.coeff_monomial(z), b=parts.coeff_monomial(1))
+
+
+def _is_polynomial_of_degree(k: int, quotient: Any, z: Any) -> bool:
+    """Is a quotient in lowest terms a polynomial in z, and of this degree?"""
+    if sympy.denom(quotient).has(z):
+        return False
+    return bool(sympy.degree(sympy.numer(quotient), z) == k)
+
+
+def _spot_at(point: Any, frame: SingularFrame) -> Spot | None:
+    """The singular point there; None where there is none."""
+    return next((spot for spot in frame.spots if spot.point == point), None)
 
 
 def _decay(frame: SingularFrame, kappa: Any) -> list[Any]:
     """When exp(-kappa z) decays at the end where z is infinite."""
-    at_infinity = next((spot for spot in frame.spots if spot.point == sympy.oo), None)
+    at_infinity = _spot_at(sympy.oo, frame)
     if at_infinity is None:
         return []
-    ends = [role for role in at_infinity.roles if role != "fold"]
-    return [_above(_direction(frame, role) * kappa, 0, strict=True) for role in ends]
+    return [_above(_direction(frame, role) * kappa, 0, strict=True) for role in at_infinity.end_roles]
 
 
 def _direction(frame: SingularFrame, role: str) -> int:
@@ -253,10 +298,10 @@ def _direction(frame: SingularFrame, role: str) -> int:
         return 1
     if frame.original.kind != "x":
         raise Uncovered(f"the sign of z = {frame.z_of_x} isn't known")
-    end = frame.domain[role == "right"]
-    if end.is_infinite:
-        return 1 if role == "right" else -1
-    return 1 if role == "left" else -1  # z = 1/(x - end)
+    outwards = 1 if role == "right" else -1
+    if end_with_role(frame.domain, role).is_infinite:
+        return outwards
+    return -outwards  # z = 1/(x - end)
 
 
 def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
@@ -267,9 +312,8 @@ def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamil
     """
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
-    is_of_degree_1 = not sympy.denom(square).has(z) and sympy.degree(sympy.numer(square), z) == 1
     points = {spot.point for spot in frame.ends}
-    is_bessel = is_of_degree_1 and points == {0, sympy.oo}
+    is_bessel = _is_polynomial_of_degree(1, square, z) and points == {0, sympy.oo}
     if not is_bessel or sympy.diff(square, z).has(E):
         raise Uncovered("the equation isn't Bessel's")
     yield from ()
@@ -289,26 +333,32 @@ def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
     width = last - first
     number = sympy.pi * (n + 1) / width
     wave = sympy.sin(number * (frame.x - first))
-    yield LevelFamily(sympy.expand(frame.S + E) + number**2, wave, (sympy.Gt(width, 0),), n, width / 2)
+    V = sympy.expand(frame.S + E)
+    yield LevelFamily(V + number**2, wave, (sympy.Gt(width, 0),), zeros=n, norm=width / 2)
 
 
 def hermite_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
     """The oscillator on the whole line."""
+    alpha, beta, gamma = _quadratic_on_the_line(frame)
+    root = Root.of(sympy.factor(alpha), E)
+    n = ends.signs.n
+    least = gamma - beta**2 / (4 * alpha)
+    shifted = frame.x + sympy.factor(beta / (2 * alpha))
+    for kappa in (root.value, -root.value):
+        for found in solved(least + kappa * (2 * n + 1), [root], E):
+            conditions = [*_are_real([root], positive=True), _above(kappa, 0, strict=True)]
+            if possible(conditions, ends.signs):
+                wave = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
+                norm = 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
+                yield LevelFamily(found.energy, wave, tuple(conditions), n, norm, root.radicals)
+
+
+def _quadratic_on_the_line(frame: SingularFrame) -> tuple[Any, Any, Any]:
+    """alpha, beta and gamma of S = alpha x^2 + beta x + gamma.  Raises `Uncovered` for another S or domain."""
     z = frame.z
     is_quadratic = frame.S.is_polynomial(z) and sympy.degree(frame.S, z) == 2
     is_on_line = frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)
     if not is_quadratic or not is_on_line:
         raise Uncovered("the equation isn't that of the oscillator on the whole line")
-    alpha, beta, gamma = (sympy.Poly(frame.S, z).coeff_monomial(z**k) for k in (2, 1, 0))
-    root = Root.of(sympy.factor(alpha), E)
-    n = ends.signs.n
-    x = frame.x
-    for kappa in (root.value, -root.value):
-        for found in solved(gamma - beta**2 / (4 * alpha) + kappa * (2 * n + 1), [root], E):
-            conditions = [*_are_real([root], positive=True), _above(kappa, 0, strict=True)]
-            if not possible(conditions, ends.signs):
-                continue
-            shifted = x + sympy.factor(beta / (2 * alpha))
-            wave = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
-            norm = 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
-            yield LevelFamily(found.energy, wave, tuple(conditions), n, norm, root.radicals)
+    S = sympy.Poly(frame.S, z)
+    return S.coeff_monomial(z**2), S.coeff_monomial(z), S.coeff_monomial(1)

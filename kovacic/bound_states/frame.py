@@ -166,6 +166,22 @@ class Spot:
         """z - c ~ (x - a)^p, for mu < 2."""
         return 2 / (2 - self.mu)
 
+    @property
+    def is_fold(self) -> bool:
+        """Is it the middle of the domain?"""
+        return "fold" in self.roles
+
+    @property
+    def end_roles(self) -> list[str]:
+        """The roles of the ends of the whole domain that are there."""
+        return [role for role in self.roles if role != "fold"]
+
+
+def end_with_role(domain: tuple[Any, Any], role: str) -> Any:
+    """The end of the domain that is at its "left" or "right"."""
+    left, right = domain
+    return right if role == "right" else left
+
 
 @dataclass(frozen=True)
 class SingularFrame:

@@ -40,7 +40,8 @@ def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limit
     possible = _possible(found, conditions)
     if possible is not None and possible <= _listed(found):
         return replace(found, closed_forms_complete=True, reason=_reason(found, conditions), hint="", shell="")
-    if found.algebraic and all(region.case == 1 for region in conditions.regions):
+    is_rational = all(region.case == 1 for region in conditions.regions)
+    if found.algebraic and is_rational:
         shown = found.reason.partition(";")[0]
         reason = f"{shown}; each level with a closed form has a polynomial of some degree d: {conditions.theory}"
         return replace(found, reason=reason)
@@ -63,7 +64,9 @@ def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> Parametri
     except LimitExceeded:
         return None
     is_proven = conditions.complete is True and conditions.generic.known
-    return conditions if is_proven and conditions.generic.case is None else None
+    if not is_proven or conditions.generic.case is not None:
+        return None
+    return conditions
 
 
 def _listed(found: Spectrum) -> set[Any]:
@@ -78,11 +81,17 @@ def _possible(found: Spectrum, conditions: ParametricAnswer) -> set[Any] | None:
     if found.parameters:
         return None
     functions = _zeros_of_all(region.statement for region in conditions.regions)
-    energy = sympy.Symbol(found.energy)
-    if functions is None or any(function.free_symbols != {energy} for function in functions):
+    if functions is None:
         return None
-    possible = _polynomials(functions, found.energy)
-    return {polynomial for polynomial in possible if sympy.Poly(polynomial, energy).count_roots()}
+    E = sympy.Symbol(found.energy)
+    if any(function.free_symbols != {E} for function in functions):
+        return None
+    polynomials = _polynomials(functions, found.energy)
+    return {polynomial for polynomial in polynomials if _has_real_zero(polynomial, E)}
+
+
+def _has_real_zero(polynomial: Any, E: Any) -> bool:
+    return bool(sympy.Poly(polynomial, E).count_roots())
 
 
 def _zeros_of(statement: Statement) -> list[Any] | None:
@@ -117,7 +126,8 @@ def _polynomials(functions: Iterable[Any], energy: str) -> set[Any]:
 
 
 def _reason(found: Spectrum, conditions: ParametricAnswer) -> str:
-    if not found.algebraic:
-        energies = "any E" if not conditions.regions else "any real E"
-        return f"the equation has no Liouvillian solution for {energies}: {conditions.theory}"
-    return f"a level with k zeros is number k (Sturm); {conditions.theory}"
+    """Why no level with a closed form is missing."""
+    if found.algebraic:
+        return f"a level with k zeros is number k (Sturm); {conditions.theory}"
+    energies = "any real E" if conditions.regions else "any E"
+    return f"the equation has no Liouvillian solution for {energies}: {conditions.theory}"

@@ -14,7 +14,7 @@ M. Razavy, Amer. J. Phys. 48 (1980) 285.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 from typing import Any
 
@@ -84,16 +84,24 @@ def found_of_degree(
     seen: set[Any] = set()
     for degree in _degrees(analyse(S, budget), question.energy):
         for restricted in _restricted(S, degree, d, demands.signs):
-            for choice in choices_of_degree(analyse(restricted.S, budget), d) or ():
-                conditions = [*restricted.bounds]
-                for end in ends:
-                    conditions += _decay(choice, end, demands)
-                if not possible(conditions, demands.signs):
-                    continue
-                found = _found(question, choice, d, restricted.given, tuple(conditions))
-                if found is not None and found.key not in seen:
+            for found in _found_on(question, restricted, d, ends, demands=demands, budget=budget):
+                if found.key not in seen:
                     seen.add(found.key)
                     yield found
+
+
+def _found_on(
+    question: SpectralProblem, where: _Restricted, d: int, ends: Sequence[End], *, demands: Ends, budget: Budget
+) -> Iterator[QuasiSolution]:
+    """Those on one hypersurface, by the exponents."""
+    for choice in choices_of_degree(analyse(where.S, budget), d) or ():
+        conditions = [*where.bounds]
+        for end in ends:
+            conditions += _decay(choice, end, demands)
+        if possible(conditions, demands.signs):
+            found = _found(question, choice, d, where.given, tuple(conditions))
+            if found is not None:
+                yield found
 
 
 def _degrees(problem: Problem, energy: str) -> Iterator[Poly]:
@@ -106,8 +114,13 @@ def _degrees(problem: Problem, energy: str) -> Iterator[Poly]:
     found = None if _has_many_conjugates(problem, energy) else choices(problem)
     if found is None:
         raise Uncovered("the exponents need too large an extension of the field")
+    yield from _over_field(found, problem.field)
+
+
+def _over_field(found: Iterable[Exponents], field: Field) -> Iterator[Poly]:
+    """The degrees that are in the field."""
     for choice in found:
-        degree = _over_base(choice.degree, problem.field)
+        degree = _over_base(choice.degree, field)
         if degree is not None:
             yield degree
 
@@ -124,8 +137,7 @@ def degree_beyond(S: RatFunc, d: int, budget: Budget) -> int | None:
     None where P has no higher degree, or where none is below `_HIGHEST`.
     """
     problem = analyse(S, budget)
-    found = [_over_base(choice.degree, problem.field) for choice in choices(problem) or ()]
-    degrees = [degree for degree in found if degree is not None]
+    degrees = [*_over_field(choices(problem) or (), problem.field)]
     for higher in range(d + 1, _HIGHEST):
         if any(_may_be(degree, higher) for degree in degrees):
             return higher
@@ -167,17 +179,19 @@ def _restricted(S: RatFunc, degree: Poly, d: int, signs: Signs) -> Iterator[_Res
 def _eliminated(surface: Hypersurface, signs: Signs) -> dict[str, Any]:
     """The parameters that are functions of others on it, with their values."""
     x = sympy.Dummy("x")
-    values = {name: signs.real(v.to_sympy(x)) for name, v in zip(surface.names, surface.values, strict=True)}
-    return {name: value for name, value in values.items() if str(value) != name}
+    found = {}
+    for name, function in zip(surface.names, surface.values, strict=True):
+        value = signs.real(function.to_sympy(x))
+        if str(value) != name:
+            found[name] = value
+    return found
 
 
 def _decay(choice: Exponents, end: End, demands: Ends) -> list[Any]:
     """When the exponent at an end is that of a square integrable solution."""
     x = sympy.Dummy("x")
     signs = demands.signs
-    part = next((part for part in choice.parts if _point_of(part, signs) == end.point), None)
-    if part is None:
-        raise Uncovered(f"x = {end.at} is an ordinary point")
+    part = _part_at(end, choice, signs)
     if part.main:
         rate = -signs.real(part.main.lc.to_sympy(x)) * end.direction ** (part.main.degree + 1)
         if rate.is_number and rate.is_real is False:
@@ -187,6 +201,14 @@ def _decay(choice: Exponents, end: End, demands: Ends) -> list[Any]:
     role = "right" if end.is_right else "left"
     spot = Spot(end.point, None, sympy.Integer(end.mu), (role,))
     return demands.conditions(end.domain, spot, delta)
+
+
+def _part_at(end: End, choice: Exponents, signs: Signs) -> LocalPart:
+    """What is chosen at an end.  Raises `Uncovered` where that is an ordinary point."""
+    for part in choice.parts:
+        if _point_of(part, signs) == end.point:
+            return part
+    raise Uncovered(f"x = {end.at} is an ordinary point")
 
 
 def _point_of(part: LocalPart, signs: Signs) -> Any:
@@ -207,30 +229,46 @@ def _found(
         raise Uncovered(f"the polynomials of degree {d} don't follow from their highest coefficients")
     if solution is None:
         return None
-    y = _joined(solution.y, choice.field)
     constraint, *conditions = solution.conditions
     E = sympy.Symbol(question.energy)
-    polynomial = _common_numerator(conditions)
-    if constraint.has(E):
-        if polynomial != 0:  # E is given, and P exists for some values of the parameters only
-            return None
-        polynomial = sympy.numer(sympy.together(constraint))
-        energies = sympy.solve(polynomial, E)
-        if len(energies) != 1:
-            return None
-        (energy,) = energies
-        constraint = sympy.Integer(0)
-        y = y.xreplace({E: energy})
-        demands = tuple(c.subs(E, energy) for c in demands)
-    if not polynomial.has(E):
+    found = QuasiSolution(
+        degree=d,
+        constraint=constraint,
+        polynomial=_common_numerator(conditions),
+        wave=_joined(solution.y, choice.field),
+        P=system[0].to_sympy(sympy.Symbol(parsed.variable)),
+        conditions=demands,
+    )
+    with_energy = _at_its_energy(found, E) if constraint.has(E) else found
+    if with_energy is None or not with_energy.polynomial.has(E):
         return None
-    if not polynomial.is_polynomial(E):
+    if not with_energy.polynomial.is_polynomial(E):
         raise Uncovered("the energies aren't the zeros of a polynomial")
-    wave = y
+    wave = with_energy.wave
     if parsed.equation is not None:
-        wave = Given(lambda _: (), parsed.equation).translated(y)
-    P = system[0].to_sympy(sympy.Symbol(parsed.variable))
-    return QuasiSolution(d, constraint, sympy.factor(polynomial), wave, P, demands)
+        wave = Given(lambda _: (), parsed.equation).translated(wave)
+    return replace(with_energy, polynomial=sympy.factor(with_energy.polynomial), wave=wave)
+
+
+def _at_its_energy(found: QuasiSolution, E: Any) -> QuasiSolution | None:
+    """Where the constraint gives E: it is the equation for the energy, which is put in; None where it has several zeros.
+
+    None as well where P exists for some values of the parameters only.
+    """
+    if found.polynomial != 0:
+        return None
+    polynomial = sympy.numer(sympy.together(found.constraint))
+    energies = sympy.solve(polynomial, E)
+    if len(energies) != 1:
+        return None
+    (energy,) = energies
+    return replace(
+        found,
+        constraint=sympy.Integer(0),
+        polynomial=polynomial,
+        wave=found.wave.xreplace({E: energy}),
+        conditions=tuple(condition.subs(E, energy) for condition in found.conditions),
+    )
 
 
 def _common_numerator(conditions: Iterable[Any]) -> Any:
@@ -244,7 +282,8 @@ def _common_numerator(conditions: Iterable[Any]) -> Any:
 def _joined(y: Any, field: Field) -> Any:
     """With the square roots that generate the field written out, and the powers of conjugate factors as one power."""
     while isinstance(field, AlgebraicField):
-        if field.name.isidentifier() and field.name != "I" and field.dimension == 2:
+        is_named = field.name.isidentifier() and field.name != "I"
+        if is_named and field.dimension == 2:
             y = y.xreplace({sympy.Symbol(field.name): _root_of(field)})
         field = field.base
     powers: dict[Any, list[Any]] = {}
@@ -256,7 +295,9 @@ def _joined(y: Any, field: Field) -> Any:
 
 def _root_of(field: AlgebraicField) -> Any:
     """The generator a of a quadratic extension, a^2 + middle a + rest = 0."""
-    middle, rest = (field.modulus[k].to_sympy(sympy.Dummy("x")) for k in (1, 0))
+    x = sympy.Dummy("x")
+    middle = field.modulus[1].to_sympy(x)
+    rest = field.modulus[0].to_sympy(x)
     return sympy.sqrt(middle**2 / 4 - rest) - middle / 2
 
 
@@ -272,10 +313,17 @@ def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
     """The real zeros of a polynomial with rational coefficients, as SymPy's numbers and as balls."""
     for factor, _ in sympy.factor_list(polynomial, E)[1]:
         exact = sympy.Poly(factor, E)
-        scaled = exact.clear_denoms()[1] if exact.domain.is_QQ else exact
-        balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
-        real = sorted((ball.real for ball, _ in balls if ball.imag == 0), key=lambda ball: float(ball.mid()))
-        yield from zip(sympy.Poly(factor, E).real_roots(), real, strict=True)
+        yield from zip(exact.real_roots(), _real_zeros_in_balls(exact), strict=True)
+
+
+def _real_zeros_in_balls(polynomial: Any) -> list[arb]:
+    """The real zeros of an irreducible polynomial, from left to right."""
+    scaled = polynomial
+    if polynomial.domain.is_QQ:
+        _, scaled = polynomial.clear_denoms()
+    balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
+    real = [ball.real for ball, _ in balls if ball.imag == 0]
+    return sorted(real, key=lambda ball: float(ball.mid()))
 
 
 def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
@@ -312,8 +360,9 @@ def _as_ball(bound: Any) -> arb:
 
 def _value(coefficient: Any, E: Any, ball: arb) -> acb:
     """A rational function of E over Q at a ball."""
-    num, den = (sympy.Poly(part, E) for part in sympy.fraction(sympy.together(coefficient)))
-    above, below = (_horner(part, ball) for part in (num, den))
+    num, den = sympy.fraction(sympy.together(coefficient))
+    above = _horner(sympy.Poly(num, E), ball)
+    below = _horner(sympy.Poly(den, E), ball)
     return above / below
 
 

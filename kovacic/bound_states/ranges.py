@@ -11,6 +11,14 @@ import sympy
 from kovacic.bound_states.energies import shortest
 from kovacic.bound_states.signs import Signs
 
+#: By the sign of the side on which it holds, and whether it is strict.
+_RELATIONS = {
+    (1, True): sympy.StrictGreaterThan,
+    (1, False): sympy.GreaterThan,
+    (-1, True): sympy.StrictLessThan,
+    (-1, False): sympy.LessThan,
+}
+
 
 def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
     """The conditions that don't hold anyway, each solved for n, or for a parameter, where it is linear in it.
@@ -18,25 +26,30 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
     meanings = dict(radicals or {})
-    roots = _square_roots(meanings)
+    squares = _squares_of_roots(meanings)
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
     found = []
     implied = {sympy.true}
     for condition in _paired(left, signs):
         solved = _solved(condition, signs)
-        squared = _squared(solved, roots)
+        squared = _squared(solved, squares)
         if squared is None:
             found.append(solved.xreplace(meanings))
         else:
             found.append(_solved(squared, signs))
-            implied |= {_solved(sympy.Ge(square, 0), signs) for square in roots.values()}
+            implied |= {_solved(sympy.Ge(square, 0), signs) for square in squares.values()}
     return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
 
 
-def _square_roots(meanings: Mapping[Any, Any]) -> dict[Any, Any]:
+def _squares_of_roots(meanings: Mapping[Any, Any]) -> dict[Any, Any]:
     """The squares of those symbols for roots whose squares have no roots in them."""
     squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
-    return {symbol: square for symbol, square in squares.items() if not _radicals(square)}
+    return {symbol: square for symbol, square in squares.items() if not _has_radicals(square)}
+
+
+def _has_radicals(expression: Any) -> bool:
+    """Is there a root of what depends on parameters?"""
+    return any(not power.exp.is_Integer and power.base.free_symbols for power in expression.atoms(sympy.Pow))
 
 
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
@@ -50,10 +63,14 @@ def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
 
 def _exclude(first: Any, second: Any, signs: Signs) -> bool:
     """Is one a lower bound of what the other one bounds from above, and larger?"""
-    if not _are_comparable(first, second) or _is_lower_bound(first) == _is_lower_bound(second):
+    if not _are_comparable(first, second):
         return False
-    low, high = (first, second) if _is_lower_bound(first) else (second, first)
-    return signs.is_positive(low.rhs - high.rhs) is True
+    if _is_lower_bound(first) == _is_lower_bound(second):
+        return False
+    gap = first.rhs - second.rhs
+    if not _is_lower_bound(first):
+        gap = -gap
+    return signs.is_positive(gap) is True
 
 
 def _weaker(first: Any, second: Any, signs: Signs) -> Any:
@@ -77,18 +94,14 @@ def _is_lower_bound(condition: Any) -> bool:
     return isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan)
 
 
-def _radicals(expression: Any) -> set[Any]:
-    return {power for power in expression.atoms(sympy.Pow) if not power.exp.is_Integer and power.base.free_symbols}
-
-
-def _squared(condition: Any, roots: Mapping[Any, Any]) -> Any:
-    """r > c, c >= 0 a number, as r^2 > c^2; None for another condition."""
-    if condition in (sympy.true, sympy.false) or not _is_lower_bound(condition):
+def _squared(condition: Any, squares: Mapping[Any, Any]) -> Any:
+    """r > c, c >= 0 a number, as r^2 > c^2, r a symbol for a root with one of the squares; None for another condition."""
+    if not _is_lower_bound(condition) or condition.lhs not in squares:
         return None
     bound = condition.rhs
-    if condition.lhs not in roots or not bound.is_number or bound.is_negative:
+    if not bound.is_number or bound.is_negative:
         return None
-    return condition.func(roots[condition.lhs], bound**2)
+    return condition.func(squares[condition.lhs], bound**2)
 
 
 def _paired(conditions: list[Any], signs: Signs) -> list[Any]:
@@ -109,17 +122,21 @@ def _pair(first: Any, second: Any, signs: Signs) -> Any:
     n = signs.n
     if not isinstance(first, sympy.StrictGreaterThan):
         return None
-    one = first.gts - first.lts
-    other = second.gts - second.lts
-    if not (one.has(n) and other.has(n)):
+    total = first.gts - first.lts
+    difference = second.gts - second.lts
+    if not (total.has(n) and difference.has(n)):
         return None
-    s = sympy.simplify((one + other) / 2)
-    st = sympy.simplify(s * (one - other) / 2)
+    s = sympy.simplify((total + difference) / 2)
+    st = sympy.simplify(s * (total - difference) / 2)
     if st.has(n) or sympy.degree(sympy.numer(sympy.together(s)), n) != 1:
         return None
-    sign = signs.sign(st)
-    size = sympy.Abs(st) if sign is None else sign * st
-    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(size)))
+    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(_size(st, signs))))
+
+
+def _size(value: Any, signs: Signs) -> Any:
+    """|value|, without the bars where its sign is known."""
+    sign = signs.sign(value)
+    return sympy.Abs(value) if sign is None else sign * value
 
 
 def _solved(condition: Any, signs: Signs) -> Any:
@@ -132,8 +149,9 @@ def _solved(condition: Any, signs: Signs) -> Any:
     is_strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
     rest = _without_signs(condition.gts - condition.lts, signs)
     if is_strict:
-        rest = _turned(rest)
-    for unknown in (n, *sorted(rest.free_symbols - {n}, key=str)):
+        rest = _without_denominator(rest)
+    parameters = sorted(rest.free_symbols - {n}, key=str)
+    for unknown in (n, *parameters):
         solved = _solved_for(unknown, rest, signs, is_strict=is_strict)
         if solved is not None:
             return solved
@@ -142,11 +160,13 @@ def _solved(condition: Any, signs: Signs) -> Any:
     return _beyond(rest, 0, 1, is_strict=is_strict)
 
 
-def _turned(positive: Any) -> Any:
+def _without_denominator(positive: Any) -> Any:
     """c p in the place of c/p, which is positive where that is."""
     number, factor = positive.as_coeff_Mul()
     base, exponent = factor.as_base_exp()
-    return sympy.expand(number * base) if exponent == -1 else positive
+    if exponent != -1:
+        return positive
+    return sympy.expand(number * base)
 
 
 def _solved_for(unknown: Any, rest: Any, signs: Signs, *, is_strict: bool) -> Any:
@@ -168,10 +188,7 @@ def _degree(expression: Any, unknown: Any) -> Any:
 
 def _beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
     """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
-    if sign == 1:
-        relation = sympy.StrictGreaterThan if is_strict else sympy.GreaterThan
-    else:
-        relation = sympy.StrictLessThan if is_strict else sympy.LessThan
+    relation = _RELATIONS[sign, is_strict]
     return relation(unknown, bound)
 
 
@@ -185,11 +202,14 @@ def _without_signs(difference: Any, signs: Signs) -> Any:
 
 
 def _solved_for_square(rest: Any, signs: Signs, *, is_strict: bool) -> Any:
-    """c (n + h)^2 + k > 0 as (n + h)^2 < -k/c."""
-    c, b, k = (rest.coeff(signs.n, i) for i in (2, 1, 0))
+    """c n^2 + b n + k > 0 as (n + b/(2 c))^2 < (b^2/(4 c) - k)/c for c < 0, and > for c > 0."""
+    n = signs.n
+    c = rest.coeff(n, 2)
+    b = rest.coeff(n, 1)
+    k = rest.coeff(n, 0)
     sign = signs.sign(c)
     if sign is None:
         return _beyond(rest, 0, 1, is_strict=is_strict)
-    square = (signs.n + shortest(sympy.factor(b / (2 * c)))) ** 2
+    square = (n + shortest(sympy.factor(b / (2 * c)))) ** 2
     bound = shortest(sympy.factor((b**2 / (4 * c) - k) / c))
     return _beyond(square, bound, sign, is_strict=is_strict)

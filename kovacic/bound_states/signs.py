@@ -30,8 +30,9 @@ class Signs:
 
     def real(self, expression: Any) -> Any:
         """The expression in the real symbols, in the place of plain ones of the same names."""
-        plain = (s for s in expression.free_symbols if not isinstance(s, sympy.Dummy))
-        return expression.xreplace({s: self.symbols[s.name] for s in plain if s.name in self.symbols})
+        plain = (symbol for symbol in expression.free_symbols if not isinstance(symbol, sympy.Dummy))
+        of_parameters = [symbol for symbol in plain if symbol.name in self.symbols]
+        return expression.xreplace({symbol: self.symbols[symbol.name] for symbol in of_parameters})
 
     def bounds_of(self, name: str, expression: Any) -> list[Any]:
         """What is known about the parameter, said about an expression that is its value."""
@@ -60,8 +61,10 @@ class Signs:
         if relation in (sympy.true, sympy.false):
             return bool(relation)
         difference = relation.gts - relation.lts
-        strict = relation.func in (sympy.StrictGreaterThan, sympy.StrictLessThan)
-        return self.is_positive(difference) if strict else self.is_nonnegative(difference)
+        is_strict = relation.func in (sympy.StrictGreaterThan, sympy.StrictLessThan)
+        if is_strict:
+            return self.is_positive(difference)
+        return self.is_nonnegative(difference)
 
     def is_positive(self, expression: Any) -> bool | None:
         return self._known(expression, "is_positive")
@@ -75,14 +78,14 @@ class Signs:
             return 1 if expression == sympy.oo else -1
         if self.is_positive(expression):
             return 1
-        return -1 if self.is_positive(-expression) else None
+        if self.is_positive(-expression):
+            return -1
+        return None
 
     def _known(self, expression: Any, question: str) -> bool | None:
         """What SymPy says in the first of the charts in which it says something."""
         for values in self._charts():
-            factored = sympy.factor(sympy.together(sympy.sympify(expression).xreplace(values)))
-            expanded = map(_expanded, sympy.Mul.make_args(factored))
-            for form in (sympy.Mul(*expanded, evaluate=False), factored):
+            for form in _forms(sympy.sympify(expression).xreplace(values)):
                 found = getattr(form, question)
                 if found is not None:
                     return bool(found)
@@ -95,13 +98,23 @@ class Signs:
             yield {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
 
 
+def _forms(expression: Any) -> tuple[Any, Any]:
+    """As a product of sums of products, and in factors."""
+    factored = sympy.factor(sympy.together(expression))
+    expanded = map(_expanded, sympy.Mul.make_args(factored))
+    return sympy.Mul(*expanded, evaluate=False), factored
+
+
 def _expanded(factor: Any) -> Any:
     """A sum as a sum of products."""
     return sympy.expand(factor) if factor.is_Add else factor
 
 
 def _real(name: str, known: Any) -> Any:
-    facts = {} if known is None else known.assumptions0
+    """A real symbol with this name, and with the facts of the one that is known, if any is."""
+    facts: dict[str, bool] = {}
+    if known is not None:
+        facts = known.assumptions0
     return sympy.Symbol(name, **{**facts, "real": True})
 
 

@@ -54,6 +54,8 @@ from kovacic.verify.identity import form_numerators
 from kovacic.writing.formula import Formulas
 
 SCHEMA = 1
+#: Those of an equation a y'' + b y' + c y = f.
+_COEFFICIENTS = ("a", "b", "c", "f")
 
 # An answer may be larger than an input may be by default.
 _LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
@@ -239,16 +241,17 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     """What is claimed of S, with its proof; nothing is verified."""
     proof = data["proof"]
     _check_parts_of_omega(data)
-    rational = _Reader.over(S.field, variable)
-    reader = rational.extended(data["constants"])
-    form = _unless_none(proof["semi_invariant"], reader.semi_invariant)
+    over_S = _Reader.over(S.field, variable)
+    over_constants = over_S.extended(data["constants"])
+    form = _unless_none(proof["semi_invariant"], over_constants.semi_invariant)
     structure = _unless_none(proof["structure"], Structure)
     names = Formulas(variable, S.field)
     exclusions = tuple(_read_exclusion(entry, names) for entry in proof["excluded"])
-    invariant = _unless_none(proof["invariant"], rational.semi_invariant)
+    invariant = _unless_none(proof["invariant"], over_S.semi_invariant)
     riccati = None
     if form is not None:
-        riccati = _riccati(form.P, reader.poly(proof["semi_invariant"]["D"]), data["riccati"], reader)
+        D = over_constants.poly(proof["semi_invariant"]["D"])
+        riccati = _riccati(form.P, D, data["riccati"], over_constants)
     undecided = _typed(proof, "undecided", str, type(None))
     decision = Decision(
         structure=structure,
@@ -281,7 +284,8 @@ def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
 _BY_VALUE = {"S", "theta", "P", "D", "coefficients", "minimal_polynomial", "a", "b", "c", "f", "gauge", "near"}
 _ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
 _MAY_BE_ABSENT = {"field", "generic_conditions", "equation", "gauge", "change", "near"}
-#: What shows a group, which is computed anew.
+#: What is said of a group, and what shows it, which is computed anew.
+_FACTS = ("name", "order", "finite", "family", "n")
 _EVIDENCE = {"form", "function", "orders"}
 
 
@@ -361,9 +365,11 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
     if data is None:
         return
     found = group_dict(answer)
-    if found is not None:
-        facts = {key: found[key] for key in ("name", "order", "finite", "family", "n") if key in data}
-        _demand_the_same({key: value for key, value in data.items() if key not in _EVIDENCE}, facts, "group")
+    if found is None:
+        return
+    said = {key: value for key, value in data.items() if key not in _EVIDENCE}
+    facts = {key: found[key] for key in _FACTS if key in data}
+    _demand_the_same(said, facts, "group")
 
 
 def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
@@ -374,22 +380,23 @@ def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable
     found = data["equation"]
     if not _is_field(found["field"], equation.a.field):
         raise ValueError("the field of the equation isn't that of the input")
-    if any(reader.ratfunc(found[name]) != getattr(equation, name) for name in ("a", "b", "c", "f")):
+    if any(reader.ratfunc(found[name]) != getattr(equation, name) for name in _COEFFICIENTS):
         raise ValueError("the equation isn't that of the input")
     if reader.ratfunc(data["gauge"]) != equation.gauge:
         raise ValueError("the gauge isn't that of the equation")
 
 
 def _equation(equation: Equation | None) -> dict[str, Any] | None:
+    """The equation as it was given; None where S alone was."""
     if equation is None:
         return None
-    x = equation.variable
+    coefficients = {name: getattr(equation, name).to_str(equation.variable) for name in _COEFFICIENTS}
     h = None if equation.h is None else as_text(equation.h)
     change = None if equation.change is None else equation.change.to_dict()
     return {
         "text": equation.text(caret=False),
         "unknown": equation.unknown,
-        **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
+        **coefficients,
         "h": h,
         "field": _field(equation.a.field),
         "change": change,
@@ -504,6 +511,7 @@ def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
 def _typed(data: Mapping[str, Any], key: str, *types: type) -> Any:
     """The value of this key.  Raises `ValueError` where it has another type; a truth value isn't a number."""
     value = data[key]
-    if not isinstance(value, types) or isinstance(value, bool) != (types == (bool,)):
+    is_unwanted_truth = isinstance(value, bool) and bool not in types
+    if is_unwanted_truth or not isinstance(value, types):
         raise ValueError(f"{key} can't be {value!r}")
     return value

@@ -31,29 +31,43 @@ def written(structure: ClosedStructure, variable: str) -> tuple[str, str] | None
     """
     if isinstance(structure, Conjugate):
         return _conjugate(structure, variable)
-    if not isinstance(structure, Diagonal | Triangular) or not _is_plain(structure.first):
-        return None
-    first = _product(structure.first, variable)
     if isinstance(structure, Diagonal):
-        if not _is_plain(structure.second):
-            return None
-        return first, _product(structure.second, variable)
-    primitive = structure.primitive
+        return _diagonal(structure, variable)
+    if isinstance(structure, Triangular):
+        return _triangular(structure, variable)
+    return None
+
+
+def _diagonal(form: Diagonal, variable: str) -> tuple[str, str] | None:
+    """Two products."""
+    if not (_is_plain(form.first) and _is_plain(form.second)):
+        return None
+    return _product(form.first, variable), _product(form.second, variable)
+
+
+def _triangular(form: Triangular, variable: str) -> tuple[str, str] | None:
+    """A product y1, and y1 times the primitive of 1/y1^2, which is left as an integral or is a rational function."""
+    if not _is_plain(form.first):
+        return None
+    first = _product(form.first, variable)
+    primitive = form.primitive
     if isinstance(primitive, OpenPrimitive):
-        integral = f"Integral({_product(structure.bare.to_power(-2), variable)}, {variable})"
+        integral = f"Integral({_product(form.bare.to_power(-2), variable)}, {variable})"
         second = integral if first == "1" else f"{first}*{integral}"
         return first, second
     if isinstance(primitive, RationalPrimitive) and not primitive.parts.residues:
-        factors = merged(structure.first, normalised_constant(primitive.parts.exact))
-        return first, _text(factors, structure.first.exponential, variable)
+        factors = merged(form.first, normalised_constant(primitive.parts.exact))
+        return first, _text(factors, form.first.exponential, variable)
     return None
 
 
 def _is_plain(y: Product) -> bool:
+    """Is it over the rational numbers, without other roots?"""
     return y.field == QQ and not y.roots
 
 
 def _product(y: Product, variable: str, *others: str) -> str:
+    """The product as text, with other factors that are text already."""
     return _text(merged(y), y.exponential, variable, *others)
 
 
@@ -62,9 +76,9 @@ def _text(found: list[Factor], exponential: RatFunc, variable: str, *others: str
     above: list[str] = []
     below: list[str] = []
     for bases, exponent in grouped(found):
-        e = _number(exponent)
         if all(base.degree <= 0 for base in bases):
             continue
+        e = _number(exponent)
         shown = [_primitive(base, around_zero=e.denominator > 1) for base in bases]
         power = _power([_sum(RatFunc(base), variable) for base in shown], abs(e))
         if e > 0:
@@ -72,7 +86,8 @@ def _text(found: list[Factor], exponential: RatFunc, variable: str, *others: str
         else:
             below.append(power)
     above += others
-    if exponential.num.degree > 0 or not exponential.is_polynomial:
+    is_constant = exponential.is_polynomial and exponential.num.degree <= 0
+    if not is_constant:
         above.append(f"exp({_sum(exponential, variable)})")
     return _quotient(above, below)
 
@@ -85,10 +100,13 @@ def _quotient(above: list[str], below: list[str]) -> str:
     if not below:
         return numerator
     denominator = "*".join(map(_factor, below))
-    return f"{numerator}/{denominator}" if len(below) == 1 else f"{numerator}/({denominator})"
+    if len(below) > 1:
+        denominator = f"({denominator})"
+    return f"{numerator}/{denominator}"
 
 
 def _number(constant: Poly) -> Fraction:
+    """A rational constant as Python's number."""
     value = constant.field.rational_value(constant)
     assert value is not None
     return value
@@ -110,37 +128,56 @@ def _is_negative_at_zero(base: Poly) -> bool:
 
 
 def _power(bases: list[str], exponent: Fraction) -> str:
+    """A power of a product: sqrt(x), x^3, (x + 1)^(2/3)."""
     body = bases[0] if len(bases) == 1 else "*".join(map(_factor, bases))
     if exponent == 1:
         return body
     if exponent == Fraction(1, 2):
         return f"sqrt({body})"
-    inner = body if body.isidentifier() else f"({body})"
+    if not body.isidentifier():
+        body = f"({body})"
     power = as_text(exponent)
-    return f"{inner}^{power}" if exponent.denominator == 1 else f"{inner}^({power})"
+    if exponent.denominator > 1:
+        power = f"({power})"
+    return f"{body}^{power}"
 
 
 def _factor(text: str) -> str:
     """In parentheses, if it is a sum: has a sign or a space outside of parentheses."""
-    inner = text
+    outside = text
     count = 1
     while count:
-        inner, count = re.subn(r"\([^()]*\)", "", inner)
-    return f"({text})" if " " in inner or text.startswith("-") else text
+        outside, count = re.subn(r"\([^()]*\)", "", outside)
+    is_sum = " " in outside or text.startswith("-")
+    return f"({text})" if is_sum else text
 
 
 def _sum(r: RatFunc, variable: str, radical: str = "") -> str:
     """A rational function times a square root: terms of a polynomial, and a proper fraction."""
     polynomial, rest = divmod(r.num, r.den)
-    terms: list[str] = []
-    for k, c in reversed(list(enumerate(polynomial.rational_coefficients()))):
-        if c:
-            terms.append(_term(Fraction(int(c.p), int(c.q)), radical, _monomial(variable, k)))
+    terms = _terms_of(polynomial, variable, radical)
     if rest:
         terms.append(_proper_fraction(rest, r.den, variable, radical))
-    if terms and terms[0].startswith("-") and not terms[-1].startswith("-"):
+    if not terms:
+        return "0"
+    if terms[0].startswith("-") and not terms[-1].startswith("-"):
         terms.reverse()
-    return " + ".join(terms).replace("+ -", "- ") or "0"
+    return _added(terms)
+
+
+def _terms_of(polynomial: Poly, variable: str, radical: str) -> list[str]:
+    """From the highest power down, each times a square root."""
+    terms: list[str] = []
+    for k, c in enumerate(polynomial.rational_coefficients()):
+        if c:
+            number = Fraction(int(c.p), int(c.q))
+            terms.append(_term(number, radical=radical, monomial=_monomial(variable, k)))
+    return terms[::-1]
+
+
+def _added(terms: list[str]) -> str:
+    """a + b - c."""
+    return " + ".join(terms).replace("+ -", "- ")
 
 
 def _monomial(variable: str, k: int) -> str:
@@ -158,23 +195,34 @@ def _proper_fraction(above: Poly, below: Poly, variable: str, radical: str) -> s
         scale = -scale
     numerator = _sum(RatFunc(num), variable)
     monomial = "" if numerator == "1" else _factor(numerator)
-    return _term(scale, radical, monomial, divisor=_sum(RatFunc(den), variable))
+    return _term(scale, radical=radical, monomial=monomial, divisor=_sum(RatFunc(den), variable))
 
 
-def _term(c: Fraction, radical: str, monomial: str, divisor: str = "") -> str:
-    """c * radical * monomial / divisor."""
-    size = "" if abs(c.numerator) == 1 else digits(abs(c.numerator))
-    above = "*".join(part for part in (size, radical, monomial) if part) or "1"
-    if c < 0:
-        above = f"-{above}"
-    if not divisor:
-        return above if c.denominator == 1 else f"{above}/{digits(c.denominator)}"
-    below = _factor(divisor)
-    if c.denominator > 1:
-        return f"{above}/({digits(c.denominator)}*{below})"
-    if "*" in below and not below.startswith("("):
-        below = f"({below})"
-    return f"{above}/{below}"
+def _term(c: Fraction, *, radical: str, monomial: str, divisor: str = "") -> str:
+    """c * radical * monomial / divisor; "" for a factor 1."""
+    above = _above(c.numerator, [part for part in (radical, monomial) if part])
+    if divisor:
+        return f"{above}/{_below(c.denominator, divisor)}"
+    if c.denominator == 1:
+        return above
+    return f"{above}/{digits(c.denominator)}"
+
+
+def _above(number: int, others: list[str]) -> str:
+    """An integer times other factors."""
+    sign = "-" if number < 0 else ""
+    size = abs(number)
+    factors = others if size == 1 else [digits(size), *others]
+    return sign + ("*".join(factors) or "1")
+
+
+def _below(number: int, divisor: str) -> str:
+    """A positive integer times a divisor, behind a slash."""
+    factor = _factor(divisor)
+    if number > 1:
+        return f"({digits(number)}*{factor})"
+    is_closed = "*" not in factor or factor.startswith("(")
+    return factor if is_closed else f"({factor})"
 
 
 def _conjugate(form: Conjugate, variable: str) -> tuple[str, str] | None:
@@ -220,8 +268,7 @@ class _ConjugateParts(NamedTuple):
         """The real part A cos(r V) - r B sin(r V), r the radical, and the imaginary part A sin(r V) + r B cos(r V)."""
         B = self.B
         V = self.V
-        leading = next(c for c in V.num.rational_coefficients()[::-1] if c)
-        if leading < 0:
+        if _number(V.num.lc) < 0:
             V = -V
             B = -B
         angle = _sum(V, self.variable, self.radical)
@@ -234,11 +281,16 @@ class _ConjugateParts(NamedTuple):
 def _times(r: RatFunc, function: str, variable: str, radical: str = "") -> str:
     """A polynomial times the root times a function."""
     text = _sum(r, variable, radical)
+    if text == "0":
+        return "0"
+    if text == "1":
+        return function
+    if text == "-1":
+        return f"-{function}"
     factor = f"({text})" if " " in text else text
-    return {"0": "0", "1": function, "-1": f"-{function}"}.get(text, f"{factor}*{function}")
+    return f"{factor}*{function}"
 
 
 def _with(first: str, second: str) -> str:
     """The sum of two terms."""
-    terms = [term for term in (first, second) if term != "0"]
-    return " + ".join(terms).replace("+ -", "- ")
+    return _added([term for term in (first, second) if term != "0"])

@@ -82,15 +82,7 @@ class Steps:
         yield Table(head, [self._row(place) for place in self.places])
 
     def _row(self, place: Place) -> list[Sentence]:
-        delta: str | Math = "-"
-        if place.kind is Kind.REGULAR:
-            if place.delta is not None:
-                delta = as_text(place.delta)
-            elif place.delta_squared is not None:
-                square = self.formulas.math(place.delta_squared)
-                delta = Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
-            else:
-                delta = "not rational"
+        """One place in the table of local data."""
         points = str(place.degree)
         order = str(place.order)
         if place.at_infinity:
@@ -99,21 +91,38 @@ class Steps:
         kind = _KINDS[place.kind]
         if place.logarithm:
             kind += ", logarithm"
-        return [self.formulas.place(str(place)), points, order, kind, delta]
+        return [self.formulas.place(str(place)), points, order, kind, self._delta(place)]
+
+    def _delta(self, place: Place) -> str | Math:
+        """The exponent difference at a regular point, as far as it is known."""
+        if place.kind is not Kind.REGULAR:
+            return "-"
+        if place.delta is not None:
+            return as_text(place.delta)
+        if place.delta_squared is not None:
+            square = self.formulas.math(place.delta_squared)
+            return Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
+        return "not rational"
 
     def necessary(self) -> Iterator[Block]:
         yield Heading("Kovacic's necessary conditions (section 2.1)")
         rows: list[list[Sentence]] = []
         for case, condition in _CONDITIONS.items():
-            failing = [] if case == 2 else [place for place in self.places if not _allowed(case, [place])]
-            said = "holds" if _allowed(case, self.places) else "fails"
-            verdict: list[str | Math] = [said]
-            before = " at "
-            for place in failing:
+            rows.append([str(case), condition, self._verdict(case)])
+        yield Table(("case", "condition", "verdict"), rows)
+
+    def _verdict(self, case: int) -> list[str | Math]:
+        """Whether a necessary condition holds; those that every place has to meet, with the places where they fail."""
+        said = "holds" if _allowed(case, self.places) else "fails"
+        if case == 2:
+            return [said]
+        verdict: list[str | Math] = [said]
+        before = " at "
+        for place in self.places:
+            if not _allowed(case, [place]):
                 verdict += [before, self.formulas.place(str(place))]
                 before = ", "
-            rows.append([str(case), condition, verdict])
-        yield Table(("case", "condition", "verdict"), rows)
+        return verdict
 
     def search(self) -> Iterator[Block]:
         """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
@@ -226,8 +235,7 @@ class Steps:
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)
         yield Formula(Math("theta", r"\theta").equals(self._shown(family.theta)))
-        unknowns = set(family.unknowns)
-        impossible = next((condition for condition in family.conditions if not unknowns & condition.free_symbols), None)
+        impossible = _impossible(family)
         conditions = [self._shown(condition) for condition in family.conditions[:6]]
         if family.P is not None:
             yield say(f"d = {d}: ", Math("P", "P").equals(self._shown(family.P)), " is a solution.")
@@ -239,6 +247,15 @@ class Steps:
             yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", _all_zero(conditions), ".")
         else:
             yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
+
+
+def _impossible(family: Family) -> Any:
+    """The first condition without unknowns, a coefficient that isn't 0; None where there is none."""
+    unknowns = set(family.unknowns)
+    for condition in family.conditions:
+        if not unknowns & condition.free_symbols:
+            return condition
+    return None
 
 
 def _all_zero(values: Sequence[Math]) -> Math:

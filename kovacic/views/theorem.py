@@ -10,6 +10,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import sympy
 
@@ -51,6 +52,7 @@ _TABLE = 3
 _LONGEST = 240
 _GROUP_NAME = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _NOUNS = ("integer", "half-integer")
+_LATEX_RELATIONS = {">=": r"\ge", "<=": r"\le", "!=": r"\ne"}
 
 
 def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
@@ -182,16 +184,17 @@ class _TheoremWriter:
     # What is claimed
 
     def _claim(self, cases: list[Case]) -> Block:
+        is_complete = self.answer.complete is True
         if self.is_solvable:
             return say("has Liouvillian solutions for all these values. More precisely:")
         if not cases:
-            generic = "" if self.answer.complete is True else " for generic values"
+            generic = "" if is_complete else " for generic values"
             return say(f"has no Liouvillian solution{generic}.")
-        which = "the following holds:" if len(cases) == 1 else "one of the following holds:"
-        if self.answer.complete is True:
-            order = "" if len(cases) == 1 else " (each case where none of those before it holds)"
-            return say(f"has Liouvillian solutions if and only if {which}"[:-1] + f"{order}:")
-        return say(f"has Liouvillian solutions if {which}"[:-1] + ", and none for other generic values:")
+        which = "the following holds" if len(cases) == 1 else "one of the following holds"
+        if not is_complete:
+            return say(f"has Liouvillian solutions if {which}, and none for other generic values:")
+        order = "" if len(cases) == 1 else " (each case where none of those before it holds)"
+        return say(f"has Liouvillian solutions if and only if {which}{order}:")
 
     def _case(self, case: Case, number: str) -> Iterator[Block]:
         rows = _alternatives(case)
@@ -201,7 +204,7 @@ class _TheoremWriter:
             yield Table(("where", "condition"), rows)
         else:
             yield say(number, *_said(case.statement), *without, ".")
-        yield from (Table(head, table) for head, table in _schwarz(case.statement))
+        yield from _schwarz(case.statement)
         yield self._group(case.regions[0])
         yield from self._solutions(case)
 
@@ -229,10 +232,10 @@ class _TheoremWriter:
 
     def _solutions_in(self, region: ParameterRegion, case: Case) -> Iterator[Block]:
         """The formulas for one region."""
-        natural = [part for part in both(region.statement).parts if isinstance(part, Natural)]
-        if natural and natural[0].m == 1:
-            yield from self._with_determinant(region, natural[0])
-            yield from _values(natural[0], len(region.determinants))
+        naturals = _naturals_in(region.statement)
+        if naturals and naturals[0].m == 1:
+            yield from self._with_determinant(region, naturals[0])
+            yield from _values(naturals[0], len(region.determinants))
             return
         solutions = [*region.solution()]
         if len(solutions) > _ONE_BY_ONE:
@@ -294,21 +297,13 @@ class _TheoremWriter:
     def _collected(self, expression: sympy.Expr) -> sympy.Expr:
         """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""
         by_sign = sympy.collect(sympy.expand(expression), self.signs, evaluate=False)
-        numbers = []
-        others = []
-        for sign, coefficient in by_sign.items():
-            number, other = sympy.factor(coefficient).as_coeff_Mul()
-            if other.could_extract_minus_sign():
-                number = -number
-                other = -other
-            numbers.append(number)
-            others.append(other * sign)
-        if len(numbers) < 2:
+        terms = [_scaled_term(coefficient, sign) for sign, coefficient in by_sign.items()]
+        if len(terms) < 2:
             return expression
-        below = sympy.ilcm(1, *(number.q for number in numbers))
-        sign = -1 if all(number < 0 for number in numbers) else 1
-        above = sympy.Add(*(sign * below * number * other for number, other in zip(numbers, others, strict=True)))
-        factor = sympy.Rational(sign, below)
+        below = sympy.ilcm(1, *(term.number.q for term in terms))
+        outside = -1 if all(term.number < 0 for term in terms) else 1
+        above = sympy.Add(*(outside * below * term.number * term.rest for term in terms))
+        factor = sympy.Rational(outside, below)
         return above if factor == 1 else sympy.Mul(factor, above, evaluate=False)
 
     # Delta_d
@@ -317,11 +312,9 @@ class _TheoremWriter:
         """What Delta_d is, and its first values."""
         #: The letter of the degree, by the degree m of the invariant.
         letters: dict[int, str] = {}
-        for case in cases:
-            for region in case.regions:
-                for part in both(region.statement).parts:
-                    if isinstance(part, Natural):
-                        letters.setdefault(part.m, part.letter)
+        for region in (region for case in cases for region in case.regions):
+            for natural in _naturals_in(region.statement):
+                letters.setdefault(natural.m, natural.letter)
         for m in sorted(letters):
             if m == 1:
                 yield from self._delta_of_omega(letters[m])
@@ -362,10 +355,29 @@ class _TheoremWriter:
         for name, of_name in _SOURCES.items():
             if name in self.answer.theory:
                 keys += of_name
-        has_table = any(part for case in self.cases for part in _schwarz(case.statement))
-        if has_table:
+        if any(_schwarz_in(case.statement) for case in self.cases):
             keys.append("Kim69")
         return [*dict.fromkeys(keys)] or ["Kov86"]
+
+
+class _ScaledTerm(NamedTuple):
+    """number * rest."""
+
+    number: sympy.Rational
+    rest: sympy.Expr
+
+
+def _scaled_term(coefficient: sympy.Expr, sign: sympy.Expr) -> _ScaledTerm:
+    """A coefficient in factors times the symbol for a sign, with a minus in the number and none before the rest."""
+    number, other = sympy.factor(coefficient).as_coeff_Mul()
+    if other.could_extract_minus_sign():
+        return _ScaledTerm(-number, -other * sign)
+    return _ScaledTerm(number, other * sign)
+
+
+def _naturals_in(statement: Statement) -> list[Natural]:
+    """Those of the parts that hold together."""
+    return [part for part in both(statement).parts if isinstance(part, Natural)]
 
 
 def _delta_named(d: str) -> Math:
@@ -397,11 +409,13 @@ def _where_several_vanish(regions: Iterable[ParameterRegion]) -> list[str]:
 
 
 def _name(name: str) -> Math:
+    """A name as a formula."""
     return Math(name, latex_text(name))
 
 
 def _relation(name: str, sign: str, value: str) -> Math:
-    latex = {">=": r"\ge", "<=": r"\le", "!=": r"\ne"}.get(sign, sign)
+    """`name sign value`."""
+    latex = _LATEX_RELATIONS.get(sign, sign)
     return Math(f"{name} {sign} {value}", f"{latex_text(name)} {latex} {latex_text(value)}")
 
 
@@ -468,22 +482,32 @@ def _alternatives(case: Case) -> list[list[Sentence]]:
     """Rows for many alternatives "k = 3, and ..."; none where a sentence says it."""
     statement = case.statement
     parts = statement.parts if isinstance(statement, Either) else ()
-    if len(parts) < _TABLE or not all(isinstance(part, Both) and isinstance(part.parts[0], Vanishes) for part in parts):
+    if len(parts) < _TABLE:
         return []
-    return [[_said(both(part).parts[0]), _said(Both(both(part).parts[1:]))] for part in parts]
-
-
-def _schwarz(statement: Statement) -> Iterator[tuple[list[Sentence], list[list[Sentence]]]]:
-    """The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters."""
-    parts: Iterable[Statement] = statement.parts if isinstance(statement, Both | Either) else (statement,)
+    rows: list[list[Sentence]] = []
     for part in parts:
-        if not isinstance(part, Schwarz) or part.structures == (Structure.IMPRIMITIVE,):
-            continue
+        if not isinstance(part, Both) or not isinstance(part.parts[0], Vanishes):
+            return []
+        equation, *others = both(part).parts
+        rows.append([_said(equation), _said(Both(tuple(others)))])
+    return rows
+
+
+def _schwarz_in(statement: Statement) -> list[Schwarz]:
+    """The parts of a statement that a table says: not that of two half-integers."""
+    parts: Iterable[Statement] = statement.parts if isinstance(statement, Both | Either) else (statement,)
+    found = [part for part in parts if isinstance(part, Schwarz)]
+    return [part for part in found if part.structures != (Structure.IMPRIMITIVE,)]
+
+
+def _schwarz(statement: Statement) -> Iterator[Table]:
+    """The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters."""
+    for part in _schwarz_in(statement):
         names, rows = part.resolved()
         heads: list[Sentence] = [Math(name, latex_text(name)) for name in names]
         if not names:
             heads = ["differences up to order, signs and integers", "sum of the integers"]
-        yield ["group", *heads], [[structure.value, *map(sentence_of, values)] for structure, values in rows]
+        yield Table(["group", *heads], [[structure.value, *map(sentence_of, values)] for structure, values in rows])
 
 
 def _letters(statement: Statement) -> list[str]:
