@@ -275,10 +275,9 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
         if symbol.name in words:
             words[symbol.name] = words_of(symbol)
     for key, what in (assume or {}).items():
-        name = _parameter(key, names)
-        words[name] += _read_words(what)
-    known = {name: Known(_useful(said)) for name, said in words.items()}
-    return Assumptions(tuple((name, facts) for name, facts in known.items() if facts.words))
+        words[_parameter(key, names)] += _read_words(what)
+    known = [(name, Known(_useful(said))) for name, said in words.items()]
+    return Assumptions(tuple((name, facts) for name, facts in known if facts.words))
 
 
 def check_mapping(assume: object) -> None:
@@ -319,7 +318,10 @@ def _read_words(what: object) -> list[str]:
 def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero: bool) -> bool:
     """Is no coefficient negative in the s with t = end + sign s, and a monomial positive?"""
     field = form.field
-    values = [field.generator(name) * b.sign + b.end for name, b in zip(field.names, bounds, strict=True)]
+    values = []
+    for name, bound in zip(field.names, bounds, strict=True):
+        s = field.generator(name)
+        values.append(s * bound.sign + bound.end)
     terms = over_parameters(form.value_at(values, field)).num.to_dict()
     if not all(coefficient > 0 for coefficient in terms.values()):
         return False

@@ -72,17 +72,19 @@ class Sampler:
         """A point at which the statement holds, any one without a statement; None if none was found."""
         values = dict(zip(self.start.names, self.start.values, strict=True))
         values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
-        field = self.start.field
-        if statement is not None:
-            try:
-                field = self._solve(statement.sample(self.random), values)
-            except (ZeroDivisionError, ValueError):
-                return None
-        in_one_field = tuple(value.over(field) for value in values.values())
-        point = ParameterPoint((*self.start.names, *self.names), in_one_field, field)
-        if statement is not None and not statement.holds(point):
+        if statement is None:
+            return self._with_values(values, self.start.field)
+        try:
+            field = self._solve(statement.sample(self.random), values)
+        except (ZeroDivisionError, ValueError):
             return None
-        return point
+        point = self._with_values(values, field)
+        return point if statement.holds(point) else None
+
+    def _with_values(self, values: dict[str, Poly], field: Field) -> ParameterPoint:
+        """The point of a field with these values."""
+        in_one_field = tuple(value.over(field) for value in values.values())
+        return ParameterPoint((*self.start.names, *self.names), in_one_field, field)
 
     def _solve(self, functions: Sequence[FunctionPoly], values: dict[str, Poly]) -> Field:
         """Choose a parameter for each function so that it vanishes, the last function first; the field of all values."""
@@ -98,8 +100,9 @@ class Sampler:
         powers = dict(zip(names, degrees(function), strict=True))
         candidates = [name for name in free if powers.get(name, 0) > 0]
         self.random.shuffle(candidates)
-        for name in sorted(candidates, key=lambda n: powers[n]):
-            known = [values[n].over(field) for n in names]
+        candidates.sort(key=powers.__getitem__)
+        known = [values[name].over(field) for name in names]
+        for name in candidates:
             equation = field.poly(coefficients_in(function, names.index(name), known, field))
             if equation.degree < 1:
                 continue

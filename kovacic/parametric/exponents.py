@@ -193,21 +193,30 @@ def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Pol
 
     The coordinates of an image are put into one polynomial, one behind the other for each power.
     """
+    basis = _basis(field, below)
+    if len(basis) == 1:
+        return list(images)
+    found = []
+    for image in images:
+        found += [_in_one_polynomial(_parts(image * element, below), below) for element in basis]
+    return found
+
+
+def _basis(field: Field, below: Field) -> list[Poly]:
+    """The products of powers of the generators, a basis over the field below."""
     basis = [field.poly([1])]
     level = field
     while level != below:
         assert isinstance(level, AlgebraicField)
         basis = [element * level.generator**k for k in range(level.dimension) for element in basis]
         level = level.base
-    if len(basis) == 1:
-        return list(images)
-    found = []
-    for image in images:
-        for element in basis:
-            parts = _parts(image * element, below)
-            size = max(part.degree for part in parts) + 1
-            found.append(below.poly([part[k] for k in range(size) for part in parts]))
-    return found
+    return basis
+
+
+def _in_one_polynomial(parts: Sequence[Poly], field: Field) -> Poly:
+    """The coefficients of some polynomials, one behind the other for each power."""
+    size = max(part.degree for part in parts) + 1
+    return field.poly([part[k] for k in range(size) for part in parts])
 
 
 def _parts(polynomial: Poly, below: Field) -> list[Poly]:

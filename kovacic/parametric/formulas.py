@@ -27,6 +27,8 @@ from kovacic.writing.formula import Math, caret, latex_text
 _TERMS = 4
 #: How much longer a quotient may become so that its denominator is in factors.
 _FOR_FACTORS = 4
+#: A power of the variable before powers of parameters, as flint writes a term.
+_VARIABLE_FIRST = r"\b(x(?:\^\d+)?)\*(t\d+(?:\^\d+)?(?:\*t\d+(?:\^\d+)?)*)"
 #: A power of a polynomial in the parameters, flint's.
 Power = tuple[Any, int]
 #: Around formulas among words.
@@ -75,6 +77,7 @@ def sentence_of(said: str) -> list[str | Math]:
 
 
 def _formula(text: str) -> str:
+    """A formula in LaTeX, with what stands beside functions."""
     latex = latex_text(text)
     for pattern, replacement in _SIGNS.items():
         latex = re.sub(pattern, replacement, latex)
@@ -114,7 +117,9 @@ def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
     if not has_sum_below:
         return shortest
     in_factors = _sum(forms[-1], names)
-    return in_factors if len(in_factors) <= len(shortest) + _FOR_FACTORS else shortest
+    if len(in_factors) > len(shortest) + _FOR_FACTORS:
+        return shortest
+    return in_factors
 
 
 def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> str:
@@ -151,14 +156,22 @@ def _monomial(coefficient: Poly, variable: str, k: int) -> str:
         return text
     power = variable if k == 1 else f"{variable}^{k}"
     if text in ("1", "-1"):
-        return text[:-1] + power
-    number = re.fullmatch(r"(-?)(\d+)/(\d+)", text)
-    if number is None:
-        return f"({text})*{power}" if " " in text else f"{text}*{power}"
-    sign, above, below = number.groups()
-    if above == "1":
-        return f"{sign}{power}/{below}"
-    return f"{sign}{above}*{power}/{below}"
+        return _times(text, power)
+    fraction = re.fullmatch(r"(-?\d+)/(\d+)", text)
+    if fraction is not None:
+        above, below = fraction.groups()
+        return f"{_times(above, power)}/{below}"
+    factor = f"({text})" if " " in text else text
+    return f"{factor}*{power}"
+
+
+def _times(integer: str, power: str) -> str:
+    """An integer times a power."""
+    if integer == "1":
+        return power
+    if integer == "-1":
+        return f"-{power}"
+    return f"{integer}*{power}"
 
 
 def _in_factors(function: RatFunc, variable: str) -> str:
@@ -190,11 +203,12 @@ class _SolvedFor(NamedTuple):
 def _solved_for_a_parameter(above: Any) -> _SolvedFor | None:
     """A linear equation, solved for the first parameter with the coefficient 1 or -1, or for the first; None for others."""
     terms = above.to_dict()
-    linear = [exponents for exponents in terms if sum(map(int, exponents)) == 1]
-    constants = [exponents for exponents in terms if not any(exponents)]
-    if not linear or len(terms) > len(linear) + len(constants):
+    degrees = {exponents: sum(map(int, exponents)) for exponents in terms}
+    linear = [exponents for exponents, degree in degrees.items() if degree == 1]
+    if not linear or max(degrees.values()) > 1:
         return None
-    chosen = next((exponents for exponents in linear if abs(int(terms[exponents])) == 1), linear[0])
+    without_fractions = (exponents for exponents in linear if abs(int(terms[exponents])) == 1)
+    chosen = next(without_fractions, linear[0])
     coefficient = int(terms[chosen])
     left = above.context().from_dict({chosen: 1})
     values = _forms(left * coefficient - above, above.context().constant(coefficient))
@@ -334,13 +348,12 @@ def _joined(terms: Iterable[str]) -> str:
 
 def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
     """The expanded polynomial, in the order of its terms; the variable stands behind the parameters."""
-    text = re.sub(
-        r"\b(x(?:\^\d+)?)((?:\*t\d+(?:\^\d+)?)+)", lambda match: f"{match[2][1:]}*{match[1]}", str(polynomial)
-    )
-    return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], text)
+    reordered = re.sub(_VARIABLE_FIRST, r"\2*\1", str(polynomial))
+    return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], reordered)
 
 
 def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
+    """A quotient of products; a sum alone needs no parentheses."""
     top = _pieces(abs(term.number.numerator), term.top, term.root, names)
     bottom = _pieces(term.number.denominator, term.bottom, term.under, names)
     sign = "-" if term.number < 0 else ""

@@ -189,6 +189,11 @@ class _Moebius(NamedTuple):
     c: int
     d: int
 
+    @property
+    def determinant(self) -> int:
+        """a d - b c."""
+        return self.a * self.d - self.b * self.c
+
     def at(self, t: int) -> Fraction | None:
         """The value; None at the pole."""
         below = self.c * t + self.d
@@ -210,15 +215,12 @@ def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | N
     quotient = _moebius(form, k)
     if quotient is None:
         return None
-    most = largest * abs(quotient.a * quotient.d - quotient.b * quotient.c)
+    most = largest * abs(quotient.determinant)
     if most > _MOST_INTEGERS:
         return None
     end = (most + abs(quotient.d)) // abs(quotient.c)
-    found = {}
-    for t in range(-end, end + 1):
-        value = quotient.at(t)
-        if value is not None and value.denominator <= largest:
-            found[t] = value
+    values = {t: quotient.at(t) for t in range(-end, end + 1)}
+    found = {t: value for t, value in values.items() if value is not None and value.denominator <= largest}
     return ValuesAtIntegers(form.field.names[k - 1], found)
 
 

@@ -57,20 +57,23 @@ class Congruence(Statement):
         (-1, 0] if it is a number, and the classes are symmetric about it if the equation is.
         """
         classes = {Fraction(r) for r in residues}
-        modulus = Fraction(modulus)
-        if equation.degree == 1:
-            return cls._of_form(-equation[0] / equation[1], classes, modulus)
+        m = Fraction(modulus)
+        k = equation.degree
+        if k == 1:
+            return cls._of_form(-equation[0] / equation[1], classes, m)
         field = equation.field
+        mean = field.rational_value(-equation[k - 1] / (k * equation.lc))
+        if mean is None:
+            return cls._with_least_modulus(equation, classes, m)
+        shift = ceil(mean)
         Z = field.poly([0, 1])
-        mean = field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
-        if mean is not None:
-            shift = ceil(mean)
-            equation = over_parameters(equation(Z + shift))
-            classes = {residue - shift for residue in classes}
-            twice = 2 * (mean - shift)
-            if twice.denominator == 1 and equation(twice - Z) == (-1) ** equation.degree * equation:
-                classes |= {twice - residue for residue in classes}
-        return cls._with_least_modulus(equation, classes, modulus)
+        moved = over_parameters(equation(Z + shift))
+        moved_classes = {residue - shift for residue in classes}
+        twice = 2 * (mean - shift)
+        is_symmetric = twice.denominator == 1 and moved(twice - Z) == (-1) ** k * moved
+        if is_symmetric:
+            moved_classes |= {twice - residue for residue in moved_classes}
+        return cls._with_least_modulus(moved, moved_classes, m)
 
     @classmethod
     def _of_form(cls, value: Poly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:

@@ -64,7 +64,8 @@ def plot(
     rows = grids[1] if is_map else None
 
     def colour(*point: Fraction) -> int:
-        return LABELS.index(label_at({**(fixed or {}), **dict(zip(chosen, point, strict=True))}))
+        values = dict(zip(chosen, point, strict=True))
+        return LABELS.index(label_at({**(fixed or {}), **values}))
 
     if rows is None:
         table = [[colour(first) for first in columns]]

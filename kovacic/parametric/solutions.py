@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
@@ -178,8 +178,15 @@ def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution |
     return None if together is None else together(signs)
 
 
-def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, int] | None:
-    """y = exp(int theta) P, deg P = degree, for all choices of the exponents at once, and how many signs choose them.
+class WeightBySigns(NamedTuple):
+    """The solution for signs, and how many of them there are."""
+
+    solution: BySigns
+    signs: int
+
+
+def weight_by_signs(problem: Problem, variable: str, P: Any) -> WeightBySigns | None:
+    """y = exp(int theta) P, deg P = degree, for all choices of the exponents at once, which signs choose.
 
     None where the exponents need too large an extension, or other roots than square roots.
     """
@@ -199,7 +206,8 @@ def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, i
             degree -= exponent
         return PolynomialSolution(y, sympy.expand(degree))
 
-    return by_signs, sum(len(choices) > 1 for choices in parts)
+    number_of_signs = sum(len(choices) > 1 for choices in parts)
+    return WeightBySigns(by_signs, number_of_signs)
 
 
 def _with_sign(choices: Sequence[LocalPart], sign: Any, x: Any) -> tuple[Any, Any]:
@@ -227,12 +235,14 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
         return None
     P, rest = found
     alternatives = [_conditions(coefficient) for coefficient in rest if coefficient]
-    if [] in alternatives:
+    exists_nowhere = [] in alternatives
+    if exists_nowhere:
         return None
     x = sympy.Symbol(variable)
     y = P.to_sympy(x)
     for part in exponents.parts:
-        y *= _local_factor(part.factor, sympy.factor(part.exponent.to_sympy(x)), part.main.to_sympy(x), x)
+        exponent = sympy.factor(part.exponent.to_sympy(x))
+        y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
     conditions = [given.to_sympy(x), *(_product(factors, x) for factors in alternatives)]
     where = [equation_written(given), *map(_one_vanishes, dict.fromkeys(map(tuple, alternatives)))]
     return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join(where))
@@ -266,7 +276,10 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
             return polynomial.to_sympy(x)
         return sympy.Add(*(part.to_sympy(x) * constant**k for k, part in enumerate(polynomial.parts)))
 
-    factors = [_without_constant(shown(power.base), x) ** sympy.factor(shown(power.exponent)) for power in y.powers]
+    factors = []
+    for power in y.powers:
+        base = _without_constant(shown(power.base), x)
+        factors.append(base ** sympy.factor(shown(power.exponent)))
     exponential = sympy.exp(sympy.expand(shown(y.exponential.num) / shown(y.exponential.den)))
     degree = sympy.Integer(max(riccati.P.degree, 0))
     return (PolynomialSolution(sympy.Mul(*factors, exponential), degree, (), "the region's statement holds"),)
@@ -288,11 +301,11 @@ def _letters_under_roots(expression: Any) -> dict[Any, int]:
     """1 for an a with sqrt(a) or 1/sqrt(a) in an expression, -1 for sqrt(-a)."""
     signs: dict[Any, int] = {}
     for power in expression.atoms(sympy.Pow):
-        if abs(power.exp) != sympy.S.Half:
-            continue
-        for sign in (1, -1):
-            if (power.base * sign).is_Symbol:
-                signs[power.base * sign] = sign
+        if abs(power.exp) == sympy.S.Half:
+            for sign in (1, -1):
+                letter = sign * power.base
+                if letter.is_Symbol:
+                    signs[letter] = sign
     return signs
 
 

@@ -81,7 +81,8 @@ class Coordinate:
     def __str__(self) -> str:
         if self.n == 1:
             return self.base
-        return f"{self.base}^{self.n}" if self.base.isidentifier() else f"({self.base})^{self.n}"
+        base = self.base if self.base.isidentifier() else f"({self.base})"
+        return f"{base}^{self.n}"
 
 
 class Symmetric(NamedTuple):
@@ -104,23 +105,29 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
     They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.  The
     other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
     """
-    field = problem.field
-    x = RatFunc(field.poly([0, 1]))
+    x = RatFunc(problem.field.poly([0, 1]))
     rational_poles = [-place.factor[0] for place in problem.finite_places if place.degree == 1]
     for pole in (None, *rational_poles):
-        moved = problem.S
+        S = problem.S
         if pole is not None:
-            moved = moved(1 / x + pole) / x**4
-        points = moved.den if moved.den.degree else moved.num
-        if points.degree < 1:
+            S = S(1 / x + pole) / x**4
+        center = _center(S)
+        if center is None:
             continue
-        center = -points[points.degree - 1] / (points.lc * points.degree)
         if center:
-            moved = moved(x + center)
-        square = moved * x * x
+            S = S(x + center)
+        square = S * x * x
         n = gcd(*_exponents(square.num), *_exponents(square.den))
         coordinate = _coordinate(pole, center, n, variable)
         yield Symmetric(coordinate, _every(n, square.num), _every(n, square.den))
+
+
+def _center(S: RatFunc) -> Poly | None:
+    """The mean of the poles, or of the zeros of a polynomial; None for a constant."""
+    points = S.den if S.den.degree else S.num
+    if points.degree < 1:
+        return None
+    return -points[points.degree - 1] / (points.lc * points.degree)
 
 
 def _every(n: int, f: Poly) -> Poly:

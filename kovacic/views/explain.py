@@ -249,11 +249,9 @@ class _ExplanationWriter:
         if found:
             title = "Solutions" if self.answer.case else "Solutions in special functions"
             yield Heading(title)
-        for name, y in found:
-            text = shortened(y.text)
-            shown = y if text == y.text else Math(text, r"\text{(too long to print)}")
-            yield Formula(name.equals(shown))
-        shorter = shorter_pair(self.answer, max((len(y.text) for _, y in found), default=0))
+        yield from (Formula(name.equals(_printable(y))) for name, y in found)
+        longest = max((len(y.text) for _, y in found), default=0)
+        shorter = shorter_pair(self.answer, longest)
         if shorter:
             yield say(SHORTER.capitalize())
             yield from (Formula(name.equals(y)) for name, y in shorter)
@@ -295,6 +293,14 @@ class _ExplanationWriter:
     def bibliography(self) -> Iterator[Block]:
         yield Heading("References")
         yield from (say(reference.text()) for reference in references(self.answer))
+
+
+def _printable(formula: Math) -> Math:
+    """The formula; the beginning of its text, where it fills more than some screens."""
+    text = shortened(formula.text)
+    if text == formula.text:
+        return formula
+    return Math(text, r"\text{(too long to print)}")
 
 
 def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:

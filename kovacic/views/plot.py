@@ -60,6 +60,8 @@ _LONGEST_TITLE = 100
 _LONGEST_EVALUATED = 2000
 #: Powers of ten beside an axis, at most.
 _MOST_POWERS = 4
+#: The share of the height from which on an error is drawn.
+_SEEN = 2e-3
 #: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
 _RANGE = 20
 
@@ -134,13 +136,8 @@ def sample(
     chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
-        x0 = _middle_of_the_longest(intervals)
-        if {"y0", "dy0"} & {*asked}:
-            x0 = _ordinary_start(intervals, a)
-    if asked.get("which") is None and asked.get("frobenius") is None:
-        asked = {"y0": 1, "dy0": 0, **asked}
-    else:
-        asked = {"y0": None, "dy0": None, **asked}
+        x0 = _start(intervals, a, has_values=bool({"y0", "dy0"} & {*asked}))
+    asked = {**_default_values(asked), **asked}
     digits = asked.pop("digits", 8)
     limits = asked.pop("limits", None)
     chart = replace(chart, given={"x0": x0})
@@ -151,6 +148,21 @@ def sample(
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
     near = tuple(complex(point) for point in chart.singular if _is_a_double(point))
     return SampledCurve(tuple(runs), near, x0)
+
+
+def _default_values(asked: dict[str, Any]) -> dict[str, int | None]:
+    """y(x0) = 1 and y'(x0) = 0 where no solution is asked for; none where it is chosen by its behaviour at x0."""
+    is_chosen = asked.get("which") is not None or asked.get("frobenius") is not None
+    if is_chosen:
+        return {"y0": None, "dy0": None}
+    return {"y0": 1, "dy0": 0}
+
+
+def _start(intervals: list[tuple[Fraction, Fraction]], a: Fraction, *, has_values: bool) -> Fraction:
+    """Where initial values hold that are given without a place, or those that are chosen here."""
+    if has_values:
+        return _ordinary_start(intervals, a)
+    return _middle_of_the_longest(intervals)
 
 
 def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
@@ -280,12 +292,13 @@ def plot(
 
     curves = _curves(equation, start, stop, options)
     low, high = map(float, _ends(start, stop))
+    singular = [z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high]
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     axes = figure.add_subplot()
     colour = 0
     for label, curve in curves:
         colour = _draw(axes, curve, label, colour)
-    _mark([z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high], axes)
+    _mark(singular, axes)
     axes.set(xlim=(low, high), xlabel=_variable(equation), title=title)
     _scale(axes, [curve for _, curve in curves])
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
@@ -335,10 +348,13 @@ def _read(equation: object, var: str | None, limits: Limits | None) -> object:
 
 
 def _variable(equation: object) -> str:
+    """The name of the variable, for the axis."""
     change = change_of(equation)
     if change is not None:
         return change.variable
-    return str(equation.variable) if isinstance(equation, Answer | Parsed | Coefficients) else "x"
+    if isinstance(equation, Answer | Parsed | Coefficients):
+        return str(equation.variable)
+    return "x"
 
 
 def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
@@ -358,10 +374,8 @@ def _curves(equation: object, start: object, stop: object, options: PlotOptions)
 def _name(options: PlotOptions, x0: object) -> str:
     """Which solution is drawn."""
     at = plain_text(x0)
-    y0 = 1 if options.get("y0") is None else options["y0"]
-    dy0 = 0 if options.get("dy0") is None else options["dy0"]
-    value = plain_text(y0)
-    slope = plain_text(dy0)
+    value = "1" if options.get("y0") is None else plain_text(options["y0"])
+    slope = "0" if options.get("dy0") is None else plain_text(options["dy0"])
     if options.get("which") == "decaying":
         return f"y, decaying, y({at}) = {value}"
     if options.get("which") is not None:
@@ -438,28 +452,32 @@ def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]
 
 def _draw(axes: Axes, curve: SampledCurve, label: str, colour: int) -> int:
     """The parts of one solution; returns the number of the next colour."""
-    biggest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
-    parts = [("real", "")]
+    names = {"real": label}
     if _is_complex(curve):
-        parts = [("real", "Re "), ("imag", "Im ")]
-    for part, prefix in parts:
-        style = f"C{colour}"
-        name = prefix + label
-        for arc in curve.arcs:
-            x, y = arc.drawn()
-            axes.plot(x, getattr(y, part), linewidth=1.5, color=style, label=name)
-            name = "_"  # once in the legend
-            if arc.radius.max() > 2e-3 * biggest:
-                middle = getattr(arc.y, part)
-                low = middle - arc.radius
-                high = middle + arc.radius
-                axes.fill_between(arc.x, low, high, color=style, alpha=0.25, linewidth=0, label="error band")
-        for envelope in curve.envelopes:
-            size = envelope.real if part == "real" else envelope.imaginary
-            said = f"{prefix}{label}: envelope of {envelope.periods:,.0f} oscillations"
-            axes.fill_between(envelope.x, -size, size, color=style, alpha=0.35, linewidth=0.8, label=said)
+        names = {"real": f"Re {label}", "imag": f"Im {label}"}
+    for part, name in names.items():
+        _draw_part(axes, curve, part, name=name, style=f"C{colour}")
         colour += 1
     return colour
+
+
+def _draw_part(axes: Axes, curve: SampledCurve, part: str, *, name: str, style: str) -> None:
+    """The real or the imaginary part, with bands where errors can be seen."""
+    biggest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
+    in_legend = name
+    for arc in curve.arcs:
+        x, y = arc.drawn()
+        axes.plot(x, getattr(y, part), linewidth=1.5, color=style, label=in_legend)
+        in_legend = "_"  # once in the legend
+        if arc.radius.max() > _SEEN * biggest:
+            middle = getattr(arc.y, part)
+            low = middle - arc.radius
+            high = middle + arc.radius
+            axes.fill_between(arc.x, low, high, color=style, alpha=0.25, linewidth=0, label="error band")
+    for envelope in curve.envelopes:
+        size = envelope.real if part == "real" else envelope.imaginary
+        said = f"{name}: envelope of {envelope.periods:,.0f} oscillations"
+        axes.fill_between(envelope.x, -size, size, color=style, alpha=0.35, linewidth=0.8, label=said)
 
 
 def _is_complex(curve: SampledCurve) -> bool:

@@ -200,10 +200,10 @@ def _without_sympy(answer: Answer) -> _WrittenPair | None:
     with Budget(answer.limits).watched():
         structure = build(answer.S, answer.decision, answer.gauge)
         pair = None if answer.change else written(structure, answer.variable)
-        if pair is not None and not is_exact_solution(structure, answer.S, answer.gauge):
+        if pair is None:
+            return None
+        if not is_exact_solution(structure, answer.S, answer.gauge):
             raise VerificationFailed(f"a closed form for S = {answer.S} failed its check; please report the equation")
-    if pair is None:
-        return None
     if isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive):
         return _WrittenPair(pair, (f"integral left because {structure.primitive.reason}",))
     return _WrittenPair(pair)

@@ -264,11 +264,10 @@ class _TheoremWriter:
         from kovacic.engine.places import analyse
 
         P = sympy.Symbol(f"P_{natural.letter}")
-        found = weight_by_signs(analyse(natural.S, Budget(DEFAULT_LIMITS)), self.answer.variable, P)
-        if found is None or found[1] > len(self.signs):
+        weight = weight_by_signs(analyse(natural.S, Budget(DEFAULT_LIMITS)), self.answer.variable, P)
+        if weight is None or weight.signs > len(self.signs):
             return
-        by_signs, _ = found
-        solution = by_signs(self.signs)
+        solution = weight.solution(self.signs)
         if isinstance(region.origin, Given):
             solution = replace(solution, y=region.origin.translated(solution.y))
         yield Formula(self._named_solution(solution))
