@@ -145,9 +145,10 @@ def _angles(kind: str, point: Any, ends: tuple[Any, Any]) -> list[Any]:
         angle = sympy.acosh(point)
         return [] if angle.is_real is False else [angle, -angle]
     in_a_period = _angles_in_a_period(kind, point)
-    lowest = sympy.floor(min(ends) / (2 * sympy.pi)) - 1
-    number = int(sympy.ceiling((max(ends) - min(ends)) / (2 * sympy.pi))) + 3
-    return [angle + 2 * sympy.pi * (lowest + k) for angle in in_a_period for k in range(number)]
+    period = 2 * sympy.pi
+    lowest = sympy.floor(min(ends) / period) - 1
+    number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
+    return [angle + period * (lowest + k) for angle in in_a_period for k in range(number)]
 
 
 def _angles_in_a_period(kind: str, point: Any) -> list[Any]:
@@ -242,11 +243,11 @@ def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_rig
 
 def _leading(function: Any, u: Any) -> tuple[int, Any]:
     """The order at u = 0 and the coefficient; (0, 0) for 0."""
-    num, den = (sympy.Poly(part, u) for part in sympy.fraction(sympy.together(function)))
-    if num.is_zero:
+    num, den = sympy.fraction(sympy.together(function))
+    if sympy.Poly(num, u).is_zero:
         return 0, sympy.Integer(0)
-    (above,), top = num.terms()[-1]
-    (below,), bottom = den.terms()[-1]
+    (above,), top = sympy.Poly(num, u).terms()[-1]
+    (below,), bottom = sympy.Poly(den, u).terms()[-1]
     return above - below, sympy.factor(top / bottom)
 
 
@@ -257,18 +258,28 @@ def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> 
         return 1  # t > 0, and t > 1 for the hyperbolic cosine
     is_left = _is_left(at, other, signs)
     if kind in ("x", "exp", "sinh"):
-        sign = signs.sign(original.rate)
-        if sign is None:
-            raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
-        is_above = is_left != at.is_infinite
-        return sign if is_above else -sign
+        return _side_of_monotonic(original, at, signs, is_left=is_left)
+    return _side_of_periodic(original, at, point, signs, is_left=is_left)
+
+
+def _side_of_monotonic(original: Original, at: Any, signs: Signs, *, is_left: bool) -> int:
+    """For t that grows with theta: u > 0 beside a left end, and at a right one that is infinite; < 0 for a negative rate."""
+    sign = signs.sign(original.rate)
+    if sign is None:
+        raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
+    is_above = is_left != at.is_infinite
+    return sign if is_above else -sign
+
+
+def _side_of_periodic(original: Original, at: Any, point: Any, signs: Signs, *, is_left: bool) -> int:
+    """For a sine, cosine or tangent by its value a small step inside the domain."""
     angle = original.theta_at(at, signs)
     if not angle.is_number:
         raise Uncovered(f"the end {at} isn't a multiple of pi/({original.rate})")
     step = _STEP if is_left else -_STEP
-    t = getattr(sympy, kind)(angle + step)
-    local = 1 / t if point == sympy.oo else t - point
-    return 1 if local > 0 else -1
+    t = getattr(sympy, original.kind)(angle + step)
+    u = 1 / t if point == sympy.oo else t - point
+    return 1 if u > 0 else -1
 
 
 def _is_left(at: Any, other: Any, signs: Signs) -> bool:

@@ -414,6 +414,7 @@ def _zeros(original: Original, coordinate: _Coordinate) -> list[Any]:
 
 
 def _same(first: Any, second: Any) -> bool:
+    """Are two points one?"""
     if sympy.oo in (first, second):
         return bool(first == second)
     return bool(sympy.simplify(first - second) == 0)

@@ -213,11 +213,7 @@ class Spectrum:
         >>> print(oscillator.text().splitlines()[0])
         -y'' + V y = E y, V = x^2, -oo < x < oo
         """
-        known = f" ({self.assumptions})" if self.assumptions else ""
-        first, last = map(_text, self.domain)
-        lines = [
-            f"-y'' + V y = {self.energy} y, V = {_text(self.potential)}, {first} < {self.variable} < {last}{known}"
-        ]
+        lines = [self._problem]
         lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {end}" for end in self.ends]
         if self.boundary:
@@ -233,7 +229,16 @@ class Spectrum:
         return visible("\n".join(lines))
 
     @property
+    def _problem(self) -> str:
+        """The equation, the potential, the domain and what is known of the parameters."""
+        first, last = map(_text, self.domain)
+        domain = f"{first} < {self.variable} < {last}"
+        known = f" ({self.assumptions})" if self.assumptions else ""
+        return f"-y'' + V y = {self.energy} y, V = {_text(self.potential)}, {domain}{known}"
+
+    @property
     def _conclusion(self) -> list[str]:
+        """What holds of the list as a whole."""
         lines = []
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_relation(relation)}: "
@@ -252,7 +257,9 @@ class Spectrum:
             return "proven to be all eigenvalues; "
         if not self.closed_forms_complete:
             return ""
-        return "proven to be all eigenfunctions with a closed form; " if self.algebraic else "proven; "
+        if self.algebraic:
+            return "proven to be all eigenfunctions with a closed form; "
+        return "proven; "
 
     def __str__(self) -> str:
         return self.text()

@@ -100,15 +100,24 @@ def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
 
 
 def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
-    """Which points are 1, -1 and oo: the last one is that which doesn't depend on E as the two others do."""
-    depend = [root.unknown for root in roots]
-    if sum(depend) in (1, 2):
-        last = depend.index(sum(depend) == 1)
-    else:
-        last = next((k for k, spot in enumerate(frame.spots) if not spot.roles), 2)
+    """Which points are 1, -1 and oo: of the first two the right end, and then the other one, come first."""
+    last = _number_of_last(frame, roots)
     others = [k for k in range(3) if k != last]
     others.sort(key=lambda k: ("right" not in frame.spots[k].roles, not frame.spots[k].roles))
     return [*others, last]
+
+
+def _number_of_last(frame: SingularFrame, roots: list[Root]) -> int:
+    """The one that doesn't depend on E as the two others do; else the first that is no end, or the last one."""
+    depend = [root.unknown for root in roots]
+    if depend.count(True) == 1:
+        return depend.index(True)
+    if depend.count(False) == 1:
+        return depend.index(False)
+    for k, spot in enumerate(frame.spots):
+        if not spot.roles:
+            return k
+    return 2
 
 
 @dataclass(frozen=True)
@@ -267,7 +276,9 @@ def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
         return None
     middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
     integral = _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle)
-    return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
+    if integral is None:
+        return None
+    return integral / sympy.sqrt(sympy.Abs(form.scale))
 
 
 def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
@@ -297,21 +308,28 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
 def _norm(form: _JacobiForm) -> Any:
     """int y^2 dx between two of the points w = 1, -1, oo; None where it isn't known."""
     first, second, third = form.points
-    n = form.n
-    scale = sympy.Abs(form.scale)
     if first.is_used and second.is_used:
-        integral = _integral_between(first, second, n)
-        return None if integral is None else integral / sympy.sqrt(scale)
-    if second.is_used:  # w -> -w
-        first, second = second, first
-    if not (first.is_used and third.is_used):
-        return None
-    # w = (3 - v)/(1 + v): P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v)
-    integral = _integral_between(first, third, n)
+        integral = _integral_between(first, second, form.n)
+        return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
+    if first.is_used and third.is_used:
+        return _norm_to_infinity(form, first, second)
+    if second.is_used and third.is_used:  # w -> -w
+        return _norm_to_infinity(form, second, first)
+    return None
+
+
+def _norm_to_infinity(form: _JacobiForm, end: _Point, other: _Point) -> Any:
+    """Between w = 1, the end, and oo; None where it isn't known.
+
+    w = (3 - v)/(1 + v) runs from there for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
+    """
+    n = form.n
+    _, _, third = form.points
+    integral = _integral_between(end, third, n)
     if integral is None:
         return None
-    scale *= 2 ** (first.mu + 2 * second.mu - 4)
-    return 2 ** (2 * first.exponent + 4 * second.exponent + 2 * n) * integral / sympy.sqrt(scale)
+    scale = sympy.Abs(form.scale) * 2 ** (end.mu + 2 * other.mu - 4)
+    return 2 ** (2 * end.exponent + 4 * other.exponent + 2 * n) * integral / sympy.sqrt(scale)
 
 
 def _integral_between(first: _Point, second: _Point, n: Any) -> Any:

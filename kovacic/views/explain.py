@@ -150,21 +150,25 @@ class _ExplanationWriter:
             yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
         yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
-            y = equation.unknown
-            v = "v" if equation.unknown != "v" else "u"
-            x = answer.variable
-            substitution = Math(f"{y} = {v} exp(int gamma d{x})", rf"{y} = {v} \exp \int \gamma \, d{latex_text(x)}")
-            gamma = Math("gamma = -b/(2a)", r"\gamma = -\frac{b}{2a}")
-            yield say("With ", substitution, ", ", gamma, f", it becomes its normal form for {v}:")
-            yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
-            yield Formula(normal_form(answer, v))
-            yield say(
-                f"Cases, omega and the group below are those of the normal form, with y for {v}; "
-                f"the solutions {y}1 and {y}2 are those of the equation as given."
-            )
+            yield from self._normal_form(equation.unknown)
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
         if answer.change is not None:
             yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
+
+    def _normal_form(self, y: str) -> Iterator[Block]:
+        """The substitution that leads to it, and what is said of which of the two equations."""
+        answer = self.answer
+        v = "v" if y != "v" else "u"
+        x = answer.variable
+        substitution = Math(f"{y} = {v} exp(int gamma d{x})", rf"{y} = {v} \exp \int \gamma \, d{latex_text(x)}")
+        gamma = Math("gamma = -b/(2a)", r"\gamma = -\frac{b}{2a}")
+        yield say("With ", substitution, ", ", gamma, f", it becomes its normal form for {v}:")
+        yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
+        yield Formula(normal_form(answer, v))
+        yield say(
+            f"Cases, omega and the group below are those of the normal form, with y for {v}; "
+            f"the solutions {y}1 and {y}2 are those of the equation as given."
+        )
 
     def _title(self) -> str:
         """What the page is about."""
@@ -266,14 +270,9 @@ class _ExplanationWriter:
         group = derived.group(self.answer)
         if group is None:
             return
-        order = ""
-        if group.order is not None:
-            order = f", of order {digits(group.order)}"
-        elif group.order_at_least is not None:
-            order = f", of order at least {group.order_at_least} if it is finite"
         yield Heading("The Galois group")
         name = Math(group.name, group.latex)
-        about = f", {group.description}{order}: {group.ground.value}."
+        about = f", {group.description}{_order(group.order, at_least=group.order_at_least)}: {group.ground.value}."
         yield say("The differential Galois group of the normal form is ", name, about)
         given = derived.equation_group(self.answer) if self.answer.gauge else None
         if given is not None:
@@ -293,6 +292,15 @@ class _ExplanationWriter:
     def bibliography(self) -> Iterator[Block]:
         yield Heading("References")
         yield from (say(reference.text()) for reference in references(self.answer))
+
+
+def _order(order: int | None, *, at_least: int | None) -> str:
+    """`, of order 8`, or a bound where only that is known; nothing for an infinite group."""
+    if order is not None:
+        return f", of order {digits(order)}"
+    if at_least is not None:
+        return f", of order at least {at_least} if it is finite"
+    return ""
 
 
 def _printable(formula: Math) -> Math:

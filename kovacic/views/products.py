@@ -232,20 +232,25 @@ def _conjugate(form: Conjugate, variable: str) -> tuple[str, str] | None:
         return None
     if form.phase.residues or not _is_plain(form.common):
         return None
-    scale, inner = square_part(abs(delta))
-    radical = "" if inner == 1 else f"sqrt({inner})"  # |s| = scale * radical
+    parts = _conjugate_parts(form, abs(delta), variable)
+    found = parts.exponentials() if delta > 0 else parts.waves()
+    first, second = (_product(form.common, variable, *factors) for factors in found)
+    return first, second
+
+
+def _conjugate_parts(form: Conjugate, size: Fraction, variable: str) -> _ConjugateParts:
+    """With |s| = sqrt(size) = scale * radical, and A or B without a common factor."""
+    scale, inner = square_part(size)
+    radical = "" if inner == 1 else f"sqrt({inner})"
     top, bottom = (form.A or form.B).content()
     number = Fraction(bottom, top)
-    parts = _ConjugateParts(
+    return _ConjugateParts(
         A=RatFunc(form.A * number),
         B=RatFunc(form.B * scale * number),
         V=form.phase.exact * scale,
         radical=radical,
         variable=variable,
     )
-    found = parts.exponentials() if delta > 0 else parts.waves()
-    first, second = (_product(form.common, variable, *factors) for factors in found)
-    return first, second
 
 
 class _ConjugateParts(NamedTuple):

@@ -143,12 +143,13 @@ class _TheoremWriter:
     def _assumed(self, name: str) -> list[str | Math]:
         """`, n a nonnegative integer, E > 0`."""
         found: list[str | Math] = []
-        words = self.answer.assumptions.of(name).words
-        if any(word in WORDS for word in words):
-            said = _kind_of_number([word for word in words if word in WORDS])
-            article = "an" if said[0] in "aeio" else "a"
-            found += [", ", _name(name), f" {article} {said}"]
-        for bound in words:
+        said = self.answer.assumptions.of(name).words
+        words = [word for word in said if word in WORDS]
+        if words:
+            kind = _kind_of_number(words)
+            article = "an" if kind[0] in "aeio" else "a"
+            found += [", ", _name(name), f" {article} {kind}"]
+        for bound in said:
             if bound not in WORDS:
                 sign = bound.rstrip("0123456789/+-")
                 found += [", ", _relation(name, sign, bound.removeprefix(sign))]
