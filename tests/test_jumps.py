@@ -256,3 +256,24 @@ def test_functions_of_steps_are_integrated_on_either_side(f: Any) -> None:
         near = found.xreplace({step: step.subs(x, point) for step in found.atoms(Heaviside)})
         residual = (applied(3, 2, near) - f).subs(x, point)
         assert abs(residual.evalf(20)) < 1e-12
+
+
+@parametrize(
+    "f",
+    [-Heaviside(x - A) * (x - A), -DiracDelta(x - A), Heaviside(x - A) - Heaviside(x - A - 1), x - abs(x - A)],
+    ordinary=2,
+)
+@pytest.mark.parametrize("c", [0, 1])
+def test_a_load_between_two_ends_at_parameters(f: Any, c: int) -> None:
+    """A beam or a string from 0 to L, the load before it, on it and behind it."""
+    L = sympy.Symbol("L", real=True)
+
+    def solved(load: Any, end: Any) -> Any:
+        return kovacic.dsolve(sympy.Eq(applied(0, c, y(x)), load), y(x), ics={y(0): 0, y(end): 0}).rhs
+
+    with pytest.warns(UserWarning, match="this holds unless"):
+        found = solved(f, L)
+    for value in (sympy.Rational(-5, 2), sympy.Rational(1, 2), sympy.Integer(3)):
+        agree(
+            found.subs({A: value, L: 2}), solved(f.subs(A, value), 2), [sympy.Rational(k, 7) for k in (-3, 5, 10, 25)]
+        )

@@ -11,7 +11,7 @@ Reference: C. Burnikel, R. Fleischer, K. Mehlhorn & S. Schirra, Algorithmica 27 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import reduce
@@ -159,10 +159,19 @@ def _integers_of_unknown_parity(value: Expr) -> set[Expr]:
 
 
 def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Values of symbols that fit what is assumed of them, the integers small: without an end."""
+    """Values of symbols that fit what is assumed of them, small integers, the symbols in many orders: without an end."""
     ordered = sorted(symbols, key=str)
     for k in range(10**6):
-        yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
+        yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(_reordered(ordered, k))}
+
+
+def _reordered(symbols: Sequence[Expr], k: int) -> list[Expr]:
+    """Turned round k/2 times, and backwards for odd k: which of two is the larger one may matter."""
+    start = k // 2 % max(len(symbols), 1)
+    turned = [*symbols[start:], *symbols[:start]]
+    if k % 2:
+        turned.reverse()
+    return turned
 
 
 def sample_value(symbol: Expr, k: int) -> Expr:
