@@ -295,6 +295,21 @@ def test_wave_vectors_and_words_are_names() -> None:
         assert name in str(kovacic.dsolve(f"y'' + {name}*y = 0"))
 
 
+@pytest.mark.parametrize(
+    ("text", "variable"),
+    [
+        ("y'' + y = Heaviside(t) - Heaviside(t - T)", "t"),
+        ("y'' + y = T*sin(pi*t/T)", "t"),
+        ("y'' + (1 - R/r)*y = 0", "r"),
+        ("y'' + Z/z*y = 0", "z"),
+        ("y'' + T*y = 0", "T"),
+    ],
+)
+def test_beside_a_variable_its_capital_is_a_parameter(text: str, variable: str) -> None:
+    answer = kovacic.dsolve(text)
+    assert [str(argument) for argument in answer.lhs.args] == [variable]
+
+
 @pytest.mark.long
 def test_beside_a_frequency_zeta_is_the_damping_ratio() -> None:
     time, zeta, omega = sympy.symbols("t zeta omega")

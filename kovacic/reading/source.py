@@ -407,8 +407,9 @@ def _argument_of(tokens: Tokens, unknown: str) -> str | None:
 
 
 def _usual_variables(names: list[str]) -> list[str]:
-    """Those that usually are a variable; beside a frequency the letters of damping ratios are parameters."""
+    """Those that usually are a variable; beside t, T is a parameter, and beside a frequency the letters of damping ratios."""
     usual = [name for name in names if name in USUAL_VARIABLES]
+    usual = [name for name in usual if name.lower() == name or name.lower() not in usual]
     is_damped = any(name.startswith(_FREQUENCIES) for name in names)
     if is_damped:
         return [name for name in usual if name not in _DAMPING_RATIOS]
