@@ -131,11 +131,8 @@ def _is_redundant(
         return False
     charts = _within(region.statement, everything)
     known = [one.statement for one in before]
-    for other in after:
-        says_so = _is_said_by(other, region, charts, known)
-        if says_so is not None:
-            return says_so
-    return is_generic
+    said = (_is_said_by(other, region, charts, known) for other in after)
+    return next((answer for answer in said if answer is not None), is_generic)
 
 
 def _is_said_by(
@@ -190,7 +187,7 @@ def _everything(regions: Sequence[ParameterRegion]) -> list[ParameterPoint]:
     for region in regions:
         field = _field(region.statement)
         if field is not None:
-            return [ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)]
+            return [ParameterPoint.generic(field)]
     return []
 
 

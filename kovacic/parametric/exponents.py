@@ -167,15 +167,15 @@ def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
     return [exponents for exponents in chosen if exponents.field.rational_value(exponents.degree) == d]
 
 
-def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankConditions]] | None:
-    """The same with the conditions, over the field of the problem, for a P."""
+def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions] | None:
+    """For each of these choices, where there is a P of the degree: over the field of the problem."""
     chosen = choices_of_degree(problem, d)
     if chosen is None:
         return None
     found = []
     for exponents in chosen:
         images = _coordinates(exponents.images(d), exponents.field, problem.field)
-        found.append((exponents, rank_conditions(images, problem.field)))
+        found.append(rank_conditions(images, problem.field))
     return found
 
 

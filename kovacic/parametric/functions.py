@@ -130,6 +130,11 @@ class ParameterPoint:
     values: tuple[Poly, ...]
     field: Field = QQ
 
+    @classmethod
+    def generic(cls, field: FunctionField) -> ParameterPoint:
+        """The parameters themselves, which can have all values."""
+        return cls(field.names, tuple(map(field.generator, field.names)), field)
+
     def at(self, function: FunctionPoly) -> Poly:
         """The value of a polynomial over Q(t).  Raises `ZeroDivisionError` where it isn't defined."""
         chosen = [self.values[self.names.index(name)] for name in function.field.names]

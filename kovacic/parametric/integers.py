@@ -204,19 +204,20 @@ class Congruence(Statement):
 
     def _one_class(self, form: FunctionPoly, n: Notation) -> str:
         """That a form is congruent to one number."""
-        scaled = over_parameters(form * self.modulus.denominator)
-        residue = self.residues[0] * self.modulus.denominator
-        modulus = Fraction(self.modulus.numerator)
-        if modulus == 1:
-            shift = f" - {residue}" if residue else ""
-            return f"`{n.function(scaled)}{shift} in Z`"
-        if modulus == 2 and residue.denominator == 1:
-            return f"`{n.function(scaled)}` is {kind([residue], modulus)}"
-        residue = self.residues[0]
+        (residue,) = self.residues
         modulus = self.modulus
-        scale = lcm(residue.denominator, modulus.denominator)
+        below = modulus.denominator
+        multiple = over_parameters(form * below)
+        remainder = residue * below
+        if modulus.numerator == 1:
+            shift = f" - {remainder}" if remainder else ""
+            return f"`{n.function(multiple)}{shift} in Z`"
+        if modulus.numerator == 2 and remainder.denominator == 1:
+            return f"`{n.function(multiple)}` is {kind([remainder], 2)}"
+        scale = lcm(residue.denominator, below)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
-        if sum(map(bool, degrees(equation))) > 1 and families(equation):
+        has_several_parameters = sum(map(bool, degrees(equation))) > 1
+        if has_several_parameters and families(equation):
             return integer_condition(equation, [int(residue * scale)], int(modulus * scale), Notation(self.letter))
         return f"`{n.function(form)} = {residue} mod {modulus}`"
 

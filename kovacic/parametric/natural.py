@@ -32,12 +32,12 @@ from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import (
     Numbers,
     choices_of_degree,
+    conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
     has_form,
     has_solution,
     is_too_large,
-    with_degree,
     zeros_of_forms,
 )
 from kovacic.parametric.formulas import equation_written, root_written, shown, text_of, written
@@ -189,10 +189,10 @@ class Natural(Statement):
             return [form_conditions(problem, self.m)]
         if problem.field.ground == QQ:  # no parameter is left
             return [RankConditions(deficient=_has_solution(problem.S, number))]
-        found = with_degree(problem, number)
+        found = conditions_of_degree(problem, number)
         if found is None:
             return [RankConditions(system=None)]
-        return [conditions for _, conditions in found]
+        return found
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
@@ -237,9 +237,7 @@ class Natural(Statement):
         if not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
-        found: list[Determinant] = []
-        if self.m == 1:
-            found = self._that_can_vanish(number)
+        found = self._that_can_vanish(number)
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
@@ -248,7 +246,9 @@ class Natural(Statement):
         return [chosen.exponents, *chosen.system]
 
     def _that_can_vanish(self, number: int) -> list[Determinant]:
-        """The determinants that aren't 1, and have a formula."""
+        """The determinants that aren't 1, and have a formula; none for invariants, of which the numbers of zeros say enough."""
+        if self.m > 1:
+            return []
         return [determinant for determinant in self.determinants(number) if determinant.factors or determinant.system]
 
     def decided(self, assumptions: Assumptions) -> bool | None:

@@ -122,14 +122,17 @@ def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, set
     regions = _degenerate(problem.S, theorem.exceptions, settings)
     always = RegionVerdict(None)
     for region in theorem.regions:
+        if region.statement == NEVER:
+            continue
         if region.statement == ALWAYS:
             always = region.verdict
             break
-        if region.statement != NEVER:
-            regions.append(region)
-    if expected.known and expected.case != always.case:
+        regions.append(region)
+    contradicts = expected.known and expected.case != always.case
+    if contradicts:
         raise AssertionError(f"{theorem.name}: case {always.case} contradicts the generic answer, case {expected.case}")
-    if expected.case == 1 and always == expected:  # then it is case 1 wherever S is defined
+    is_case_1_everywhere = expected.case == 1 and always == expected
+    if is_case_1_everywhere:  # wherever S is defined
         regions = [region for region in regions if not region.defined]
     return Partition(always, together(regions), theorem.name, tuple(regions))
 

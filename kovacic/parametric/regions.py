@@ -475,16 +475,17 @@ def _of_integers(statement: Congruence) -> list[_Chart]:
     """One parameter as a function of an integer k, which is a new parameter, for each of the classes."""
     solved, f = families(statement.equation)[0]
     names = statement.equation.field.names
-    k = next(name for name in map("k{}".format, count()) if name not in names)
-    field = FunctionField((*names, k))
+    letter = next(name for name in map("k{}".format, count()) if name not in names)
+    field = FunctionField((*names, letter))
+    k = field.generator(letter)
     values = {name: field.generator(name) for name in names}
-    chart = ParameterPoint(names, tuple(values.values()), field)
-    above = chart.at(over_parameters(f.num))
-    below = chart.at(over_parameters(f.den))
-    known = Assumptions(((k, Known(("integer",))),))
+    in_all = ParameterPoint(names, tuple(values.values()), field)
+    above = in_all.at(over_parameters(f.num))
+    below = in_all.at(over_parameters(f.den))
+    known = Assumptions(((letter, Known(("integer",))),))
     charts = []
     for residue in statement.residues:
-        N = field.generator(k) * statement.modulus + residue
+        N = k * statement.modulus + residue
         on_class = {**values, solved: above(N) / below(N)}
         charts.append(_Chart(ParameterPoint(names, tuple(on_class.values()), field), known))
     return charts
@@ -494,22 +495,25 @@ def _of_integers(statement: Congruence) -> list[_Chart]:
 def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
     """Where the functions vanish; None where that isn't one piece."""
     *others, last = functions
+    before: ParameterPoint | None = ParameterPoint.generic(last.field)
     if others:
         before = _common_zeros(tuple(others))
-    else:
-        field = last.field
-        before = ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)
     if before is None:
         return None
     try:
-        factors = irreducible_factors(before.at(last))
-        if len(factors) != 1:
-            return None
-        after = hypersurface(factors[0])
-        values = tuple(after.at(over_parameters(value)) for value in before.values)
+        return _zeros_on(before, last)
     except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
         return None
-    return ParameterPoint(before.names, values, after.field)
+
+
+def _zeros_on(chart: ParameterPoint, function: FunctionPoly) -> ParameterPoint | None:
+    """Where a function vanishes on a chart; None where that isn't one piece."""
+    factors = irreducible_factors(chart.at(function))
+    if len(factors) != 1:
+        return None
+    surface = hypersurface(factors[0])
+    values = tuple(surface.at(over_parameters(value)) for value in chart.values)
+    return ParameterPoint(chart.names, values, surface.field)
 
 
 def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:

@@ -207,7 +207,8 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
         uncovered = tuple(irreducible_factors(leading[i]))
         missed = uncovered if len(leading) > 2 else ()
         return Hypersurface(names, tuple(values), smaller, uncovered, missed)
-    extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), names[i])
+    modulus = smaller.poly([c / coefficients[-1] for c in coefficients])
+    extension = AlgebraicField(smaller, modulus, names[i])
     values[i] = extension.generator
     return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
 
@@ -315,7 +316,7 @@ def _powers_of_parameters(function: FunctionPoly) -> list[_PowerTerm] | None:
         powers = [(i, int(n)) for i, n in enumerate(exponents[1:]) if n]
         if exponents[0] or len(powers) != 1:
             return None
-        ((i, power),) = powers
+        i, power = powers[0]
         found.append(_PowerTerm(i, power, int(coefficient)))
     return found
 
@@ -331,9 +332,12 @@ def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, ParameterPoint]:
         return S, S, NO_CONSTANT
     base = field.base
     assert isinstance(base, FunctionField)
-    name = next(name for k in count() if (name := field.name + "_" * k) not in base.names)
+    name = field.name
+    while name in base.names:
+        name += "_"
     larger = FunctionField((*base.names, name))
-    factors = [_free(S.den.lc, larger), *(_free(factor, larger) ** k for factor, k in field.factor(S.den))]
+    factors = [_free(S.den.lc, larger)]
+    factors += [_free(factor, larger) ** k for factor, k in field.factor(S.den)]
     num = _free(S.num, larger)
     modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)

@@ -229,14 +229,17 @@ class Schwarz(Statement):
         is_pair_beside_one = len(constants) == 1 and len(names) == 2
         if not is_pair_beside_one or constants[0] is None:
             return ResolvedDifferences([], self._rows_of_the_table())
-        found = self._pairs_beside(constants[0])
+        return ResolvedDifferences(names, self._rows_beside(constants[0]))
+
+    def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[str]]]:
+        """The classes of the other two differences, modulo 1 where these say it."""
+        found = self._pairs_beside(third)
         lattice = "2*Z"
         if _is_symmetric(found):
             lattice = "Z"
             found = [pair for pair in found if max(pair.u, pair.v) <= 30]
         found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
-        rows = [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
-        return ResolvedDifferences(names, rows)
+        return [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
 
     def _rows_of_the_table(self) -> list[tuple[Structure, list[str]]]:
         """The differences modulo 1, and whether the sum of the integers must be even."""
@@ -549,17 +552,18 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     free = [over_parameters(square) for square in squares if not _is_number(square)]
     if not free or len(squares) < 3:
         return None
-    root = _root(free[0])
+    first = free[0]
+    root = _root(first)
     lines: list[_DifferenceLine | None] = []
     for square in squares:
         if _is_number(square):
             lines.append(_constant_line(square))
             continue
-        line = _line(square, free[0], root)
+        line = _line(square, first, root)
         if line is None:
             return None
         lines.append(line)
-    return _OneFunction(free[0], root, tuple(lines))
+    return _OneFunction(first, root, tuple(lines))
 
 
 def _is_number(value: Poly) -> bool:

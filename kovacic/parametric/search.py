@@ -25,7 +25,13 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
 from kovacic.parametric import riemann
-from kovacic.parametric.exponents import Numbers, degrees_of_solutions, form_conditions, with_degree, zeros_of_forms
+from kovacic.parametric.exponents import (
+    Numbers,
+    conditions_of_degree,
+    degrees_of_solutions,
+    form_conditions,
+    zeros_of_forms,
+)
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
@@ -332,11 +338,11 @@ def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
     root = _number_root(factor)
     if root is None:
         return False
-    found = with_degree(problem, int(root))
+    found = conditions_of_degree(problem, int(root))
     if found is None:
         return False
-    complete = [findings.add(conditions) for _, conditions in found]
-    return all(complete)
+    are_complete = [findings.add(conditions) for conditions in found]
+    return all(are_complete)
 
 
 def _number_root(factor: Poly) -> Fraction | None:
@@ -423,13 +429,13 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
     numbers = zeros_of_forms(problem, m)
     if numbers is None:
         return ()
-    choices = [range(root.largest + 1) for root in numbers.roots]
-    if prod(map(len, choices)) > _COMBINATIONS:
+    multiples_of_roots = [range(root.largest + 1) for root in numbers.roots]
+    if prod(map(len, multiples_of_roots)) > _COMBINATIONS:
         return None
     factors: list[FunctionPoly] = []
     if not complete:
         factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
-    for multiples in product(*choices):
+    for multiples in product(*multiples_of_roots):
         if any(multiples):
             factors += _numbers_of_zeros(multiples, numbers, problem.field)
     return tuple(dict.fromkeys(factors))

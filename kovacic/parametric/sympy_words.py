@@ -9,6 +9,8 @@ from kovacic.parametric.facts import INEQUALITIES, WORDS, Bound, read_facts
 
 #: What SymPy calls numbers that aren't 0, and others, on a side of it.
 _SIGNS = {1: ("positive", "nonnegative"), -1: ("negative", "nonpositive")}
+#: The words that are names of SymPy's, too, without those for a sign, which bounds say.
+_NAMED = {*WORDS} - {*INEQUALITIES, "half-integer"}
 
 
 def words_of(symbol: Any) -> list[str]:
@@ -36,8 +38,7 @@ def _arithmetic_of(symbol: Any) -> list[str]:
 
 def sympy_properties(said: tuple[str, ...]) -> list[str]:
     """What SymPy has names for; of bounds, what they say of the sign."""
-    unnamed = {*INEQUALITIES, "half-integer"}
-    words = [word for word in said if word in WORDS and word not in unnamed]
+    words = [word for word in said if word in _NAMED]
     if "half-integer" in said:
         words += ["rational", "noninteger"]
     for bound in read_facts(said).bounds:
