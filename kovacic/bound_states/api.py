@@ -180,10 +180,10 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     examined = _examined(question, [left, right])
     if examined.needs_boundary_condition:
         return _without_condition(examined)
-    for end in examined.ends:
-        if end.oscillates and end.circle is False:
-            reason = f"no solution is square integrable at {end.at}"
-            return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
+    oscillating = _oscillating_end(examined)
+    if oscillating is not None:
+        reason = f"no solution is square integrable at {oscillating.at}"
+        return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
     try:
         families, name = _families(question, budget)
     except Uncovered as uncovered:
@@ -192,6 +192,11 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     levels = [one for one in found if sympy.false not in one.conditions]
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
+
+
+def _oscillating_end(examined: _Examined) -> End | None:
+    """One at which no solution is square integrable."""
+    return next((end for end in examined.ends if end.oscillates and end.circle is False), None)
 
 
 def _without_formula(examined: _Examined, why: Uncovered, max_degree: int, budget: Budget) -> Spectrum:

@@ -92,12 +92,11 @@ def assumed_of_letters(
 
 def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
     """Of the root of a parameter, of which nothing is `assumed` afterwards: it occurs in its root alone."""
-    own = next((key for key in assumed if str(key) == name), None)
-    if own is None:
+    key = next((key for key in assumed if str(key) == name), None)
+    if key is None:
         return "nonnegative"
-    word = assumed.pop(own)
-    if isinstance(word, str):
-        word = word.replace(" ", "")
+    said = assumed.pop(key)
+    word = said.replace(" ", "") if isinstance(said, str) else said
     if word not in _SIGNS:
         raise InputError(
             f"sqrt({name}) is real, and of {name} it can be assumed only that it is positive or nonnegative",

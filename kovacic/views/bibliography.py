@@ -56,14 +56,16 @@ def references(answer: Answer) -> tuple[Reference, ...]:
 def _for_the_decision(decision: Decision) -> list[str]:
     """What the invariants, and the rational omega, rest on."""
     evidence = [item for exclusion in decision.exclusions for item in exclusion.evidence]
+    excludes_invariants = any(isinstance(item, NoInvariant) for item in evidence)
+    excludes_omega = any(isinstance(item, NoRationalOmega) for item in evidence)
+    has_invariant = decision.invariant is not None
+    has_omega = decision.structure is Structure.REDUCIBLE
     used = []
-    if decision.invariant is not None or any(isinstance(item, NoInvariant) for item in evidence):
+    if has_invariant or excludes_invariants:
         used += ["UW96", "HW97"]
-    is_reducible = decision.structure is Structure.REDUCIBLE
-    is_unique = is_reducible and decision.invariant is None
-    if is_unique or any(isinstance(item, NoRationalOmega) for item in evidence):
+    if excludes_omega or (has_omega and not has_invariant):
         used += ["vH97", "CvH04"]
-    elif is_reducible:
+    elif has_omega:
         used.append("HvdP95")
     return used
 

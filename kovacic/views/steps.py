@@ -226,11 +226,14 @@ class Steps:
         return Math(self.answer.variable, latex_text(self.answer.variable)).equals(self._shown(point.at))
 
     def _outcome(self, family: Family) -> str | Math:
+        """P, or why there is none."""
         if family.P is not None:
             return self._shown(family.P)
         if family.theta is not None:
             return "none"
-        return "not tried" if is_natural(family.d) else ""
+        if is_natural(family.d):
+            return "not tried"
+        return ""
 
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)
@@ -270,7 +273,19 @@ def _allowed(case: int, places: Sequence[Place]) -> bool:
     if case == 1:
         return all(place.kind is not Kind.RAMIFIED for place in places)
     if case == 2:
-        poles = [place for place in places if not place.at_infinity]
-        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in poles)
-    singular = [place for place in places if place.order != 0]
-    return all(place.order <= 2 and place.delta is not None for place in singular)
+        return any(map(_admits_case_2, places))
+    return all(map(_admits_case_3, places))
+
+
+def _admits_case_2(place: Place) -> bool:
+    """Is it a pole of order 2, or of an odd order > 2?"""
+    if place.at_infinity:
+        return False
+    return place.order == 2 or place.kind is Kind.RAMIFIED
+
+
+def _admits_case_3(place: Place) -> bool:
+    """Is it no pole of an order > 2, and Delta rational?  At infinity, the order of S is at least 2."""
+    if place.order == 0:
+        return True
+    return place.order <= 2 and place.delta is not None

@@ -98,17 +98,15 @@ class _TheoremWriter:
 
     def _hypothesis(self) -> Iterator[Block]:
         equation = self.answer.equation
-        sentence = self._about_parameters()
+        yield say(*self._about_parameters(), "The equation")
         if equation is None or equation.is_normal_form:
-            yield say(*sentence, "The equation")
             yield Formula(self._normal_form("y"))
-        else:
-            v = "v" if equation.unknown != "v" else "u"
-            yield say(*sentence, "The equation")
-            yield Formula(Math(str(equation), latex_text(equation.text(caret=False))))
-            yield say(*self._change(), "becomes, with ", *self._substitution(v), ", its normal form")
-            yield Formula(self._normal_form(v))
-            yield say("Each of the two")
+            return
+        v = "v" if equation.unknown != "v" else "u"
+        yield Formula(Math(str(equation), latex_text(equation.text(caret=False))))
+        yield say(*self._change(), "becomes, with ", *self._substitution(v), ", its normal form")
+        yield Formula(self._normal_form(v))
+        yield say("Each of the two")
 
     def _about_parameters(self) -> list[str | Math]:
         """`Let a and b be complex numbers, b > 0, a != 1. `; nothing where there are no parameters."""
@@ -119,9 +117,8 @@ class _TheoremWriter:
         sentence: list[str | Math] = ["Let ", *_listed([_name(name) for name in names]), kind]
         for name in names:
             sentence += self._assumed(name)
-        for region in self.left_out:
-            if _is_unequal(region):
-                sentence += [", ", _unequal(region.statement)]
+        for region in filter(_is_unequal, self.left_out):
+            sentence += [", ", _unequal(region.statement)]
         return [*sentence, ". "]
 
     def _exceptions(self) -> Iterator[Block]:
