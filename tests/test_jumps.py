@@ -29,6 +29,7 @@ STEPS = [
     lambda a: Heaviside(x - a) * Heaviside(x - a / 2),
     lambda a: (sympy.Abs(x - a) / (x - a) + 1) / 2,
     lambda a: sympy.sign((x - a) * (x**2 + 1)) * Heaviside(x - a),
+    lambda a: sympy.SingularityFunction(x, a, 0),
 ]
 
 
@@ -277,3 +278,15 @@ def test_a_load_between_two_ends_at_parameters(f: Any, c: int) -> None:
         agree(
             found.subs({A: value, L: 2}), solved(f.subs(A, value), 2), [sympy.Rational(k, 7) for k in (-3, 5, 10, 25)]
         )
+
+
+@pytest.mark.parametrize("n", [-3, -2, -1, 0, 1, 2])
+def test_macaulays_brackets(n: int) -> None:
+    """<x - a>^n begins at a, with n derivatives there, and is a point load, a moment, ... for negative n."""
+    same = DiracDelta(x - A, -1 - n) if n < 0 else (x - A) ** n * Heaviside(x - A)
+    ends = {y(0): 0, y(2): 0}
+    with_brackets, with_steps = (
+        kovacic.dsolve(sympy.Eq(applied(0, 1, y(x)), load), y(x), ics=ends).rhs
+        for load in (sympy.SingularityFunction(x, A, n), same)
+    )
+    assert with_brackets == with_steps

@@ -2,6 +2,7 @@
 
 - |u| = u sign(u), sign(u) = 2 H(u) - 1, max(u, v) = v + (u - v) H(u - v).
 - A function of a step is F(H) = F(0) + (F(1) - F(0)) H.
+- Macaulay's bracket <u>^n is u^n H(u), and an impulse for n < 0.
 - A function given by cases is the sum of its cases times their indicators.
 - For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.
 
@@ -283,6 +284,35 @@ def _modulus_near(e: Expr, x: Expr, point: Expr) -> Expr:
     return _sign_near(e, x, point) * e.args[0]
 
 
+# ------------------------------------------------------------------------------------------------- Macaulay's brackets
+
+
+def _bracket(e: Expr, x: Expr) -> Expr | None:
+    """<u - a>^n = (u - a)^n H(u - a) for n = 0, 1, 2, ..., and delta^(-1-n)(u - a) for n = -1, -2, ..."""
+    (u,) = _distance(e)
+    n = e.args[2]
+    if not n.is_Integer:
+        return None
+    if n < 0:
+        return DiracDelta(u, -1 - n)
+    on = above(u, x)
+    if on is None:
+        return None
+    return u**n * on
+
+
+def _bracket_near(e: Expr, x: Expr, point: Expr) -> Expr:
+    (u,) = _distance(e)
+    n = e.args[2]
+    if n.is_negative:
+        return sympy.Integer(0)
+    return u**n * (1 + sympy.sign(u.subs(x, point))) / 2
+
+
+def _distance(e: Expr) -> list[Expr]:
+    return [e.args[0] - e.args[1]]
+
+
 # ------------------------------------------------------------------------------------------------------------- impulses
 
 
@@ -418,6 +448,7 @@ _KINDS = (
     _Kind((sympy.Max, sympy.Min), _extremum, _differences, _extremum_near),
     _Kind((sympy.Abs,), _modulus, _argument, _modulus_near),
     _Kind((sympy.sign,), _sign, _argument, _sign_near),
+    _Kind((sympy.SingularityFunction,), _bracket, _distance, _bracket_near),
     _Kind((Heaviside,), _step, _argument, _step_near),
     _Kind((DiracDelta,), _unchanged, _argument, _zero_near),
 )

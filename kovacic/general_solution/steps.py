@@ -15,7 +15,16 @@ from sympy import DiracDelta, Heaviside
 
 Expr = Any  # SymPy publishes no types
 #: The functions that jump, or whose slopes do.
-JUMPING = (sympy.Piecewise, sympy.Max, sympy.Min, sympy.Abs, sympy.sign, Heaviside, DiracDelta)
+JUMPING = (
+    sympy.Piecewise,
+    sympy.Max,
+    sympy.Min,
+    sympy.Abs,
+    sympy.sign,
+    sympy.SingularityFunction,
+    Heaviside,
+    DiracDelta,
+)
 #: The most terms that are treated.
 _MOST_TERMS = 200
 _NOTHING = sympy.Integer(0)
