@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
@@ -67,9 +67,14 @@ class ParameterCase:
     needed: tuple[Expr, ...] = ()
 
 
-def determine(
-    rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None
-) -> tuple[ParameterCase, list[ParameterCase]]:
+class Determined(NamedTuple):
+    """What the conditions determine for generic values of the parameters, and for particular ones."""
+
+    generic: ParameterCase
+    particular: list[ParameterCase]
+
+
+def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None) -> Determined:
     """The generic case and the particular ones.  `wronskian`: that at the point where both y and y' are given, in this order.
 
     Raises `NotImplementedError` where it can't be told whether a constant is zero.
@@ -82,10 +87,10 @@ def determine(
     minor = _best_minor(rows, wronskian)
     if minor is None:
         return _split(_of_rank_one(rows, names))
-    generic, others = _split(_of_rank_two(rows, minor))
+    found = _split(_of_rank_two(rows, minor))
     if minor.when is Zero.SOMETIMES:
-        others.append(_where_minor_vanishes(rows, names, minor.value))
-    return generic, others
+        found.particular.append(_where_minor_vanishes(rows, names, minor.value))
+    return found
 
 
 Values = tuple[Expr, Expr]
@@ -93,7 +98,7 @@ Values = tuple[Expr, Expr]
 
 @dataclass(frozen=True)
 class DeterminedConstants:
-    """Values of the constants, what must be zero for them to be a solution, and what must not be."""
+    """Values of the constants, all that must be zero for them to be a solution, and `pivot`, by which they are divided."""
 
     values: Values
     needed: Sequence[Expr]
@@ -151,10 +156,18 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
     if norm is not None:
         return _along(row, norm, others, names[0])
     if pivot.is_first:
-        c2 = names[1]
-        c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
-        return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
-    c1 = names[0]
+        return _solved_for_first(row, others, names[1])
+    return _solved_for_second(row, others, names[0])
+
+
+def _solved_for_first(row: Row, others: Sequence[Row], c2: Expr) -> DeterminedConstants:
+    """C1 = r/u - v/u C2 with a free C2."""
+    c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
+    return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
+
+
+def _solved_for_second(row: Row, others: Sequence[Row], c1: Expr) -> DeterminedConstants:
+    """C2 = r/v - u/v C1 with a free C1."""
     c2 = tidy(row.r / row.v) - tidy(row.u / row.v) * c1
     return DeterminedConstants((c1, c2), [other.v * row.r - other.r * row.v for other in others], row.v)
 
@@ -177,8 +190,8 @@ class _Pivot:
     @property
     def rank(self) -> tuple[bool, bool]:
         """Better ones are smaller: never zero, and alone in the row."""
-        other = self.row.v if self.is_first else self.row.u
-        return self.when is not Zero.NEVER, other != 0
+        is_alone = 0 in (self.row.u, self.row.v)
+        return self.when is not Zero.NEVER, not is_alone
 
 
 def _norm(row: Row) -> Expr | None:
@@ -203,19 +216,20 @@ def _pivot(rows: Sequence[Row]) -> _Pivot | None:
     return min(nonzero, key=lambda pivot: pivot.rank, default=None)
 
 
-def _split(found: DeterminedConstants) -> tuple[ParameterCase, list[ParameterCase]]:
+def _split(found: DeterminedConstants) -> Determined:
     """The generic case, and those of the parameters for which more is possible or less."""
-    open_cases = []
+    particular = []
     if when_zero(found.pivot) is Zero.SOMETIMES:
-        open_cases.append(ParameterCase((found.pivot,), Outcome.OPEN))
+        particular.append(ParameterCase((found.pivot,), Outcome.OPEN))
     whens = {value: when_zero(value) for value in found.needed}
     if Zero.NEVER in whens.values():
-        return ParameterCase((), Outcome.NONE), open_cases
+        return Determined(ParameterCase((), Outcome.NONE), particular)
     sometimes = tuple(value for value in found.needed if whens[value] is Zero.SOMETIMES)
-    if sometimes:  # generic parameters don't meet what only particular ones do
-        particular = ParameterCase(sometimes, Outcome.SOLUTIONS, found.values)
-        return ParameterCase((), Outcome.NONE), [particular, *open_cases]
-    return ParameterCase((), Outcome.SOLUTIONS, found.values), open_cases
+    if not sometimes:
+        return Determined(ParameterCase((), Outcome.SOLUTIONS, found.values), particular)
+    # generic parameters don't meet what only particular ones do
+    particular.insert(0, ParameterCase(sometimes, Outcome.SOLUTIONS, found.values))
+    return Determined(ParameterCase((), Outcome.NONE), particular)
 
 
 def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> ParameterCase:
@@ -223,10 +237,11 @@ def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Pa
     found = _of_rank_one(rows, names)
     if len(rows) > 2 or when_zero(found.pivot) is Zero.SOMETIMES:
         return ParameterCase((minor,), Outcome.OPEN)
-    generic, particular = _split(found)
-    if particular:
-        return ParameterCase((minor,), Outcome.SOLUTIONS, found.values, particular[0].zeros)
-    return ParameterCase((minor,), generic.outcome, found.values)
+    split = _split(found)
+    if split.particular:
+        needed = split.particular[0].zeros
+        return ParameterCase((minor,), Outcome.SOLUTIONS, found.values, needed)
+    return ParameterCase((minor,), split.generic.outcome, found.values)
 
 
 def condition_of(zero: Expr) -> str:
@@ -273,11 +288,8 @@ def tidy(value: Any) -> Any:
     if _is_left_alone(value):
         return value
     functions = {f.func for f in value.atoms(sympy.Function)}
-    is_number = not value.free_symbols
     if not functions:
-        if is_number and not value.has(sympy.E):
-            return sympy.radsimp(sympy.expand(value))
-        return sympy.radsimp(sympy.cancel(value))
+        return _tidy_algebraic(value)
     if not functions <= _ELEMENTARY:
         expanded = sympy.expand(value)
         return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
@@ -285,6 +297,13 @@ def tidy(value: Any) -> Any:
     if functions == {exp}:
         return shorter
     return min(map(TR2i, (value, shorter)), key=size)
+
+
+def _tidy_algebraic(value: Expr) -> Expr:
+    """Of a constant without functions: numbers are expanded, all else is cancelled."""
+    if value.free_symbols or value.has(sympy.E):
+        return sympy.radsimp(sympy.cancel(value))
+    return sympy.radsimp(sympy.expand(value))
 
 
 def _is_left_alone(value: Expr) -> bool:

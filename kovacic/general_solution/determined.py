@@ -10,16 +10,16 @@ the oscillating ones are zero as well, and the constant term is v.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
 from kovacic.errors import InputError
 from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.constants import Outcome, ParameterCase, Row, determine
+from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, Row, determine
 from kovacic.general_solution.expansion import CONSTANT, Expansion, ExpansionTerm, UnknownBehaviour
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.values import value_at
@@ -32,69 +32,81 @@ Growth = tuple[tuple[Expr, Expr], ...]
 #: Sizes of monomials that don't tend to 0 [`ExpansionTerm.size`].
 _OSCILLATING = 0
 _UNBOUNDED = 1
+#: The determinant of the rows for values of these orders at one point is W, or -W.
+_SIGNS: dict[tuple[int, ...], int] = {(0, 1): 1, (1, 0): -1}
 
 
 @dataclass(frozen=True)
 class Limit:
-    """The rows of a condition on a limit; `uncertain`: which solutions (0, 1) mustn't be part of y, as far as is known."""
+    """The rows of a condition on a limit; `uncertain`: why y1 (0) or y2 (1) mustn't be part of y, as far as is known."""
 
-    rows: tuple[Row, ...]
+    rows: list[Row]
     uncertain: Mapping[int, str]
+
+
+class _Solutions(NamedTuple):
+    """Those of which y = C1 y1 + C2 y2 + y0 consists, in the user's symbols."""
+
+    y1: Expr
+    y2: Expr
+    y0: Expr
 
 
 def constants_of(
     question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], limits: dict[Expr, Approach]
-) -> tuple[ParameterCase, list[ParameterCase]]:
+) -> Determined:
     """What the conditions determine: for generic parameters, and for particular ones.
 
     Raises `NotImplementedError` where too little is known about the solutions.
     """
-    functions = [question.own(e) for e in (basis.y1, basis.y2, particular)]
+    solutions = _Solutions(question.own(basis.y1), question.own(basis.y2), question.own(particular))
     rows: list[Row] = []
     uncertain: dict[int, str] = {}
     for condition in question.conditions:
         place = _limit_place(condition, limits)
         if place is None:
-            rows.append(_row(condition, functions, question.x))
+            rows.append(_row(condition, solutions, question.x))
         else:
-            found = _limit(condition, functions, basis, question, place)
-            rows += found.rows
-            uncertain |= found.uncertain
-    generic, others = determine(rows, names, _wronskian(question, basis, rows, limits))
-    if generic.outcome is Outcome.SOLUTIONS:
-        _check_certainty(generic, uncertain)
-    return generic, others
+            limit = _limit(condition, solutions, basis, question, place)
+            rows += limit.rows
+            uncertain |= limit.uncertain
+    found = determine(rows, names, _wronskian(question, basis, rows, limits))
+    _check_certainty(found.generic, uncertain)
+    return found
 
 
 def _check_certainty(case: ParameterCase, uncertain: Mapping[int, str]) -> None:
     """Raises `NotImplementedError` where a solution is a part of y whose behaviour isn't known well enough."""
+    if case.outcome is not Outcome.SOLUTIONS:
+        return
     for k, reason in uncertain.items():
         if case.values[k] != 0:
             raise NotImplementedError(f"undecided: {reason}")
 
 
-def _row(condition: Condition, functions: Sequence[Expr], x: Expr) -> Row:
-    u, v, w = (_applied(condition, function, x) for function in functions)
-    return Row(u, v, condition.value - w)
+def _row(condition: Condition, solutions: _Solutions, x: Expr) -> Row:
+    """(l(y1), l(y2), v - l(y0))."""
+    u = _applied(condition, solutions.y1, x)
+    v = _applied(condition, solutions.y2, x)
+    return Row(u, v, condition.value - _applied(condition, solutions.y0, x))
 
 
-def _applied(condition: Condition, function: Expr, x: Expr) -> Expr:
+def _applied(condition: Condition, y: Expr, x: Expr) -> Expr:
     """l(y)."""
-    values = (term.coefficient * value_at(function, x, term.point, term.order) for term in condition.terms)
+    values = (term.coefficient * value_at(y, x, term.point, term.order) for term in condition.terms)
     return sympy.Add(*values)
 
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
-    orders = _orders_at_one_point(question.conditions[:2], limits)
-    signs = {(0, 1): 1, (1, 0): -1}
-    if orders not in signs:
+    sign = _SIGNS.get(_orders_at_one_point(question.conditions[:2], limits))
+    if sign is None:
         return None
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
     if determinant.is_Rational:
         return determinant
     point = question.conditions[0].points[0]
-    W = signs[orders] * question.own(value_at(basis.wronskian, basis.x, point))
+    W = sign * question.own(value_at(basis.wronskian, basis.x, point))
     is_known = W.has(sympy.mathieuc)  # by theory, for functions that can't be evaluated
     if is_known or agree(W, determinant):
         return W
@@ -135,34 +147,38 @@ def _check_value(condition: Condition) -> None:
         raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
 
 
-def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, question: Question, place: Approach) -> Limit:
-    """`functions` are y1, y2, y0 in the user's symbols."""
+def _limit(condition: Condition, solutions: _Solutions, basis: Basis, question: Question, place: Approach) -> Limit:
+    """Of a condition on the limit of y, or of y', at a singular point or at infinity."""
     (term,) = condition.terms
-    x = question.x
-    meant = [e.diff(x, term.order) for e in functions]
     try:
-        found = [behaviour(e, x, place) for e in meant]
+        found = [behaviour(y.diff(question.x, term.order), question.x, place) for y in solutions]
         rows = _rows_of_limit(condition, found)
     except UnknownBehaviour as unknown:
         raise NotImplementedError(f"undecided: the solutions' behaviour at {place.point}: {unknown}") from None
     whole = None
     if any(_is_irregular(expansion) for expansion in found):
-        whole = _growth(question.own(basis.wronskian), x, place)
-    *of_basis, of_particular = (_uncertainty(expansion, whole, condition) for expansion in found)
+        whole = _growth(question.own(basis.wronskian), question.x, place)
+    *of_basis, of_particular = (_uncertainty(expansion, whole, _least_forbidden(condition)) for expansion in found)
     if of_particular:
         raise NotImplementedError(
             f"undecided: the behaviour of a particular solution at {place.point}: {of_particular}"
         )
-    return Limit(tuple(rows), _said(of_basis, place))
+    return Limit(rows, _said(of_basis, place))
 
 
 def _rows_of_limit(condition: Condition, found: Sequence[Expansion]) -> list[Row]:
     """That no monomial occurs that mustn't, and for a value that the constant term is the value."""
-    is_bound = condition.value is None
-    rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=not is_bound)]
-    if not is_bound:
+    rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, _least_forbidden(condition))]
+    if condition.value is not None:
         rows.append(_coefficients(CONSTANT, found, condition.value))
     return rows
+
+
+def _least_forbidden(condition: Condition) -> int:
+    """The size from which on monomials mustn't occur: where y is bounded, and where it tends to a value."""
+    if condition.value is None:
+        return _UNBOUNDED
+    return _OSCILLATING
 
 
 def _said(reasons: Sequence[str | None], place: Approach) -> dict[int, str]:
@@ -187,25 +203,21 @@ def _growth(wronskian: Expr, x: Expr, place: Approach) -> Growth | None:
 
 
 def _coefficients(m: ExpansionTerm, found: Sequence[Expansion], value: Expr) -> Row:
+    """That a monomial has this coefficient in y."""
     u, v, w = (expansion.terms.get(m, _ZERO) for expansion in found)
     return Row(u, v, sympy.expand(value - w))
 
 
-def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[ExpansionTerm]:
-    """The monomials that mustn't occur; of those with one growing exponential, the largest ones.
+def _forbidden(found: Sequence[Expansion], least: int) -> list[ExpansionTerm]:
+    """The monomials of this size, or more, but for the constant; of those with one growing exponential, the largest ones.
 
     The coefficients of the smaller ones follow: the series after one exponential is determined up to a factor.
     """
-    least = _UNBOUNDED
-    if oscillating:
-        least = _OSCILLATING
-    seen: set[ExpansionTerm] = set()
+    forbidden: dict[ExpansionTerm, None] = {}
     for expansion in found:
         large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least)]
-        for m in large:
-            if m not in seen and not _follows(m, large):
-                seen.add(m)
-                yield m
+        forbidden |= dict.fromkeys(m for m in large if not _follows(m, large))
+    return list(forbidden)
 
 
 def _follows(m: ExpansionTerm, large: Sequence[ExpansionTerm]) -> bool:
@@ -225,11 +237,8 @@ def _is_before(first: ExpansionTerm, second: ExpansionTerm) -> bool:
     return first != second and first.growth == second.growth and second.is_below(first)
 
 
-def _uncertainty(expansion: Expansion, whole: Growth | None, condition: Condition) -> str | None:
-    """Why the expansion may have other terms that don't tend to 0; None if it hasn't."""
-    least = _OSCILLATING
-    if condition.value is None:
-        least = _UNBOUNDED
+def _uncertainty(expansion: Expansion, whole: Growth | None, least: int) -> str | None:
+    """Why the expansion may have other terms of this size, or more; None if it hasn't."""
     for error in expansion.errors:
         if not _is_known(error, expansion, whole) and _is_large(error, least) is not False:
             return f"terms beyond {error} aren't known"
