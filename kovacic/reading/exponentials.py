@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import gcd
 from typing import Any, NamedTuple
@@ -40,13 +40,6 @@ from kovacic.reading.source import Source, read_source, source_of
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
-class _ReadEquation(NamedTuple):
-    """An equation, and what the user should know about how it was read."""
-
-    equation: Equation
-    notices: tuple[str, ...]
-
-
 def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None for any other input.
 
@@ -63,28 +56,43 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     common = _common_power_of_parts(rewritten, x, T)
     if common is None:
         return None
-    k = common.k
-    a, b, c = (part.xreplace(common.powers) for part in rewritten[:3])
-    if a.has(x) or b.has(x) or c.has(x):
-        raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
-    rest, h = _rational_part(parts[3], x, common.powers)
+    in_T = [part.xreplace(common.powers) for part in rewritten[:3]]
+    if any(part.has(x) for part in in_T):
+        said = f"{x} beside exp({common.k * x}): that isn't rational in one exponential function"
+        raise NotRational(said, hint=_HINT)
+    right = _right_side(parts[3], x, common.powers)
     unknown = source.unknown or UNKNOWN
-    t = new_variable((a, b, c, rest, k), {x.name, unknown})
-    Y = sympy.Function(f"{unknown}_")(t)
-    left = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y  # (1)
-    equation, said = _read_in(t, (left + rest).xreplace({T: t}), limits)
-    if equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
+    t = new_variable((*in_T, right.in_T, common.k), {x.name, unknown})
+    left = _left_side(in_T, common.k, T, sympy.Function(f"{unknown}_")(t))
+    read = _read_in(t, (left - right.in_T).xreplace({T: t}), limits)
+    h = right.in_x
+    if read.equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
         h = -parts[3]
-        equation, said = _read_in(t, left.xreplace({T: t}), limits)
-    best = _best(equation, k, x + common.offset)
-    p, q, f = best.monic
-    denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
-    p = p * denominator
-    q = q * denominator
-    f = f * denominator
+        read = _read_in(t, left.xreplace({T: t}), limits)
+    best = _best(read.equation, common.k, x + common.offset)
     expression = as_text(best.function)
-    result = Equation(denominator, p, q, f, h and h / parts[0], t.name, unknown, Change(x.name, expression))
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *said), result)
+    result = replace(
+        _without_denominators(best.monic),
+        h=h and h / parts[0],
+        variable=t.name,
+        unknown=unknown,
+        change=Change(x.name, expression),
+    )
+    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
+
+
+def _left_side(in_T: Sequence[Any], k: Any, T: Any, Y: Any) -> Any:
+    """That of (1), for a function Y of one variable, from a, b and c in T."""
+    a, b, c = in_T
+    (t,) = Y.args
+    return k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y
+
+
+class _ReadEquation(NamedTuple):
+    """An equation, and what the user should know about how it was read."""
+
+    equation: Equation
+    notices: tuple[str, ...]
 
 
 def _read_in(t: Any, expression: Any, limits: Limits) -> _ReadEquation:
@@ -92,6 +100,13 @@ def _read_in(t: Any, expression: Any, limits: Limits) -> _ReadEquation:
     read = read_source(source_of(expression, t.name, limits, equation=True), limits)
     assert read.equation is not None
     return _ReadEquation(read.equation, read.notices)
+
+
+def _without_denominators(monic: Monic) -> Equation:
+    """Y'' + p Y' + q Y = f times the common denominator of p and q."""
+    p, q, f = monic
+    a = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
+    return Equation(a, p * a, q * a, f * a)
 
 
 def _common_power_of_parts(parts: list[Any], x: Any, T: Any) -> CommonPower | None:
@@ -112,20 +127,27 @@ def new_variable(parts: Sequence[Any], taken: set[str]) -> Any:
     return sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
 
 
-def _rational_part(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
-    """The terms that are rational in T = exp(k x), in T, and the others on the other side, in x; None if there are none."""
-    rational = [sympy.Integer(0)]
-    others = []
-    for term in sympy.Add.make_args(sympy.expand(rest)):
+class _RightSide(NamedTuple):
+    """The sum of the terms of a right-hand side that are rational in T, and of the others in x, None if there are none."""
+
+    in_T: Any
+    in_x: Any
+
+
+def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> _RightSide:
+    """The right-hand side -rest; `powers` are the exponentials in T."""
+    in_T = [sympy.Integer(0)]
+    in_x = []
+    for term in sympy.Add.make_args(sympy.expand(-rest)):
         rewritten = _in_exponentials(term, x).xreplace(powers)
         free = rewritten.free_symbols | rewritten.atoms(AppliedUndef)
         if rewritten.is_rational_function(*free) and not rewritten.has(x):
-            rational.append(rewritten)
+            in_T.append(rewritten)
         else:
-            others.append(-term)
-    if not others:
-        return sympy.Add(*rational), None
-    return sympy.Add(*rational), sympy.Add(*others)
+            in_x.append(term)
+    if not in_x:
+        return _RightSide(sympy.Add(*in_T), None)
+    return _RightSide(sympy.Add(*in_T), sympy.Add(*in_x))
 
 
 def _in_exponentials(expression: Any, x: Any) -> Any:
@@ -250,10 +272,11 @@ def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
     """Y'' + p Y' + q Y = f in the variable that has real coefficients if one has, and then the fewest singular points."""
     kappa = sympy.expand(-sympy.I * k)
     is_trigonometric = not kappa.has(sympy.I)
-    rate = kappa if is_trigonometric else k
+    rate = k
     field = equation.a.field
     i = None
     if is_trigonometric:
+        rate = kappa
         field, i = _with_i(field)
     T = RatFunc(field.poly([0, 1]))
     p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
@@ -366,8 +389,11 @@ def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
 
 def _over_base(*parts: RatFunc) -> Monic:
     """The functions over the field below, if all of them are defined there."""
-    known = {lowered(part).field for part in parts if part}
-    p, q, f = (over(lowered(part), *known) for part in parts) if len(known) == 1 else parts
+    fields = {lowered(part).field for part in parts if part}
+    if len(fields) != 1:
+        p, q, f = parts
+    else:
+        p, q, f = (over(lowered(part), *fields) for part in parts)
     return p, q, f
 
 
