@@ -51,29 +51,28 @@ class Embedded:
         bits = 2 * prec + _EXTRA
         with working_precision(2 * bits):
             num, den = ([c * arb((1, bits)) for c in part.coeffs()] for part in self.polynomials())
-            values = [*num, *den]
-            if not all(c.is_finite() for c in values) or not den[-1].real != 0:
+            is_finite = all(c.is_finite() for c in (*num, *den))
+            if not is_finite or not den[-1].real != 0:
                 raise InputError(_UNDEFINED)
-            num_re, num_im = _rounded(num)
-            den_re, den_im = _rounded(den)
-            den_re[-1] = den_re[-1] or 1  # which makes the radius larger
-            integers = map(acb, [*num_re, *den_re], [*num_im, *den_im])
-            errors = [abs(c - integer).upper() for c, integer in zip(values, integers, strict=True)]
-            radius = max((floor(error) + 1 for error in errors), default=0)
+            above = _Integers.below(num)
+            below = _Integers.below(den)
+            below.re[-1] = below.re[-1] or 1  # which makes the radius larger
+            radius = max(above.radius(num), below.radius(den))
             imaginary = None
-            if not all(c.imag.is_zero() for c in values):
-                imaginary = (tuple(num_im), tuple(den_im))
-            return System(tuple(num_re), tuple(den_re), radius, imaginary)
+            if not all(c.imag.is_zero() for c in (*num, *den)):
+                imaginary = (tuple(above.im), tuple(below.im))
+            return System(tuple(above.re), tuple(below.re), radius, imaginary)
 
     def is_real(self, others: Iterable[RatFunc] = ()) -> bool:
         """Are the coefficients of S, of the gauge and of other functions real?"""
         functions = [self.S, *others]
         if self.gauge is not None:
             functions.append(self.gauge)
-        return all(self._is_real(part) for function in functions for part in (function.num, function.den))
+        return all(map(self._is_real, functions))
 
-    def _is_real(self, poly: Poly) -> bool:
-        return all(c.imag.is_zero() for c in self._embed(poly).coeffs())
+    def _is_real(self, function: RatFunc) -> bool:
+        coefficients = [*self._embed(function.num).coeffs(), *self._embed(function.den).coeffs()]
+        return all(c.imag.is_zero() for c in coefficients)
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
         """Numerator and denominator of S, at the working precision in force."""
@@ -82,13 +81,18 @@ class Embedded:
     def poles(self, function: RatFunc | None = None) -> list[tuple[acb, int]]:
         """Those of S, or of another function, with their exact multiplicities; raises LimitExceeded where they can't be told
         apart."""
-        found = []
+        found: list[tuple[acb, int]] = []
         for factor, k in squarefree_factors((function or self.S).den):
-            roots = sharp_roots(self._embed(factor)) if factor.degree else []
-            if len(roots) < factor.degree:
-                raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
-            found += [(root, k) for root in roots]
+            if factor.degree:
+                found += [(root, k) for root in self._zeros(factor)]
         return found
+
+    def _zeros(self, factor: Poly) -> list[acb]:
+        """Those of a polynomial without multiple ones, apart from each other."""
+        roots = sharp_roots(self._embed(factor))
+        if len(roots) < factor.degree:
+            raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
+        return roots
 
     def log_derivative(self) -> LogDerivative | None:
         """The gauge at the working precision in force."""
@@ -98,9 +102,9 @@ class Embedded:
 
     def equation(self) -> tuple[arb_poly, arb_poly, arb_poly]:
         """a, b and c of the user's equation, whose constants are real, at the working precision in force."""
-        functions = (self.S, self.gauge or self.S * 0)
-        parts = [self._embed(part).coeffs() for function in functions for part in (function.num, function.den)]
-        p, q, n, d = (arb_poly([c.real for c in part]) for part in parts)
+        gauge = self.gauge or self.S * 0
+        parts = (self.S.num, self.S.den, gauge.num, gauge.den)
+        p, q, n, d = (arb_poly([c.real for c in self._embed(part).coeffs()]) for part in parts)
         return d * d * q, -2 * n * d * q, (n * n - n.derivative() * d + n * d.derivative()) * q - p * d * d
 
     def bound(self, ball: acb) -> arb:
@@ -128,11 +132,23 @@ class Embedded:
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
 
 
-def _rounded(coefficients: list[acb]) -> tuple[list[int], list[int]]:
-    """The integers below the midpoints of the real and of the imaginary parts."""
-    re = [floor(c.real.mid()) for c in coefficients]
-    im = [floor(c.imag.mid()) for c in coefficients]
-    return re, im
+@dataclass(frozen=True)
+class _Integers:
+    """Gaussian integers in the place of coefficients: the real and the imaginary parts."""
+
+    re: list[int]
+    im: list[int]
+
+    @classmethod
+    def below(cls, coefficients: list[acb]) -> _Integers:
+        """The integers below the midpoints."""
+        return cls([floor(c.real.mid()) for c in coefficients], [floor(c.imag.mid()) for c in coefficients])
+
+    def radius(self, coefficients: list[acb]) -> int:
+        """An integer beyond their distances from the coefficients; 0 where there are none."""
+        integers = map(acb, self.re, self.im)
+        errors = [abs(c - integer).upper() for c, integer in zip(coefficients, integers, strict=True)]
+        return max((floor(error) + 1 for error in errors), default=0)
 
 
 def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:

@@ -52,17 +52,22 @@ class ForcedWays:
 
     def pay(self, targets: Sequence[Number]) -> bool:
         """Are they cheaper for these targets than an integration for each?"""
-        here = self._here
         stops = [middle(target) for target in targets]
         if not stops:
             return False
+        here = self._here
         if not all(point.is_real() for point in (here, *stops)):
             return self.is_removable
         self.served += len(targets)
-        ends = [pick(stop.x for stop in stops) for pick in (min, max)]
-        if not all(self._is_allowed(ExactPoint(end)) for end in ends):
-            return False
-        growth = max(self._growth(here.x, end) for end in ends)
+        places = [stop.x for stop in stops]
+        return self._ways_pay(here.x, min(places), max(places))
+
+    def _ways_pay(self, here: Any, leftmost: Any, rightmost: Any) -> bool:
+        """Are those to the ends allowed, and neither too steep nor, for few targets, too short?"""
+        for end in (leftmost, rightmost):
+            if not self._is_allowed(ExactPoint(end)):
+                return False
+        growth = max(self._growth(here, leftmost), self._growth(here, rightmost))
         is_worth = self.is_removable or self.served > _FEW or growth > _FAR
         return is_worth and growth < _STEEP
 

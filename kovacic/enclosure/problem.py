@@ -209,16 +209,26 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     numbers = {}
     if params is not None or names:
         numbers = values_of_parameters(names, params or {})
-    values = {name: value.re for name, value in numbers.items() if isinstance(value, ExactPoint) and value.is_real()}
-    if len(values) < len(numbers) or functions.have_algebraic_constants:
+    values = _rational_values(numbers)
+    if values is None or functions.have_algebraic_constants:
         embedded = Embedded(functions.S, functions.gauge, numbers)
         return NumericProblem(System((), (1,)), right=functions.right, embedded=embedded).at(_BITS)
     decision = None
-    if numbers:  # the decision of an answer is that for generic values
+    if values:  # the decision of an answer is that for generic values
         functions = functions.at(values)
     elif isinstance(found, Answer):
         decision = found.decision
     return NumericProblem(System.of(functions.S), functions.S, decision, functions.gauge, functions.right)
+
+
+def _rational_values(numbers: Mapping[str, Number]) -> dict[str, Fraction] | None:
+    """The values of the parameters, if all of them are rational; None elsewhere."""
+    values = {}
+    for name, number in numbers.items():
+        if not (isinstance(number, ExactPoint) and number.is_real()):
+            return None
+        values[name] = number.re
+    return values
 
 
 @dataclass(frozen=True)

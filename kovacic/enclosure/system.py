@@ -9,6 +9,7 @@ isolation of the common factor of two polynomials over Q.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
@@ -76,7 +77,9 @@ class System:
     def _parts(self, which: Which) -> tuple[tuple[int, ...], tuple[int, ...] | None]:
         """The real and the imaginary parts of the coefficients (None: all zero)."""
         num_im, den_im = self.imaginary or (None, None)
-        return (self.num, num_im) if which == "num" else (self.den, den_im)
+        if which == "num":
+            return self.num, num_im
+        return self.den, den_im
 
     def polynomial(self, which: Which) -> acb_poly:
         """Numerator or denominator, at the working precision in force."""
@@ -170,12 +173,25 @@ def is_apart(system: System, *points: ExactPoint) -> bool:
     with working_precision(128):
         left = [root for root, _ in system.roots("den", 128)]
         for a, b in combinations(points, 2):
-            for x, y in ((b.x - a.x, b.y - a.y), (a.y - b.y, b.x - a.x)):
-                reach = [x * p.x + y * p.y for p in points]
-                low, high, along, across = map(arb, (min(reach), max(reach), x, y))
-                places = [along * z.real + across * z.imag for z in left]
-                left = [z for z, place in zip(left, places, strict=True) if not (low > place or place > high)]
+            along = b - a
+            across = ExactPoint(a.y - b.y, along.x)
+            left = _not_beyond(_not_beyond(left, points, along), points, across)
     return not left and not system.radius
+
+
+def _not_beyond(zeros: list[acb], points: Sequence[ExactPoint], direction: ExactPoint) -> list[acb]:
+    """Those of the zeros that in this direction aren't certain to be beyond all points."""
+    reach = [direction.x * p.x + direction.y * p.y for p in points]
+    low = arb(min(reach))
+    high = arb(max(reach))
+    x = arb(direction.x)
+    y = arb(direction.y)
+    found = []
+    for z in zeros:
+        place = x * z.real + y * z.imag
+        if not (low > place or place > high):
+            found.append(z)
+    return found
 
 
 def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
@@ -218,21 +234,27 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> _Meeting | N
     step = b - a
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
     unit = step.scaled(1 / length)
-    real, imaginary = system.along("den", a - unit.scaled(first), unit)
-    common = real.gcd(imaginary).numer()
+    coefficients = _singular_on_line(system, a - unit.scaled(first), unit)
+    if len(coefficients) <= 1:
+        return None
     prec = 128
-    while common.degree() > 0:
-        roots = _isolated(tuple(int(c) for c in common.coeffs()), prec)
+    while True:
+        zeros = _isolated(coefficients, prec)
         with working_precision(prec):
-            on_line = [(z.real - first) / length for z, _ in roots if z.imag.is_zero()]
-            inside = [t for t in on_line if not (t < 0 or t > 1)]
+            shares = [(z.real - first) / length for z, _ in zeros if z.imag.is_zero()]
+            inside = [share for share in shares if not (share < 0 or share > 1)]
             if not inside:
                 return None
-            t = min(inside, key=lambda t: float(t.mid()))
-            if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
-                return _Meeting(name_of(system, to_acb(a) + to_acb(step) * t), float(t.mid()))
+            share = min(inside, key=lambda ball: float(ball.mid()))
+            if not (share.contains(0) or share.contains(1)):  # the ends were excluded exactly: else refine
+                return _Meeting(name_of(system, to_acb(a) + to_acb(step) * share), float(share.mid()))
         prec *= 2
-    return None
+
+
+def _singular_on_line(system: System, origin: ExactPoint, unit: ExactPoint) -> tuple[int, ...]:
+    """gcd(A, B), in t, for the points origin + t unit of the line."""
+    real, imaginary = system.along("den", origin, unit)
+    return tuple(int(c) for c in real.gcd(imaginary).numer().coeffs())
 
 
 def name_of(system: System, point: acb) -> str:

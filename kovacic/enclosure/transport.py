@@ -44,6 +44,7 @@ _MANY = 50
 # For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs
 _FEWER_BITS = 12.0
 _MAX_DISCS = 200_000
+_LARGEST_EXPONENT = 900  # of the scale of a disc whose size a double can be
 _ROUNDED = 1e-15  # more than the relative errors of doubles
 _EDGE = 1 + 2.0**-17  # a target so far from the centre, in scales, is surely within the reach of the bounds
 # steps and seconds after which the time of the others is known well enough to be foreseen
@@ -85,21 +86,32 @@ class Disc:
         """
         if self.begin is None:
             return
-        centre = self.frame.centre
-        reach = self.frame.scale * REACH
-        # the edge of the disc is inside, so that a target where two discs meet is served; beyond the doubles the end alone is
-        unit = math.ldexp(_EDGE, self.frame.e) if abs(self.frame.e) < 900 else -1.0
-        corners = (centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1))
-        free = self.begin == a or is_apart(system, a, *corners)
-        near = to_double(centre)
+        is_free = self.begin == a or is_apart(system, a, *self._corners())
+        near = to_double(self.frame.centre)
+        radius = self._radius()
         for stop in stops:
             if self.t_leave == 1 and stop.point == self.leave:
                 yield stop
                 continue
             rounding = _ROUNDED * (abs(stop.near) + abs(near))
-            is_inside = abs(stop.near - near) + rounding <= unit  # `Frame.seen` checks it exactly
-            if is_inside and (free or is_apart(system, a, self.begin, stop.point)):
+            is_inside = abs(stop.near - near) + rounding <= radius  # `Frame.seen` checks it exactly
+            if is_inside and (is_free or is_apart(system, a, self.begin, stop.point)):
                 yield stop
+
+    def _corners(self) -> list[ExactPoint]:
+        """Those of a square about what the disc serves."""
+        centre = self.frame.centre
+        reach = self.frame.scale * REACH
+        return [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]
+
+    def _radius(self) -> float:
+        """That of what the disc serves; the edge is inside, so that a target where two discs meet is served.
+
+        Negative beyond the doubles: there the end alone is served.
+        """
+        if abs(self.frame.e) >= _LARGEST_EXPONENT:
+            return -1.0
+        return math.ldexp(_EDGE, self.frame.e)
 
 
 def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:

@@ -82,36 +82,40 @@ class Constants:
         """
         value = self._number(radicand)
         if value is None:
-            return radicand.field.sqrt(radicand) if n == 2 else None
+            return _root_with_parameters(radicand, n)
         if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:
             return _root_of_large(radicand).over(self.field)
         if not value:
             return self._with_parameters(value)
         rational = self.numbers.rational_value(value)
         if rational is None:
-            return self._with_parameters(self._root(self._pure(value, n), principal_root(value, n), label))
-        outer = Fraction(1)
+            return self._with_parameters(self._pure_root(value, n, label))
         if n == 2:
-            outer, rest = square_part(rational)
-            rational = Fraction(rest)
-            value = self.numbers.poly([rest])
-            label = "I" if rest == -1 else f"sqrt({rest})"
-        root = self._known_root(rational, n)
-        if root is None:
-            root = self._root(self._pure(value, n), principal_root(value, n), label, (rational, n))
-        return self._with_parameters(root * outer)
+            return self._with_parameters(self._square_root(rational))
+        return self._with_parameters(self._rational_root(rational, n, label))
 
-    def _pure(self, value: Poly, n: int) -> Poly:
-        """X^n - value, over the number field."""
-        return self.numbers.poly([-value, *[0] * (n - 1), 1])
+    def _square_root(self, radicand: Fraction) -> Poly:
+        """outer sqrt(rest), so that sqrt(8) and sqrt(2) are in one field; rest is an integer.
 
-    def _known_root(self, radicand: Fraction, n: int) -> Poly | None:
-        if radicand == 1 and n == 2:
-            return self.numbers.poly([1])
+        It has no square factors, unless it is too long to be factored.
+        """
+        outer, rest = square_part(radicand)
+        if rest == 1:
+            return self.numbers.poly([1]) * outer
+        label = "I" if rest == -1 else f"sqrt({rest})"
+        return self._rational_root(Fraction(rest), 2, label) * outer
+
+    def _rational_root(self, radicand: Fraction, n: int, label: str) -> Poly:
+        """The principal root of a rational number, which is kept among the known ones."""
         for known in self.radicals:
             if known.n == n and known.radicand == radicand:
                 return known.root
-        return None
+        return self._pure_root(self.numbers.poly([radicand]), n, label, (radicand, n))
+
+    def _pure_root(self, value: Poly, n: int, label: str, radical: tuple[Fraction, int] | None = None) -> Poly:
+        """The principal root of X^n - value, over the number field."""
+        equation = self.numbers.poly([-value, *[0] * (n - 1), 1])
+        return self._root(equation, principal_root(value, n), label, radical)
 
     def algebraic(self, node: Any) -> Poly | None:
         """An algebraic number that SymPy has in any other form, through its minimal polynomial; None where it finds none."""
@@ -121,8 +125,7 @@ class Constants:
             return self.radical(QQ.poly([-1]), 2, "I")
         exact = node.as_expr() if isinstance(node, sympy.AlgebraicNumber) else node
         try:
-            is_root = isinstance(exact, sympy.CRootOf)
-            minimal = exact.poly if is_root else sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
+            minimal = _minimal_polynomial(exact)
         except NotImplementedError:
             return None
         coefficients = [Fraction(int(c.p), int(c.q)) for c in reversed(minimal.all_coeffs())]
@@ -142,11 +145,7 @@ class Constants:
         factor = vanishing_factor(equation, target)
         if factor.degree == 1:
             return -factor[0]
-        degree = factor.degree * self.numbers.absolute_degree
-        limit = self.limits.constants
-        if degree > limit:
-            said = f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}"
-            raise LimitExceeded(said, limit="constants")
+        self._check_degree(factor.degree * self.numbers.absolute_degree)
         is_irreducible = factor.degree == equation.degree
         name = label if label and is_irreducible else "alpha"
         theta, root = adjoined_root(factor, target, name)
@@ -154,6 +153,12 @@ class Constants:
         if radical is not None:
             radicals.append(Radical(*radical, root))
         raise Enlarged(replace(self, numbers=root.field, radicals=tuple(radicals)))
+
+    def _check_degree(self, degree: int) -> None:
+        limit = self.limits.constants
+        if degree > limit:
+            said = f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}"
+            raise LimitExceeded(said, limit="constants")
 
     def _with_parameters(self, number: Poly) -> Poly:
         """An element of the number field in the whole field."""
@@ -174,12 +179,16 @@ class Constants:
                 return None
             coefficients.append(number)
         constant = QQ.poly(coefficients)
-        return self.numbers.element(constant) if isinstance(self.numbers, AlgebraicField) else constant
+        if isinstance(self.numbers, AlgebraicField):
+            return self.numbers.element(constant)
+        return constant
 
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""
         field = self.field
-        return function if field == function.field == QQ else lowered(over(function, field))
+        if field == function.field == QQ:
+            return function
+        return lowered(over(function, field))
 
     def notices(self) -> list[str]:
         """What the user should know about the field."""
@@ -196,6 +205,22 @@ class Constants:
             where = _complex_text(real, imaginary)
             found.append(f"alpha is the root of {numbers.modulus.to_str('alpha')} near {where}")
         return found
+
+
+def _minimal_polynomial(number: Any) -> Any:
+    """SymPy's polynomial over Q.  Raises `NotImplementedError` where SymPy has none."""
+    import sympy
+
+    if isinstance(number, sympy.CRootOf):
+        return number.poly
+    return sympy.minimal_polynomial(number, sympy.Dummy(), polys=True)
+
+
+def _root_with_parameters(radicand: Poly, n: int) -> Poly | None:
+    """The root of what depends on parameters, in their field; None where it isn't there, and for all but square roots."""
+    if n == 2:
+        return radicand.field.sqrt(radicand)
+    return None
 
 
 def _root_of_large(radicand: Poly) -> Poly:

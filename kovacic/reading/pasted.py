@@ -77,12 +77,16 @@ def unwrapped(text: str) -> Unwrapped:
 
 def without_spacing(text: str) -> str:
     """Without LaTeX's commands for space, whose commas and semicolons separate nothing."""
-    return _TEXT.sub(r" \1 ", _SPACING.sub(" ", text)) if "\\" in text else text
+    if "\\" not in text:
+        return text
+    return _TEXT.sub(r" \1 ", _SPACING.sub(" ", text))
 
 
 def _without_prompt(text: str) -> str:
     prompt = _PROMPT.match(text)
-    return text if prompt is None else text[prompt.end() :]
+    if prompt is None:
+        return text
+    return text[prompt.end() :]
 
 
 def _without_assignment(text: str) -> str:
@@ -119,7 +123,10 @@ def _is_enclosed(call: str) -> bool:
     """Is a text enclosed by one pair of parentheses or brackets?"""
     depth = 0
     for k, character in enumerate(call):
-        depth += (character in _OPENED) - (character in _CLOSED)
+        if character in _OPENED:
+            depth += 1
+        elif character in _CLOSED:
+            depth -= 1
         if depth == 0:
             return k == len(call) - 1
     return False
@@ -139,13 +146,16 @@ def _of_arguments(command: str, call: str, text: str) -> Unwrapped:
             given += values
         elif _NAMED.fullmatch(part) and is_quoted:  # MATLAB's variable
             variable = part
-        elif not (_NAMED.fullmatch(part) and _occurs(part, equation)):
+        elif not _is_name_in(part, equation):
             said = f"{part} isn't read in {command}(...)"
             hint = f"give the equation and its values: {', '.join((equation, *given))}"
             raise ParseError(said, text=text, position=text.find(argument), length=len(argument), hint=hint)
     if variable is not None:
         equation = _differentiated_by(variable, equation)
-    return Unwrapped(equation, tuple(value for part in given for value in plain_values(part)))
+    values_found: list[str] = []
+    for part in given:
+        values_found += plain_values(part)
+    return Unwrapped(equation, tuple(values_found))
 
 
 def _values_in(part: str) -> list[str] | None:
@@ -156,12 +166,16 @@ def _values_in(part: str) -> list[str] | None:
         return None
     if _is_list(part):
         return _listed(part[1:-1])
-    return None if _NAME_OF_OPTION.match(part) else [part]
+    if _NAME_OF_OPTION.match(part):
+        return None
+    return [part]
 
 
-def _occurs(named: str, equation: str) -> bool:
-    """Does the name of y(x) occur in the equation?"""
-    name = re.split(r"\W", named)[0]
+def _is_name_in(part: str, equation: str) -> bool:
+    """Is it y, y(x) or y[x], with a name that occurs in the equation?"""
+    if not _NAMED.fullmatch(part):
+        return False
+    name = re.split(r"\W", part)[0]
     return re.search(rf"(?<![^\W\d_]){name}(?![^\W_])", equation) is not None
 
 

@@ -118,10 +118,10 @@ def _sympy_equation(given: Any, variable: str | None, unknown: Any) -> Source:
 
     from kovacic.reading.symbolic import function_of, names_of, walked
 
-    expression = given
-    if getattr(given, "is_Equality", False):
-        expression = given.lhs - given.rhs if given.rhs != 0 else given.lhs
-    function = function_of(expression) if unknown is None else unknown
+    expression = _difference_of_sides(given)
+    function = unknown
+    if function is None:
+        function = function_of(expression)
     if len(function.args) != 1 or not function.args[0].is_Symbol:
         raise NotLinear(f"{function} isn't a function of one variable")
     x = function.args[0].name
@@ -132,6 +132,15 @@ def _sympy_equation(given: Any, variable: str | None, unknown: Any) -> Source:
         if letter in names and expression.has(number):
             raise InputError(f"{letter} is a symbol and a number in one equation", hint="rename the symbol")
     return Source(partial(walked, expression), x, str(function.func))
+
+
+def _difference_of_sides(given: Any) -> Any:
+    """What is zero: of an `Eq` the left side minus the right one, and any other expression itself."""
+    if not getattr(given, "is_Equality", False):
+        return given
+    if given.rhs == 0:
+        return given.lhs
+    return given.lhs - given.rhs
 
 
 def read_source(source: Source, limits: Limits) -> Parsed:
@@ -160,29 +169,37 @@ def read_source(source: Source, limits: Limits) -> Parsed:
 
 def chosen_variable(names: list[str]) -> str:
     """The only name, or x.  Raises `InputError` where neither is among several names."""
-    if len(names) > 1 and DEFAULT_VARIABLE not in names:
-        likely = next((name for name in names if name in USUAL_VARIABLES and name.islower()), names[0])
-        raise InputError(
-            f"which of {', '.join(names[:6])} is the variable?",
-            hint=f"name it: var={likely!r}; the others are parameters",
-            shell=f"name it: --var {likely}; the others are parameters",
-        )
-    return names[0] if len(names) == 1 else DEFAULT_VARIABLE
+    if len(names) == 1:
+        return names[0]
+    if not names or DEFAULT_VARIABLE in names:
+        return DEFAULT_VARIABLE
+    usual = [name for name in names if name in USUAL_VARIABLES and name.islower()]
+    likely = (usual or names)[0]
+    raise InputError(
+        f"which of {', '.join(names[:6])} is the variable?",
+        hint=f"name it: var={likely!r}; the others are parameters",
+        shell=f"name it: --var {likely}; the others are parameters",
+    )
 
 
 def _variable_of_S(tokens: Tokens, variable: str | None) -> str:
     """The name of the variable of S, as far as it isn't given.  Refuses decimals that can be read as products with it."""
-    if variable is None:
-        found = tokens.names()
-        names = [name for name in found if name not in {*NUMBER_NAMES, ENERGY, UNKNOWN} and as_function(name) is None]
-        try:
-            variable = chosen_variable(names)
-        except InputError as error:
-            k = found[names[1]]
-            raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
-    if variable in ("e", "E"):
-        _refuse_exponents_of_decimals(tokens, variable)
-    return variable
+    found = variable or _chosen_variable_of_S(tokens)
+    if found in ("e", "E"):
+        _refuse_exponents_of_decimals(tokens, found)
+    return found
+
+
+def _chosen_variable_of_S(tokens: Tokens) -> str:
+    """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
+    found = tokens.names()
+    no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN}
+    names = [name for name in found if name not in no_variables and as_function(name) is None]
+    try:
+        return chosen_variable(names)
+    except InputError as error:
+        k = found[names[1]]
+        raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
 
 
 def _refuse_exponents_of_decimals(tokens: Tokens, variable: str) -> None:
@@ -209,15 +226,16 @@ _FACTORS = 2
 
 def _refuse_glued_names(tokens: Tokens, variable: str, unknown: str, *, might_be_time: bool = False) -> None:
     """Raises `ParseError` where a name looks like a product: ky, kx; where the variable `might_be_time`: at."""
-    no_variable = might_be_time and not {variable, "t"} & tokens.names().keys()
-    for name, k in tokens.names().items():
+    names = tokens.names()
+    has_no_variable = variable not in names and "t" not in names
+    for name, k in names.items():
         if name in (variable, unknown) or _is_known(name):
             continue
         if unknown:
             _refuse_operator(tokens, name, k, variable, unknown)
         meant = _as_product(name, variable, unknown)
-        if meant is None and no_variable and _ends_in_time(name):
-            meant = _as_product(name, "t", unknown)
+        if meant is None and might_be_time and has_no_variable:
+            meant = _as_product_with_time(name, unknown)
         if meant is not None:
             raise _one_name(tokens, k, meant)
 
@@ -234,8 +252,11 @@ def _is_known(name: str) -> bool:
     return name in NUMBER_NAMES or name in GREEK or as_function(name) is not None
 
 
-def _ends_in_time(name: str) -> bool:
-    return len(name) == _FACTORS and name[-1] == "t"
+def _as_product_with_time(name: str, unknown: str) -> str | None:
+    """a*t for at."""
+    if len(name) == _FACTORS and name[-1] == "t":
+        return _as_product(name, "t", unknown)
+    return None
 
 
 def _refuse_operator(tokens: Tokens, name: str, k: int, variable: str, unknown: str) -> None:
@@ -282,16 +303,22 @@ def _refuse_two_exponents(tokens: Tokens, unknown: str) -> None:
     for k, kind in enumerate(tokens.kinds):
         if kind != "CIRCUMFLEX" or tokens.pieces[k - 1] != "e":
             continue
-        number = k + 2 if tokens.are(k + 1, "MINUS") else k + 1
-        if not tokens.are(number, "NUMBER", "NAME"):
+        number = k + 1
+        if tokens.are(number, "MINUS"):
+            number += 1
+        if not _is_glued_product(tokens, number):
             continue
         factor = tokens.pieces[number + 1]
-        is_glued = tokens.ends[number] == tokens.starts[number + 1]
-        if is_glued and factor != unknown:
+        if factor != unknown:
             power = tokens.piece(k + 1, number + 1)
             whole = tokens.piece(k - 1, number + 2)
             hint = f"write e^({power}*{factor}) or e^({power})*{factor}"
             raise tokens.error(ParseError, f"{whole} can be read in two ways", k - 1, number + 2, hint=hint)
+
+
+def _is_glued_product(tokens: Tokens, k: int) -> bool:
+    """Is token k a number that a name follows without a space: 2x?"""
+    return tokens.are(k, "NUMBER", "NAME") and tokens.ends[k] == tokens.starts[k + 1]
 
 
 def _with_factors(tokens: Tokens, variable: str, unknown: str) -> Tokens:
@@ -305,7 +332,9 @@ def _with_factors(tokens: Tokens, variable: str, unknown: str) -> Tokens:
         might_be_factor = name in alone and is_letter(name) and name not in _FUNCTIONS
         if might_be_factor and not _is_applied(tokens, k):
             kinds[k] = "NAME"
-    return replace(tokens, kinds=kinds) if kinds != tokens.kinds else tokens
+    if kinds == tokens.kinds:
+        return tokens
+    return replace(tokens, kinds=kinds)
 
 
 def _is_applied(tokens: Tokens, k: int) -> bool:
@@ -322,10 +351,13 @@ def _imaginary(tokens: Tokens, variable: str, unknown: str) -> tuple[str, ...]:
 
 def _as_product(name: str, variable: str, unknown: str) -> str | None:
     """k*y for ky, and x*y for xy: single letters, the unknown function or the variable at one end."""
-    if not (name.isascii() and name.isalpha() and 2 <= len(name) <= _FACTORS + 1):
+    is_short_word = name.isascii() and name.isalpha() and 2 <= len(name) <= _FACTORS + 1
+    if not is_short_word:
         return None
-    ends = {name[0], name[-1]}
-    return "*".join(name) if ends & ({variable, unknown} - {""}) else None
+    ends = (name[0], name[-1])
+    if variable in ends or unknown in ends:
+        return "*".join(name)
+    return None
 
 
 def _unknown_of(tokens: Tokens) -> str:
@@ -378,12 +410,13 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> _Chosen
         return _ChosenVariable(named)
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
-    if DEFAULT_VARIABLE in names:
-        return _ChosenVariable(DEFAULT_VARIABLE)
     default = preferred or DEFAULT_VARIABLE
     if default == unknown:
         default = "t"
-    if default in names or not names:
+    for likely in (DEFAULT_VARIABLE, default):
+        if likely in names:
+            return _ChosenVariable(likely)
+    if not names:
         return _ChosenVariable(default)
     usual = _usual_variables(names)
     if len(usual) > 1:
