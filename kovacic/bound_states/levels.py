@@ -384,6 +384,7 @@ def _listed(names: Iterable[str], others: Container[str]) -> str:
 
 
 def _levels_dict(levels: Levels) -> dict[str, Any]:
+    """Their part of the JSON object."""
     norm = None if levels.norm is None else _text(levels.norm)
     return {
         "number": str(levels.number),
@@ -396,6 +397,7 @@ def _levels_dict(levels: Levels) -> dict[str, Any]:
 
 
 def _algebraic_dict(algebraic: Algebraic) -> dict[str, Any]:
+    """Their part of the JSON object."""
     return {
         "degree": algebraic.degree,
         "constraint": _text(algebraic.constraint),
@@ -433,21 +435,24 @@ def _lines(levels: Levels, energy: str) -> list[str]:
         first += f" with {_joined(levels.above)}"
     if levels.where:
         first += f", where {_joined(levels.where)}"
-    lines = [f"  {first}"]
-    if levels.wave.is_Piecewise:
-        (even, _), (odd, _) = levels.wave.args
-        lines.append(f"      y_{n} = {_text(even)} ({n} even)")
-        lines.append(f"      y_{n} = {_text(odd)} ({n} odd)")
-    else:
-        lines.append(f"      y_{n} = {_text(levels.wave)}")
     last = f"{_text(levels.zeros)} zeros"
     if levels.norm is not None:
         last += f", norm^2 = {_text(levels.norm)}"
-    lines.append(f"      {last}")
-    return lines
+    waves = [f"y_{n} = {wave}" for wave in _waves(levels)]
+    return [f"  {first}", *(f"      {line}" for line in (*waves, last))]
+
+
+def _waves(levels: Levels) -> list[str]:
+    """The wave function, or that for even and that for odd numbers."""
+    n = levels.number
+    if not levels.wave.is_Piecewise:
+        return [_text(levels.wave)]
+    (even, _), (odd, _) = levels.wave.args
+    return [f"{_text(even)} ({n} even)", f"{_text(odd)} ({n} odd)"]
 
 
 def _joined(relations: Iterable[Any]) -> str:
+    """Relations in a row."""
     return ", ".join(map(_relation, relations))
 
 

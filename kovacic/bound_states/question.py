@@ -52,11 +52,13 @@ class SpectralProblem:
 
     @property
     def parameters(self) -> tuple[str, ...]:
+        """The names of the user's."""
         constants = self.constants
         return tuple(name for name in self.signs.symbols if name != self.energy and name not in constants)
 
     @property
     def constants(self) -> dict[str, Any]:
+        """pi and e among the parameters, by the names for which they stand."""
         return _constants(self.V, self.signs.symbols)
 
     def with_potential(self, V: Any) -> SpectralProblem:
@@ -71,8 +73,8 @@ class SpectralProblem:
         number = next(name for name in _NUMBERS if name not in taken)
         symbols = [s for s in expression.free_symbols if not isinstance(s, sympy.Dummy)]
         constants = self.constants
-        names = {s: constants.get(s.name, sympy.Symbol(s.name)) for s in symbols}
-        return expression.xreplace({**names, self.signs.n: sympy.Symbol(number)})
+        plain = {symbol: constants.get(symbol.name, sympy.Symbol(symbol.name)) for symbol in symbols}
+        return expression.xreplace({**plain, self.signs.n: sympy.Symbol(number)})
 
 
 class _Potential(NamedTuple):
@@ -104,25 +106,26 @@ def read_question(
     Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
     """
     _check_options(energy, boundary)
-    expression, S = _read_potential(V, energy)
+    given = _read_potential(V, energy)
     variable = _Variable(str(var))
     if var is None:
-        variable = _variable_of(expression)
+        variable = _variable_of(given.expression)
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-    parsed = read_input(S, var=variable.name, limits=limits, exponentials=True)
-    S, parsed, assume = with_values(S, parsed, assume, limits)
-    assume = assumed_of_letters(assume, parsed.letters)
+    with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True)
+    S, parsed, of_parameters = with_values(given.S, with_parameters, assume, limits)
+    assumed = assumed_of_letters(of_parameters, parsed.letters)
     ends = [_read_end(value) for value in domain]
     names = _names(parsed, ends, variable=variable.name, energy=energy)
-    known = read_assumptions(assume, V, names)
-    for constant in _constants(expression, names):
+    known = read_assumptions(assumed, V, names)
+    for constant in _constants(given.expression, names):
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)
+    potential = given.expression
     if isinstance(S, str):  # the values of parameters are in it
-        expression = read_expression(S[: S.rindex(" - ")])
+        potential = read_expression(S[: S.rindex(" - ")])
     return SpectralProblem(
-        expression,
+        potential,
         parsed,
         domain=_checked_domain(ends, signs),
         variable=variable.name,
@@ -199,6 +202,7 @@ def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:
 
 
 def _read_end(value: Any) -> Any:
+    """An end of the domain, a number, an expression or infinite.  Raises `InputError` for anything else."""
     text = exact_text(value, "an end of the domain")
     if text in _INFINITE:
         return _INFINITE[text]

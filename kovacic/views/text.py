@@ -71,8 +71,7 @@ def render(
         yield style(f"  note: {visible(notice)}", "faint")
     is_gauged = answer.equation is not None and not answer.equation.is_normal_form
     if is_gauged:
-        where = "" if answer.change is None else f", over {answer.change.field}"
-        yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{where}"
+        yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{_over_field(answer)}"
     said, more = verdict_of(answer)
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     if solutions is not None:
@@ -85,6 +84,11 @@ def render(
     yield from _indented(_exclusions(answer))
     yield from _indented(_for_generic_parameters(answer))
     yield from _indented(_check_of(answer, style))
+
+
+def _over_field(answer: Answer) -> str:
+    """Over which field case and omega are those, where that isn't C(x)."""
+    return "" if answer.change is None else f", over {answer.change.field}"
 
 
 def _indented(lines: Iterable[str]) -> Iterator[str]:
@@ -218,8 +222,10 @@ def _exclusions(answer: Answer) -> list[str]:
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     lines = []
     for (case, reasons), structures in grouped.items():
-        which = f" ({', '.join(structures)})" if case == 3 else ""
-        lines.append(f"not case {case}{which}: {reasons}")
+        which = f"case {case}"
+        if case == 3:
+            which += f" ({', '.join(structures)})"
+        lines.append(f"not {which}: {reasons}")
     return lines
 
 
