@@ -224,8 +224,8 @@ def _found(
     """The solution with these exponents, and the equation for its energies; None where there is none."""
     parsed = question.parsed
     solution = solution_of_degree(choice, d, parsed.variable, given)
-    system = choice.polynomial(d)
-    if system is None or not has_radicals(choice.field):
+    possible_P = choice.polynomial(d)
+    if possible_P is None or not has_radicals(choice.field):
         raise Uncovered(f"the polynomials of degree {d} don't follow from their highest coefficients")
     if solution is None:
         return None
@@ -236,7 +236,7 @@ def _found(
         constraint=constraint,
         polynomial=_common_numerator(conditions),
         wave=_joined(solution.y, choice.field),
-        P=system[0].to_sympy(sympy.Symbol(parsed.variable)),
+        P=possible_P.P.to_sympy(sympy.Symbol(parsed.variable)),
         conditions=demands,
     )
     with_energy = _at_its_energy(found, E) if constraint.has(E) else found

@@ -70,8 +70,8 @@ class Exponents:
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
         return [2 * Form(1, R, x**k).numerators(self.problem)[-1] // D for k in range(d + 1)]
 
-    def polynomial(self, d: int) -> tuple[Poly, Poly] | None:
-        """The only monic P of degree d that can solve the equation, and what is left of its image: where that is 0, it does.
+    def polynomial(self, d: int) -> PossiblePolynomial | None:
+        """The only monic P of degree d that can solve the equation.
 
         The coefficients follow from the highest one down; None where they don't.
         """
@@ -85,7 +85,14 @@ class Exponents:
             factor = rest[k + shift] / images[k][k + shift]
             P = P - self.field.poly([0] * k + [factor])
             rest = rest - images[k] * factor
-        return P, rest
+        return PossiblePolynomial(P, rest)
+
+
+class PossiblePolynomial(NamedTuple):
+    """A polynomial that solves an equation where `rest`, what is left of its image, is 0."""
+
+    P: Poly
+    rest: Poly
 
 
 class ExponentRoot(NamedTuple):

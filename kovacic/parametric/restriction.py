@@ -321,15 +321,22 @@ def _powers_of_parameters(function: FunctionPoly) -> list[_PowerTerm] | None:
     return found
 
 
-def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, ParameterPoint]:
+class WithFreeConstant(NamedTuple):
     """S with its algebraic constant as one more parameter, the same as it is shown, and the value of this parameter.
 
-    The first has its denominator in factors: with a free constant it needn't be a square where it is one.  S is over Q(t),
-    and then the point is empty, or over Q(t)(alpha) with a number alpha.
+    `S` has its denominator in factors: with a free constant it needn't be a square where it is one.
     """
+
+    S: RatFunc
+    shown: RatFunc
+    constant: ParameterPoint
+
+
+def with_free_constant(S: RatFunc) -> WithFreeConstant:
+    """For S over Q(t), where the point is empty, or over Q(t)(alpha) with a number alpha."""
     field = S.field
     if not isinstance(field, AlgebraicField):
-        return S, S, NO_CONSTANT
+        return WithFreeConstant(S, S, NO_CONSTANT)
     base = field.base
     assert isinstance(base, FunctionField)
     name = field.name
@@ -342,7 +349,7 @@ def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, ParameterPoint]:
     modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
-    return RatFunc(num, product(factors)), RatFunc(num, _free(S.den, larger)), point
+    return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, _free(S.den, larger)), point)
 
 
 def _free(polynomial: Poly, larger: FunctionField) -> Poly:

@@ -233,13 +233,12 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     found = exponents.polynomial(d)
     if found is None:
         return None
-    P, rest = found
-    alternatives = [_conditions(coefficient) for coefficient in rest if coefficient]
+    alternatives = [_conditions(coefficient) for coefficient in found.rest if coefficient]
     exists_nowhere = [] in alternatives
     if exists_nowhere:
         return None
     x = sympy.Symbol(variable)
-    y = P.to_sympy(x)
+    y = found.P.to_sympy(x)
     for part in exponents.parts:
         exponent = sympy.factor(part.exponent.to_sympy(x))
         y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
