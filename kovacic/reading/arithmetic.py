@@ -88,43 +88,44 @@ class Arithmetic:
     def number(self, value: Value) -> Fraction | None:
         """The rational number that a value is, or None."""
         closed = self.closed(value)
-        return closed.field.rational_value(closed) if isinstance(closed, Poly) and closed.is_constant else None
+        if isinstance(closed, Poly) and closed.is_constant:
+            return closed.field.rational_value(closed)
+        return None
 
     def rational(self, value: Value) -> RatFunc:
         """The value as a rational function in lowest terms."""
-        value = self.closed(value)
-        return value if isinstance(value, RatFunc) else RatFunc(value)
+        closed = self.closed(value)
+        if isinstance(closed, RatFunc):
+            return closed
+        return RatFunc(closed)
 
     def negate(self, value: Value) -> Value:
-        return Monomial(-value.coefficient, value.power) if isinstance(value, Monomial) else -self.closed(value)
+        if isinstance(value, Monomial):
+            return Monomial(-value.coefficient, value.power)
+        return -self.closed(value)
 
     def sum(self, terms: Sequence[Value]) -> Value:
         """The sum of at least one term."""
         if len(terms) == 1:
             return terms[0]
-        #: Of the monomials, by their powers.
-        coefficients: dict[int, int | Fraction] = {}
-        polynomials = list[Poly]()
-        fractions = list[RatFunc]()
+        summands = _Summands()
         for term in terms:
-            if isinstance(term, Monomial):
-                known = coefficients.get(term.power, 0)
-                if _bits(known) <= _SMALL_BITS:
-                    coefficients[term.power] = known + term.coefficient
-                    continue
+            if isinstance(term, Monomial) and summands.add_monomial(term):
+                continue
             part = self.closed(term)
             if isinstance(part, RatFunc):
-                fractions.append(part)
+                summands.fractions.append(part)
             else:
-                polynomials.append(part)
-        if coefficients:
-            polynomials.insert(0, QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients) + 1)]))
-        if not fractions:
+                summands.polynomials.append(part)
+        polynomials = summands.all_polynomials()
+        if not summands.fractions:
             return _total(polynomials, self._poly_sum)
-        fraction = _total(fractions, self._ratfunc_sum)
+        fraction = _total(summands.fractions, self._ratfunc_sum)
         if polynomials:
             fraction = self._with_polynomial(fraction, _total(polynomials, self._poly_sum))
-        return fraction.num if fraction.is_polynomial else fraction
+        if fraction.is_polynomial:
+            return fraction.num
+        return fraction
 
     def _with_polynomial(self, fraction: RatFunc, polynomial: Poly) -> RatFunc:
         """The sum of a fraction and a polynomial, which needs no reduction."""
@@ -185,9 +186,7 @@ class Arithmetic:
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
         n = exponent if isinstance(exponent, int) else self._integer_value(exponent)
-        if abs(n) > self.limits.exponent:
-            shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
-            raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
+        self._check_power(n)
         if isinstance(base, Monomial) and n > 0 and _has_small_power(base.coefficient, n):
             self._check(base.power * n, 0)
             return Monomial(base.coefficient**n, base.power * n)
@@ -201,11 +200,15 @@ class Arithmetic:
         if isinstance(base, RatFunc):
             return self._ratfunc_power(base, n)
         power = self._poly_power(base, abs(n))
-        return power if n > 0 else self.divide(Monomial(1, 0), power)
+        if n > 0:
+            return power
+        return self.divide(Monomial(1, 0), power)
 
     def closed(self, value: Value) -> Poly | RatFunc:
         """The value as a polynomial or rational function."""
-        return _monomial(value.coefficient, value.power) if isinstance(value, Monomial) else value
+        if isinstance(value, Monomial):
+            return _monomial(value.coefficient, value.power)
+        return value
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)
@@ -244,6 +247,12 @@ class Arithmetic:
         leading = den.lc.inverse()
         return RatFunc(num * leading, den * leading, reduced=True)
 
+    def _check_power(self, n: int) -> None:
+        """Refuses exponents that are too large."""
+        if abs(n) > self.limits.exponent:
+            shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
+            raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
+
     def _check(self, degree: int, bits: int) -> None:
         limits = self.limits
         if degree > limits.degree:
@@ -265,10 +274,36 @@ class Arithmetic:
         return number.numerator
 
 
+class _Summands:
+    """The terms of a sum: the coefficients of its monomials by their powers, and everything else by kinds."""
+
+    def __init__(self) -> None:
+        self.coefficients: dict[int, int | Fraction] = {}
+        self.polynomials: list[Poly] = []
+        self.fractions: list[RatFunc] = []
+
+    def add_monomial(self, term: Monomial) -> bool:
+        """Adds it to those of its power; False where their sum has become too long for Python's numbers."""
+        known = self.coefficients.get(term.power, 0)
+        if _bits(known) > _SMALL_BITS:
+            return False
+        self.coefficients[term.power] = known + term.coefficient
+        return True
+
+    def all_polynomials(self) -> list[Poly]:
+        """The monomials as one polynomial, and the others."""
+        if not self.coefficients:
+            return self.polynomials
+        row = [self.coefficients.get(k, 0) for k in range(max(self.coefficients) + 1)]
+        return [QQ.poly(row), *self.polynomials]
+
+
 def _total(parts: Sequence[T], add: Callable[[T, T], T]) -> T:
     """The sum of at least one part, by halves."""
     half = len(parts) // 2
-    return add(_total(parts[:half], add), _total(parts[half:], add)) if half else parts[0]
+    if not half:
+        return parts[0]
+    return add(_total(parts[:half], add), _total(parts[half:], add))
 
 
 def _bits(value: int | Fraction) -> int:

@@ -199,18 +199,16 @@ def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parse
         return None
     written = source_of_parts(lettered.parts, source)
     found = None
-    with suppress(NotRational):
-        found = read_source(written, limits)
-    if found is None:
-        with suppress(NotRational):
-            found = in_exponentials(written, limits)
+    for reader in (read_source, in_exponentials):
+        if found is None:
+            with suppress(NotRational):
+                found = reader(written, limits)
     found = found or in_powers(written, limits)
     if found is None:
         return None
-    renamed = {letter: meaning for letter, meaning in lettered.meanings.items() if str(letter) != str(meaning)}
-    said = [f"{letter} is {meaning}" for letter, meaning in renamed.items()]
-    letters = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
-    return replace(found, notices=(*said, *found.notices), letters=letters)
+    meanings = {letter.name: meaning for letter, meaning in lettered.meanings.items()}
+    said = [f"{name} is {meaning}" for name, meaning in meanings.items() if name != str(meaning)]
+    return replace(found, notices=(*said, *found.notices), letters=tuple(meanings.items()))
 
 
 def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
@@ -244,9 +242,12 @@ def _new_function(coefficients: Sequence[Any], variable: str | None) -> Any:
     symbols: dict[str, Any] = {}
     for value in filter(_is_sympy, coefficients):
         symbols |= {symbol.name: symbol for symbol in sorted(value.free_symbols, key=str)}
-    if variable is None:
-        variable = next(iter(symbols)) if len(symbols) == 1 else DEFAULT_VARIABLE
-    x = symbols.get(variable, sympy.Symbol(variable))
+    name = variable
+    if name is None:
+        name = DEFAULT_VARIABLE
+        if len(symbols) == 1:
+            (name,) = symbols
+    x = symbols.get(name, sympy.Symbol(name))
     unknown = "y_" if "y" in symbols else "y"
     return sympy.Function(unknown)(x)
 

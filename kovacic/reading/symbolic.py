@@ -81,17 +81,29 @@ def _combined(node: Any, arguments: list[Any], reader: RationalReader) -> Any:
 
 def _leaf(node: Any, reader: RationalReader) -> Any:
     if node.is_Symbol:
-        return VARIABLE if node.name == reader.variable else reader.constants.parameter(node.name)
+        if node.name == reader.variable:
+            return VARIABLE
+        return reader.constants.parameter(node.name)
     if node.is_Rational:
         return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
     if node.is_Float and node.is_finite:
-        is_negative, mantissa, exponent, _ = node._mpf_
-        size = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-        exact = -size if is_negative else size
+        exact = _exact_value(node)
         reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
         return reader.arithmetic.constant(exact)
-    value = reader.constants.algebraic(node) if node.is_number and node.is_algebraic else None
-    return reader.other_leaf(node) if value is None else value
+    if node.is_number and node.is_algebraic:
+        value = reader.constants.algebraic(node)
+        if value is not None:
+            return value
+    return reader.other_leaf(node)
+
+
+def _exact_value(number: Any) -> Fraction:
+    """The binary fraction that a float of SymPy is."""
+    is_negative, mantissa, exponent, _ = number._mpf_
+    size = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+    if is_negative:
+        return -size
+    return size
 
 
 def names_of(expression: Any) -> list[str]:
@@ -108,12 +120,17 @@ def names_of(expression: Any) -> list[str]:
 
 def functions_in(value: Any) -> set[Any]:
     """The applied undefined functions, such as y(x)."""
-    return value.atoms(AppliedUndef) if hasattr(value, "atoms") else set()
+    if not hasattr(value, "atoms"):
+        return set()
+    found: set[Any] = value.atoms(AppliedUndef)
+    return found
 
 
 def is_sympy_equation(value: Any) -> bool:
     """Is it an `Eq` with an undefined function, or an expression with a derivative of one?"""
-    return bool(functions_in(value)) and (bool(getattr(value, "is_Equality", False)) or value.has(sympy.Derivative))
+    if not functions_in(value):
+        return False
+    return bool(getattr(value, "is_Equality", False) or value.has(sympy.Derivative))
 
 
 def text_of(given: Any) -> str:
@@ -134,10 +151,10 @@ def text_of(given: Any) -> str:
 
 def function_of(expression: Any) -> Any:
     """The unknown function, the only one in the expression or the one that is differentiated."""
-    candidates = functions = functions_in(expression)
+    functions = functions_in(expression)
+    candidates = functions
     if len(functions) > 1:
-        derived = {d.expr for d in expression.atoms(sympy.Derivative)} & functions
-        candidates = derived if len(derived) == 1 else functions
+        candidates = {d.expr for d in expression.atoms(sympy.Derivative)} & functions
     if len(candidates) != 1:
         found = ", ".join(sorted(map(str, functions))) or "none"
         raise NotLinear(f"one unknown function is expected, and there are: {found}", hint="write y(x) for it")
@@ -146,12 +163,17 @@ def function_of(expression: Any) -> Any:
 
 def divided(eq: Any) -> Any:
     """An equation divided by the coefficient of its second derivative, where a common factor isn't rational; None without."""
-    expression = eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq
+    expression = eq
+    if isinstance(eq, sympy.Equality):
+        expression = eq.lhs - eq.rhs
     second = [d for d in expression.atoms(sympy.Derivative) if d.derivative_count == 2]
-    leading = sympy.expand(expression).coeff(second[0]) if second else sympy.Integer(0)
+    if not second:
+        return None
+    expanded = sympy.expand(expression)
+    leading = expanded.coeff(second[0])
     if not leading.has(sympy.Function):
         return None
-    return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(sympy.expand(expression))))
+    return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(expanded)))
 
 
 def read_expression(
