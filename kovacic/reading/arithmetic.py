@@ -185,7 +185,7 @@ class Arithmetic:
 
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
-        n = exponent if isinstance(exponent, int) else self._integer_value(exponent)
+        n = self._integer_of(exponent)
         self._check_power(n)
         if isinstance(base, Monomial) and n > 0 and _has_small_power(base.coefficient, n):
             self._check(base.power * n, 0)
@@ -265,7 +265,9 @@ class Arithmetic:
             raise LimitExceeded(f"{size}, above the limit of {most} bits for all together", limit="bits")
         check_time()
 
-    def _integer_value(self, exponent: Value) -> int:
+    def _integer_of(self, exponent: Value | int) -> int:
+        if isinstance(exponent, int):
+            return exponent
         if isinstance(exponent, Monomial) and exponent.power == 0 and isinstance(exponent.coefficient, int):
             return exponent.coefficient
         number = self.number(exponent)

@@ -85,12 +85,7 @@ def in_x(equation: Equation, expression: Any) -> Any:
     own = sympy.Symbol(equation.variable)
     x = user_variable(equation)
     t = function_of_x(equation)
-    integrals = {
-        integral: sympy.Integral(in_x(equation, integral.function) * t.diff(x), x)
-        for integral in expression.atoms(sympy.Integral)
-        if integral.limits == (sympy.Tuple(own),)
-    }
-    with_integrals = expression.xreplace(integrals)
+    with_integrals = _with_integrals_in_x(equation, expression)
     if is_power(equation):
         return _with_powers(with_integrals, own, t.exp, x)
     result = with_integrals.xreplace({own: t})
@@ -99,6 +94,18 @@ def in_x(equation: Equation, expression: Any) -> Any:
     if t.func is sympy.exp:
         return _with_joined_powers(result, x)
     return result
+
+
+def _with_integrals_in_x(equation: Equation, expression: Any) -> Any:
+    """With int f(t(x)) t'(x) dx in the place of int f(t) dt."""
+    own = sympy.Symbol(equation.variable)
+    x = user_variable(equation)
+    slope = function_of_x(equation).diff(x)
+    integrals: dict[Any, Any] = {}
+    for integral in expression.atoms(sympy.Integral):
+        if integral.limits == (sympy.Tuple(own),):
+            integrals[integral] = sympy.Integral(in_x(equation, integral.function) * slope, x)
+    return expression.xreplace(integrals)
 
 
 def solution_in_x(equation: Equation, y: Any) -> Any:

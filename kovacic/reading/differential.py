@@ -221,7 +221,9 @@ class EquationReader(RationalReader):
     def _differentiated(self, arguments: list[Any]) -> Any:
         """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
         function, *by = arguments
-        order = self._differentiations(by) if by else 1
+        order = 1
+        if by:
+            order = self._differentiations(by)
         if isinstance(function, tuple) or order > _LARGEST_ORDER:
             raise NotLinear("this isn't a derivative that can be read")
         for _ in range(order):
@@ -247,7 +249,9 @@ class EquationReader(RationalReader):
         return order
 
     def _order(self, value: Any) -> int:
-        number = self.arithmetic.number(value) if is_rational(value) else None
+        number = None
+        if is_rational(value):
+            number = self.arithmetic.number(value)
         if number is None or number.denominator != 1 or number < 0:
             raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
         return number.numerator

@@ -87,24 +87,34 @@ class LinearArithmetic(Arithmetic):
 
     def _checked(self, value: Any) -> Any:
         """A result of SymPy, a number in our own form."""
-        return self.constant(Fraction(int(value.p), int(value.q))) if value.is_Rational else value
+        if value.is_Rational:
+            return self.constant(Fraction(int(value.p), int(value.q)))
+        return value
 
     def negate(self, value: Any) -> Any:
         if isinstance(value, LinearForm):
             return LinearForm({k: self.negate(c) for k, c in value.parts.items()})
-        return super().negate(value) if is_rational(value) else -value
+        if is_rational(value):
+            return super().negate(value)
+        return -value
 
     def sum(self, terms: Sequence[Any]) -> Any:
         if any(isinstance(term, LinearForm) for term in terms):
             return self._sum_of_forms(terms)
-        rational = [term for term in terms if is_rational(term)]
-        if len(rational) == len(terms):
+        rational = []
+        others = []
+        for term in terms:
+            if is_rational(term):
+                rational.append(term)
+            else:
+                others.append(term)
+        if not others:
             return super().sum(rational)
         from sympy import Add
 
-        others = [term for term in terms if not is_rational(term)]
-        known = [self.expression(super().sum(rational))] if rational else []
-        return self._checked(Add(*others, *known))  # at once: one by one, a sum of n terms is taken apart n times
+        if rational:
+            others.append(self.expression(super().sum(rational)))
+        return self._checked(Add(*others))  # at once: one by one, a sum of n terms is taken apart n times
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
         """The sum, some terms of which have no unknown function."""
@@ -131,8 +141,14 @@ class LinearArithmetic(Arithmetic):
 
     def _multiple(self, form: LinearForm, factor: Any) -> LinearForm:
         """A form times what has no unknown function."""
-        factor = self.closed(factor) if is_rational(factor) else self.coefficient(factor)  # type: ignore[misc]
-        return LinearForm({k: self.multiply(c, factor) for k, c in form.parts.items()})
+        coefficient = self._coefficient_of(factor)
+        return LinearForm({k: self.multiply(c, coefficient) for k, c in form.parts.items()})
+
+    def _coefficient_of(self, factor: Any) -> Any:
+        """What has no unknown function, as a factor of it."""
+        if is_rational(factor):
+            return self.closed(factor)
+        return self.coefficient(factor)  # type: ignore[misc]
 
     def divide(self, left: Any, right: Any) -> Any:
         if isinstance(right, LinearForm):
@@ -148,7 +164,7 @@ class LinearArithmetic(Arithmetic):
         return self._checked(self.expression(left) / denominator)
 
     def power(self, base: Any, exponent: Any) -> Any:
-        n = exponent if isinstance(exponent, int) else self._integer_value(exponent)
+        n = self._integer_of(exponent)
         if is_rational(base):
             return super().power(base, n)
         if not isinstance(base, LinearForm):
@@ -175,9 +191,10 @@ class LinearArithmetic(Arithmetic):
         """Refuses numbers as exponents, and as factors of logarithms in exponents, that are too large."""
         from sympy import Rational, log
 
+        if not (exponent.is_Rational or exponent.has(log)):
+            return
         largest = min(self.limits.exponent, _LARGEST_EXPONENT)
-        numbers = exponent.atoms(Rational) if exponent.is_Rational or exponent.has(log) else ()
-        if any(abs(number) > largest for number in numbers):
+        if any(abs(number) > largest for number in exponent.atoms(Rational)):
             raise LimitExceeded(f"an exponent above the limit of {largest}", limit="exponent")
 
     def applied(self, head: str, argument: Any) -> Any:

@@ -58,7 +58,9 @@ class _TextReader(SymbolicReader):
         self.function = sympy.Function(unknown)(self.x)
 
     def name(self, name: str) -> Any:
-        return self.function if name == self.unknown else super().name(name)
+        if name == self.unknown:
+            return self.function
+        return super().name(name)
 
     def derivative(self, text: str) -> Any:
         order = len(text) - len(self.unknown)
@@ -77,7 +79,9 @@ class _TextReader(SymbolicReader):
             return self._differentiated(arguments, site)
         if head.rstrip(PRIMES) != self.unknown or arguments != [self.x]:
             return super().call(head, arguments, site)
-        return self.function if head == self.unknown else self.derivative(head)
+        if head == self.unknown:
+            return self.function
+        return self.derivative(head)
 
     def _differentiated(self, arguments: list[Any], site: Site) -> Any:
         """diff(y, x), diff(y, x, 2): what is differentiated may be any expression."""
@@ -90,9 +94,10 @@ class _TextReader(SymbolicReader):
         """1 or 2, where the arguments are an expression, x, and maybe the order; else None."""
         if any(isinstance(argument, tuple) for argument in arguments):
             return None
-        _, *rest = (self.arithmetic.expression(argument) for argument in arguments)
-        if rest == [self.x]:
+        _, *by = (self.arithmetic.expression(argument) for argument in arguments)
+        if by == [self.x]:
             return 1
-        if len(rest) != 2 or rest[0] != self.x or rest[1] not in range(1, _HIGHEST + 1):
-            return None
-        return int(rest[1])
+        for order in range(1, _HIGHEST + 1):
+            if by == [self.x, order]:
+                return order
+        return None
