@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from random import Random
 from typing import Any
 
@@ -12,7 +12,7 @@ import pytest
 import sympy
 from build import parametrize
 from scipy.integrate import solve_ivp
-from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin
+from sympy import E, Rational, Symbol, cbrt, cos, exp, log, oo, pi, sec, sin, sqrt, tan
 
 import kovacic
 from kovacic import dsolve
@@ -226,6 +226,36 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
 def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
         dsolve(text, ics=values)
+
+
+#: Equations with a pole of the coefficients, or of a right-hand side that isn't rational, at a point.
+POLES: list[Callable[[Any], Any]] = [
+    lambda p: (x - p) ** 2 * D2 - 6 * D0,
+    lambda p: (x - p) ** 2 * D2 + (x - p) * D1 - D0,
+    lambda p: (x - p) * D2 + 2 * D1 - (x - p) * D0,
+    lambda p: D2 - 1 / (x - p) ** 3,
+    lambda p: D2 - exp(x) / (x - p) ** 3,
+    lambda p: D2 - sec(x - p + pi / 2) ** 2 * tan(x - p + pi / 2),
+    lambda p: D2 - cos(x - p) / sin(x - p) ** 3,
+]
+
+
+@parametrize(("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=4)
+def test_values_on_two_sides_of_a_pole(equation: Callable[[Any], Any], p: Any) -> None:
+    """The pole was found where coefficients were rational, or a logarithm changed its sign."""
+    with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
+        dsolve(equation(p), ics={y(p - 1): 0, y(p + 1): 1})
+    assert dsolve(equation(p), ics={y(p + 1): 0, y(p + 2): 1}).lhs == D0
+
+
+@parametrize("right", [log(x) / (x - 1), (sqrt(x) + 3) / (x - 9), 1 / (sqrt(x) - 3)], ordinary=2)
+def test_poles_of_another_right_hand_side(right: Any) -> None:
+    """log(x)/(x - 1) has none at 1; 1/(sqrt(x) - 3) is infinite at 9."""
+    if right.subs(x, 1) is sympy.nan:
+        assert dsolve(D2 - right, ics={y(sympy.S.Half): 0, y(2): 0}).lhs == D0
+        return
+    with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
+        dsolve(D2 - right, ics={y(4): 0, y(16): 0})
 
 
 # ---------------------------------------------------------------------------------------------------------------- limits

@@ -6,27 +6,19 @@ the other.  At a singular point and at infinity, a condition is one on a limit, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import sympy
 
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms
-from kovacic.equation import Equation
 from kovacic.errors import InputError
-from kovacic.general_solution.behaviour import Approach, behaviour
-from kovacic.general_solution.expansion import UnknownBehaviour
+from kovacic.general_solution.behaviour import Approach
+from kovacic.general_solution.poles import is_singular, poles_between, rational_poles
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import negative_arguments, real_basis, real_particular
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.variation import Basis, starting_at
-from kovacic.general_solution.zero import is_zero
-from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
@@ -46,42 +38,6 @@ _ENTIRE = (
 )
 
 
-def _logarithms(value: Expr) -> list[Expr]:
-    if value == 0:
-        return []
-    return [sympy.log(value)]
-
-
-@dataclass(frozen=True)
-class _Inverse:
-    """The x with f(x) = value, up to a period if there is one."""
-
-    values: Callable[[Expr], list[Expr]]
-    period: Expr | None = None
-
-    def real_step(self, slope: Expr) -> Expr | None:
-        """How far apart the x with one value of f(slope x + c) are; None where that isn't real."""
-        if self.period is None:
-            return None
-        step = self.period / slope
-        if not step.is_real:
-            return None
-        return abs(step)
-
-
-#: Those of the functions f that are variables of equations.
-_INVERSES: dict[Any, _Inverse] = {
-    sympy.exp: _Inverse(_logarithms, 2 * sympy.pi * sympy.I),
-    sympy.cosh: _Inverse(lambda value: [sympy.acosh(value), -sympy.acosh(value)]),
-    sympy.sinh: _Inverse(lambda value: [sympy.asinh(value)]),
-    sympy.cos: _Inverse(lambda value: [sympy.acos(value), -sympy.acos(value)], 2 * sympy.pi),
-    sympy.sin: _Inverse(lambda value: [sympy.asin(value), sympy.pi - sympy.asin(value)], 2 * sympy.pi),
-    sympy.tan: _Inverse(lambda value: [sympy.atan(value)], sympy.pi),
-}
-#: The most singular points of an interval that are looked at.
-_MOST_POINTS = 200
-
-
 def given_points(question: Question) -> list[Expr]:
     """The points of the conditions, each once, in the order in which they are given."""
     return [*dict.fromkeys(point for condition in question.conditions for point in condition.points)]
@@ -94,34 +50,6 @@ def jump_points(question: Question) -> list[Expr]:
         return []
     places = [place_of(jump, question.x) for jump in sorted(h.atoms(sympy.Heaviside, sympy.DiracDelta), key=str)]
     return [*dict.fromkeys(place.a for place in places if place is not None)]
-
-
-def is_singular(question: Question, point: Expr) -> bool:
-    """Is a finite point a pole of b/a, c/a or f/a, or one where the rest of the right-hand side has no value?"""
-    if any(_is_root(question, den, point) for den in _denominators(question.equation)):
-        return True
-    h = question.equation.h
-    if h is None:
-        return False
-    smooth = h.xreplace(dict.fromkeys(h.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
-    return finite_value(smooth, question.x, point) is None
-
-
-def _denominators(equation: Equation) -> list[Poly]:
-    """Those of b/a, c/a and f/a that aren't constant."""
-    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
-    return [quotient.den for quotient in quotients if quotient.den.degree > 0]
-
-
-def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
-    """Is a polynomial in the variable of the equation zero, or without a value, at a point in the user's variable?"""
-    equation = question.equation
-    atoms = Atoms(sympy.Symbol(equation.variable))
-    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
-    if at.is_Rational and polynomial.field == QQ:
-        return not polynomial(Fraction(int(at.p), int(at.q)))
-    value = question.own(atoms.poly(polynomial)).subs(atoms.x, at)
-    return value.is_finite is False or is_zero(value)
 
 
 def limit_points(question: Question) -> dict[Expr, Approach]:
@@ -165,7 +93,7 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     ordinary = [point for point in given_points(question) if point not in limits]
     if ordinary:
         return ordinary[0]
-    poles = [*_rational_poles(question)]
+    poles = [*rational_poles(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:
         return _beyond(next(iter(limits.values())), poles)
@@ -202,15 +130,8 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
         return
     first = sympy.Min(*points)
     last = sympy.Max(*points)
-    for pole in _poles_between(question, first, last):
+    for pole in poles_between(question, first, last):
         raise _apart(pole, points)
-
-
-def _poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The singular points without parameters between two points."""
-    for pole in [*_rational_poles(question), *_changed_poles(question, first, last)]:
-        if pole.is_number and first < pole < last:
-            yield pole
 
 
 def _is_real_number(point: Expr) -> bool:
@@ -233,103 +154,6 @@ def _keeps_entire(e: Expr, x: Expr) -> bool:
         return bool(e.exp.is_Integer and e.exp > 0)
     is_sum_or_product = e.is_Add or e.is_Mul
     return e == x or is_sum_or_product or isinstance(e, _ENTIRE)
-
-
-def _rational_poles(question: Question) -> Iterator[Expr]:
-    """The real singular points of an equation with rational coefficients over Q."""
-    equation = question.equation
-    if equation.change is not None:
-        return
-    for den in _denominators(equation):
-        if den.field == QQ:
-            yield from sympy.real_roots(Atoms(question.x).poly(den), multiple=True)
-
-
-def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
-    """Singular points between two points, of an equation in t = f(k x + c)."""
-    equation = question.equation
-    if equation.change is None:
-        return
-    if is_power(equation):
-        yield from _poles_of_a_power(question)
-        return
-    if not is_of_a_line(equation):
-        raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
-    value = function_of_x(equation)
-    rates = _rates_in_x(question, value)
-    for root in _poles_in_t(equation):
-        candidates = _preimages(value, root, question.x, first, last)
-        yield from (x0 for x0 in candidates if not _is_analytic(rates, question.x, x0))
-
-
-def _poles_in_t(equation: Equation) -> list[Expr]:
-    """Those without parameters of b/a, c/a and f/a in the variable of the equation."""
-    t = sympy.Symbol(equation.variable)
-    found: set[Expr] = set()
-    for polynomial in _denominators(equation):
-        den = Atoms(t).poly(polynomial)
-        if den.free_symbols == {t}:
-            found.update(sympy.roots(den, t))
-    return sorted(found, key=str)
-
-
-def _poles_of_a_power(question: Question) -> Iterator[Expr]:
-    """Singular points for t = x^k: 0, and the positive ones."""
-    equation = question.equation
-    t = sympy.Symbol(equation.variable)
-    yield sympy.Integer(0)
-    for part in (equation.b, equation.c):
-        den = question.own(Atoms(t).poly((part / equation.a).den))
-        others = [root for root in sympy.roots(den, t) if root != 0]
-        for root in others:
-            if root.is_positive is not False:
-                yield root ** (1 / function_of_x(equation).exp)
-
-
-def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The x between two points with f(k x + c) = root; for a function with a period that isn't real, of each kind one."""
-    inverse = _INVERSES[value.func]
-    inner = value.args[0]
-    slope = inner.diff(x)
-    step = inverse.real_step(slope)
-    for base in inverse.values(root):
-        x0 = sympy.expand((base - inner.subs(x, 0)) / slope)
-        if not _is_nearly_real(x0):
-            continue
-        if step is None:
-            yield x0
-        else:
-            yield from _repeated(x0, step, first, last)
-
-
-def _is_nearly_real(point: Expr) -> bool:
-    """Is it a number, real up to what may be rounded?"""
-    return bool(point.is_number and abs(sympy.im(point).evalf(30)) <= 1e-20)
-
-
-def _repeated(x0: Expr, step: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The x0 + m step between two points, the first ones of them where there are many."""
-    low = int(sympy.ceiling((first - x0) / step))
-    high = int(sympy.floor((last - x0) / step))
-    for m in range(low, min(high, low + _MOST_POINTS) + 1):
-        yield x0 + m * step
-
-
-def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
-    """The coefficients of y'' + B y' + C y = F in x: B = t' b/a - t''/t', C = t'^2 c/a, F = t'^2 f/a."""
-    equation = question.equation
-    t = sympy.Symbol(equation.variable)
-    b, c, f = (Atoms(t).ratio(part / equation.a).subs(t, value) for part in (equation.b, equation.c, equation.f))
-    slope = value.diff(question.x)
-    return [b * slope - slope.diff(question.x) / slope, c * slope**2, f * slope**2]
-
-
-def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
-    """Have the coefficients limits at the point?"""
-    try:
-        return all(not behaviour(rate, x, Approach(point)).parts.large for rate in rates)
-    except (UnknownBehaviour, NotImplementedError):
-        return False
 
 
 def real_basis_at(question: Question, basis: Basis, solution: Solution, start: Expr) -> Basis:
