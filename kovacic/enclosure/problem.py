@@ -45,7 +45,8 @@ class Coefficients:
 
     def given(self, values: Mapping[str, object] | None) -> Coefficients:
         """With the values of the parameters; raises InputError unless each has one."""
-        names = {symbol.name for part in self.parts for symbol in part.free_symbols} - {self.variable.name}
+        symbols = set().union(*(part.free_symbols for part in self.parts))
+        names = {symbol.name for symbol in symbols} - {self.variable.name}
         found = values_of_parameters(tuple(sorted(names)), values or {})
         return replace(self, values=tuple(sorted(found.items())))
 
@@ -260,10 +261,13 @@ class _Functions:
 
     def at(self, values: dict[str, Fraction]) -> _Functions:
         """The same at values of the parameters."""
-        S = _specialised(self.S, values)
-        gauge = None if self.gauge is None else _specialised(self.gauge, values)
-        right = None if self.right is None else _right_at(self.right, values)
-        return _Functions(S, gauge, right)
+        gauge = self.gauge
+        if gauge is not None:
+            gauge = _specialised(gauge, values)
+        right = self.right
+        if right is not None:
+            right = _right_at(right, values)
+        return _Functions(_specialised(self.S, values), gauge, right)
 
 
 def _read(equation: object) -> Answer | Parsed:

@@ -26,6 +26,7 @@ from kovacic.limits import Budget, Limits, limits_of
 _LOG = logging.getLogger(__name__)
 
 Path = Sequence[object] | Literal["chain", "above", "below"] | None
+_NAMED_PATHS = ("chain", "above", "below")
 _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
 
 
@@ -128,26 +129,37 @@ def journey_of(
     path: Path,
 ) -> Journey:
     """What doesn't depend on the targets; kept, so that a call for one more point begins where the last one did."""
-    if isinstance(path, str) and path not in ("chain", "above", "below"):
-        raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
-    polygon = () if path is None or isinstance(path, str) else path
-    vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
+    vertices = _vertices_of(path)
     start = read_start(problem, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
     side = path if path in ("above", "below") else None
     return Journey(problem, start, vertices, chain=path == "chain", side=side)
 
 
+def _vertices_of(path: Path) -> tuple[Number, ...]:
+    """Those of a polygon; a path that has a name has none."""
+    if path is None:
+        return ()
+    if not isinstance(path, str):
+        return tuple(as_number(vertex, "a vertex of the path") for vertex in path)
+    if path not in _NAMED_PATHS:
+        raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
+    return ()
+
+
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
     """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
-    constants = problem.embedded
-    unclear = [number for number in numbers if constants is not None or not isinstance(number, ExactPoint)]
-    if not unclear:
-        return
     with working_precision(256):
-        singular = [to_acb(z) for z in problem.singular_points(256)] if constants is None else []
-        for number in unclear:
-            ball = to_ball(number)
-            near = any(abs(ball - z).lower() < _APART for z in singular)
-            if near or (constants is not None and not constants.bound(ball).is_finite()):
+        for number in numbers:
+            if _may_be_singular(problem, number):
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
+
+
+def _may_be_singular(problem: NumericProblem, number: Number) -> bool:
+    """Can't it be told from a singular point?  False for a rational point, unless the constants are known by balls."""
+    if problem.embedded is not None:
+        return not problem.embedded.bound(to_ball(number)).is_finite()
+    if isinstance(number, ExactPoint):
+        return False
+    ball = to_ball(number)
+    return any(abs(ball - to_acb(z)).lower() < _APART for z in problem.singular_points(256))
