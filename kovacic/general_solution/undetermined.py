@@ -141,17 +141,23 @@ def _is_natural(exponent: Expr) -> bool:
 
 
 def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
-    """A product of a constant, powers of x, exponentials and one wave."""
+    """A product of a constant, powers of x, exponentials and one wave; None for another one."""
     constant, rest = summand.as_independent(x, as_Add=False)
     factors = sympy.Mul.make_args(rest)
     waves = [factor for factor in factors if factor.func in (sin, cos)]
     if len(waves) > 1:
         return None
+    term = _without_waves(constant, [factor for factor in factors if factor not in waves], x)
+    if term is None or not waves:
+        return term
+    return _beside_wave(term, waves[0], x)
+
+
+def _without_waves(constant: Expr, factors: Sequence[Expr], x: Expr) -> _ForcingTerm | None:
+    """A constant times powers of x and exponentials c^(k x + d); None where there is another factor."""
     degree = 0
     rho = sympy.Integer(0)
     for factor in factors:
-        if factor in waves:
-            continue
         base, exponent = factor.as_base_exp()
         if base == x and _is_degree(exponent):
             degree += int(exponent)
@@ -161,8 +167,6 @@ def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
             return None
         constant *= base**line.constant
         rho += line.slope * sympy.log(base)
-    if waves:
-        return _beside_wave(degree, rho, constant, waves[0], x)
     nothing = sympy.Integer(0)
     return _ForcingTerm(degree, Rate(rho, nothing), RealAndImaginary(constant, nothing))
 
@@ -171,21 +175,23 @@ def _is_degree(exponent: Expr) -> bool:
     return bool(exponent.is_Integer and 0 <= exponent <= _LARGEST)
 
 
-def _beside_wave(degree: int, rho: Expr, constant: Expr, wave: Expr, x: Expr) -> _ForcingTerm | None:
-    """constant x^degree exp(rho x) times cos(phase + omega x), or sin, as the real part of a term with a frequency."""
+def _beside_wave(term: _ForcingTerm, wave: Expr, x: Expr) -> _ForcingTerm | None:
+    """A term without a frequency, times cos(phase + omega x), or sin, as the real part of a term with one."""
     line = _line(wave.args[0], x)
     if line is None:
         return None
     phase = line.constant
     omega = line.slope
+    constant = term.coefficient.u
     real = constant * cos(phase)
     imaginary = constant * sin(phase)
     if wave.func is sin:  # the same, an angle of pi/2 before
         real = constant * sin(phase)
         imaginary = -constant * cos(phase)
+    rho = term.rate.rho
     if omega.could_extract_minus_sign():
-        return _ForcingTerm(degree, Rate(rho, -omega), RealAndImaginary(real, -imaginary))
-    return _ForcingTerm(degree, Rate(rho, omega), RealAndImaginary(real, imaginary))
+        return _ForcingTerm(term.degree, Rate(rho, -omega), RealAndImaginary(real, -imaginary))
+    return _ForcingTerm(term.degree, Rate(rho, omega), RealAndImaginary(real, imaginary))
 
 
 class _Line(NamedTuple):
