@@ -53,19 +53,24 @@ def without_removable(e: Any, x: Any) -> Any:
     numerator, denominator = sympy.fraction(sympy.together(plain))
     over: list[tuple[Any, int]] = []
     under: list[tuple[Any, int]] = []
+    powers = []
     for zero in _zeros(numerator, x) | _zeros(denominator, x):
-        k, m = (_order(part, x, zero) for part in (numerator, denominator))
+        k = _order(numerator, x, zero)
+        m = _order(denominator, x, zero)
         if k > 0 and m > 0:
             over.append((zero, k))
             under.append((zero, m))
+            powers.append((x - zero) ** (k - m))
     if not over:
         return e
-    powers = [(x - zero) ** (k - m) for (zero, k), (_, m) in zip(over, under, strict=True)]
     return sympy.Mul(*powers, _divided(numerator, x, over), 1 / _divided(denominator, x, under))
 
 
 def _divided(function: Any, x: Any, zeros: list[tuple[Any, int]]) -> Any:
-    return Divided(function, x, *(part for zero, k in zeros for part in (zero, sympy.Integer(k))))
+    pairs: list[Any] = []
+    for zero, k in zeros:
+        pairs += [zero, sympy.Integer(k)]
+    return Divided(function, x, *pairs)
 
 
 def _zeros(product: Any, x: Any) -> set[Any]:
@@ -108,7 +113,12 @@ class CoefficientEvaluator(BallEvaluator):
 
     def _near(self, function: Any, symbol: Any, x: Any, zero: acb, k: int) -> Any:
         """The function over (x - zero)^k, by its series there."""
-        centre, scale = (x[0] - zero, x[1]) if isinstance(x, acb_series) else (x - zero, acb(0))
+        if isinstance(x, acb_series):
+            centre = x[0] - zero
+            scale = x[1]
+        else:
+            centre = x - zero
+            scale = acb(0)
         reach = (abs(centre) + 2 * abs(scale)).upper()
         if reach.is_zero():
             reach = arb(_NEAR)

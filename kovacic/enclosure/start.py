@@ -33,6 +33,7 @@ from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numerals import plain_text
 
+_LARGEST_STEP = 1 << 200  # to the right of the zeros and poles of S, in search of a start for the decaying solution
 _STARTS = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"
 _SHELL_STARTS = "--y0 and --dy0, or --frobenius C1,C2, or --regular"
 
@@ -173,6 +174,19 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
     more slowly than 1/x^2.
     """
+    _check_decaying(system)
+    beyond = max(math.ceil(_rightmost(system)) + 1, math.ceil(x0.re))
+    far = ExactPoint(_with_growth(system, beyond, (prec + 20) * math.log(2) / 2))
+    matrix = product(piece_matrices(system, far, x0, prec + 20))
+    m = matrix[0]
+    n = -matrix[1]
+    dn = -matrix[3]
+    s = acb(arb(0.5, 0.5))  # all that is known of it: 0 < s < 1
+    return dn / n + s / (n * (n + s * (m - n)))
+
+
+def _check_decaying(system: System) -> None:
+    """Raises InputError unless S is positive for large x and x^2 S unbounded."""
     is_positive = bool(system.num) and system.num[-1] * system.den[-1] > 0
     if not is_positive or len(system.num) - len(system.den) < -1:
         raise InputError(
@@ -180,24 +194,27 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
             hint="for a regular singular point at infinity: x0='oo', which='regular'",
             shell="for a regular singular point at infinity: --x0 oo --regular",
         )
-    roots = [root.real for which in ("num", "den") for root, _ in system.roots(which, 64)]
-    rightmost = max((float(root.upper()) for root in roots), default=0.0)
+
+
+def _rightmost(system: System) -> float:
+    """What no zero or pole of S is to the right of."""
+    zeros = [*system.roots("num", 64), *system.roots("den", 64)]
+    rightmost = max((float(root.real.upper()) for root, _ in zeros), default=0.0)
     if math.isinf(rightmost):
         raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
-    first = max(math.ceil(rightmost) + 1, math.ceil(x0.re))
+    return rightmost
+
+
+def _with_growth(system: System, first: int, growth: float) -> int:
+    """The first one of first + 2, first + 4, first + 8, ... to which int S^(1/2) from `first` is so large, about."""
+    num = acb_poly(list(system.num))
+    den = acb_poly(list(system.den))
     step = 1
-    growth = arb(0)
-    bits = (prec + 20) * math.log(2) / 2
-    num, den = (acb_poly(list(part)) for part in (system.num, system.den))
-    while growth < bits:  # about int S^(1/2) from `first` to `first + step`
+    found = arb(0)
+    while found < growth:
         x = acb(first + step)
         step = 2 * step
-        growth += (num(x) / den(x)).real.sqrt() * step / 2
-        if step > 1 << 200:
+        found += (num(x) / den(x)).real.sqrt() * step / 2
+        if step > _LARGEST_STEP:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
-    matrix = product(piece_matrices(system, ExactPoint(first + step), x0, prec + 20))
-    m = matrix[0]
-    n = -matrix[1]
-    dn = -matrix[3]
-    s = acb(arb(0.5, 0.5))  # all that is known of it: 0 < s < 1
-    return dn / n + s / (n * (n + s * (m - n)))
+    return first + step
