@@ -364,3 +364,24 @@ def test_beside_a_pole_growth_that_no_step_lessens_is_foreseen(b: int) -> None:
     """S = b/x^2: over half a step from 0 a solution grows as much as over a whole one, and halving never ends."""
     value = evaluate(f"{b}*(x + 1)/x^2", "1/1000", x0=0, which="regular", digits=15)
     assert value.digits >= 15
+
+
+@pytest.mark.parametrize("digits", [15, 50])
+@pytest.mark.parametrize(
+    ("equation", "x0", "x"),
+    [("x^2 + 7", 20, "141/7"), ("x^2 + 1/3", 20, 21), ("x^4 - 5/2*x", 10, "71/7"), ("1/4 - 2/x + 7/(3*x^2)", 800, 801)],
+)
+@pytest.mark.parametrize("start", [{"y0": 1, "dy0": -1}, {"y0": 1, "which": "decaying"}])
+def test_functions_that_are_nearly_dependent_at_the_start(
+    equation: str, x0: int, x: Any, start: dict[str, Any], digits: int
+) -> None:
+    """Both of FLINT's functions grow to there: that their digits are lost is foreseen, for the choice and for the precision."""
+    given: dict[str, Any] = {"x0": x0, "digits": digits, **start}
+    default = evaluate(equation, x, **given)
+    functions = evaluate(equation, x, method="closed form", **given)
+    assert default.route is not None
+    assert functions.route is not None
+    assert default.route.method == "taylor"
+    assert functions.route.runs <= 2
+    assert default.overlaps(functions)
+    assert functions.digits >= digits

@@ -86,9 +86,22 @@ class Classical:
         """What the functions cost."""
         return self.pullback.equation.cost
 
-    def price(self, digits: int) -> float:
+    def price(self, digits: float) -> float:
         """That of a target."""
         return self.cost.target(digits)
+
+    def lost_digits(self, start: ExactPoint) -> float:
+        """About: by Y(b) Y(a)^-1 for b beside a, where both solutions are of the size g and their Wronskian isn't.
+
+        The determinant loses the digits of g^2, and the product of the matrices as many.
+        """
+        try:
+            with working_precision(_BITS):
+                y1, y2, dy1, dy2 = _start(self, start, False).at(start)
+                squares = [float(abs(y * dy).mid().log()) for y, dy in ((y1, dy2), (y2, dy1)) if abs(y * dy).mid() > 0]
+        except NotServed:
+            return 0.0
+        return max(0.0, 2 * max(squares, default=0.0) / math.log(10))
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""

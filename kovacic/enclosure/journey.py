@@ -44,12 +44,14 @@ _KEPT = 4  # precisions at which the beginning of a journey is kept for the next
 
 @dataclass
 class ChosenForm:
-    """A closed form that was chosen for a journey, and for how many targets at `most` it is known to be the cheaper way.
+    """A closed form that was chosen for a journey, for which a target has this `price`, and for how many targets at `most` it
+    is known to be the cheaper way.
 
     It has `served` so many, the last ones with so many `bits`.
     """
 
     closed: Closed
+    price: float = 0.0
     most: float = math.inf
     served: int = 0
     bits: int = 0

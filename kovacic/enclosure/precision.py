@@ -74,7 +74,7 @@ class PointValue:
         return finite_ball(self.state[1], self.route)
 
 
-def start_bits(digits: int) -> int:
+def start_bits(digits: float) -> int:
     """The working precision of the first run."""
     return int(digits * _BITS_PER_DIGIT) + 24
 

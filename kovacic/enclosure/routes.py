@@ -57,7 +57,7 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     if known is None:
         known = _chosen(journey, targets, method, digits)
     elif not known.pays(count):
-        known.most = Foreseen(journey, targets, digits, known.served).most(known.closed.price(digits))
+        known.most = Foreseen(journey, targets, digits, known.served).most(known.price)
     if known is None or not known.pays(count):
         journey.choices.pop((method, digits), None)
         return None
@@ -69,7 +69,7 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
 def _chosen(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ChosenForm | None:
     """The choice for the first targets of a journey."""
     if method is not None:
-        return ChosenForm(_asked_for(journey))
+        return _asked_for(journey, digits)
     problem = journey.problem
     if problem.right is not None or problem.S is None:
         return None
@@ -77,26 +77,29 @@ def _chosen(journey: Journey, targets: Sequence[Number], method: Method | None, 
     if not isinstance(journey.start.place, Singular):
         closed = _case_1(problem, foreseen)
         if closed is not None and closed.is_cheap(digits):
-            choice = foreseen.choice(closed)
+            choice = foreseen.choice(closed, closed.price(digits))
             if choice.pays(len(targets)):
                 return choice
     return _functions(journey, foreseen)
 
 
-def _asked_for(journey: Journey) -> Closed:
+def _asked_for(journey: Journey, digits: int) -> ChosenForm:
     """The closed form, whatever it costs."""
     problem = journey.problem
     if problem.right is not None:
         raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
     known = None if problem.S is None else decided(problem, DEFAULT_LIMITS.unknown_degree)
-    if known is not None and not isinstance(journey.start.place, Singular):
+    start = journey.start.place
+    if known is not None and not isinstance(start, Singular):
         closed = closed_form_of(known)
         if closed is not None and closed.is_elementary:
-            return closed
+            return ChosenForm(closed)
     classical = journey.classical(None)
     if classical is None:
         raise InputError(NO_CLOSED_FORM, hint=TAYLOR)
-    return classical
+    if isinstance(start, Singular):
+        return ChosenForm(classical)
+    return ChosenForm(classical, bits=start_bits(digits + classical.lost_digits(middle(start))))
 
 
 def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
@@ -114,14 +117,20 @@ def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
 
 def _functions(journey: Journey, foreseen: Foreseen) -> ChosenForm | None:
     """FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on they always pay."""
-    from_zero = isinstance(journey.start.place, Singular)
+    start = journey.start.place
+    from_zero = isinstance(start, Singular)
     if not (from_zero or foreseen.reaches(_WORTH)):
         return None
     share = 1.0 if from_zero else _SEARCH
     classical = journey.classical(int(share * foreseen.price(_MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
-    return ChosenForm(classical) if from_zero else foreseen.choice(classical)
+    if isinstance(start, Singular):
+        return ChosenForm(classical)
+    digits = foreseen.digits + classical.lost_digits(middle(start))
+    choice = foreseen.choice(classical, classical.price(digits))
+    choice.bits = start_bits(digits)
+    return choice
 
 
 class Foreseen:
@@ -150,11 +159,10 @@ class Foreseen:
             self._price += each
         return True
 
-    def choice(self, closed: Closed) -> ChosenForm:
-        """A closed form; for how many targets it pays is known as far as it is asked."""
-        price = closed.price(self.digits)
+    def choice(self, closed: Closed, price: float) -> ChosenForm:
+        """A closed form; for how many targets of this price it pays is known as far as it is asked."""
         self.reaches(prices.FIRST + self._count * price)
-        return ChosenForm(closed, self._limit(price))
+        return ChosenForm(closed, price, self._limit(price))
 
     def most(self, price: float) -> float:
         """For how many targets it pays, known for twice as many as there are: so that this is seldom asked."""
