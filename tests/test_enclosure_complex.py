@@ -192,3 +192,33 @@ def test_constants_beside_functions_of_x() -> None:
     with mpmath.workdps(20):
         own = mpmath.odefun(lambda t, s: [s[1], 1 - 1j * mpmath.cos(t) * s[0]], 0, [mpmath.mpc(1), mpmath.mpc(0)])(1)[0]
         assert abs(wave.to_mpmath() - own) < 1e-15
+
+
+#: Real solutions, and real b and c: what is real between real points isn't on a way that begins beside the axis.
+REAL_SOLUTIONS = ["exp(x)", "sin(x) + x", "x^2 + 1/(x + 5)", "x*log(x)", "sqrt(x + 1)"]
+REAL_COEFFICIENTS = [("-8/5/x^2", "(7/3 + 2/5*x)/x^2"), ("0", "1/x"), ("0", "-4"), ("3/x", "x"), ("exp(-x)", "sin(x)")]
+
+
+@parametrize("solution", REAL_SOLUTIONS, ordinary=3)
+@parametrize("coefficients", REAL_COEFFICIENTS, ordinary=3)
+def test_real_right_hand_sides_on_ways_beside_the_axis(coefficients: tuple[str, str], solution: str) -> None:
+    """Junctions of discs are rounded, and may lie on the axis; with its centre beside it, or 1/g complex, a disc isn't real."""
+    b, c = coefficients
+    y, B, C = (sympified(text) for text in (solution, b, c))
+    f = str(sympy.diff(y, X, 2) + B * sympy.diff(y, X) + C * y).replace("**", "^")
+    ways: list[tuple[str, list[str], Any]] = [
+        ("37/10 - 1/10*I", ["3/2", "3", "1/2", "3/2 + 1/10*I"], None),
+        ("6/10 + 1/10*I", ["37/10", "9/10"], "chain"),
+        ("1 + 1/1000*I", ["4 + 1/1000*I", "4"], None),
+        ("2", ["1/2", "5"], ["3 + 1/2*I", "3"]),
+    ]
+    for x0, points, path in ways:
+        start = sympified(x0)
+        y0, dy0 = (part.subs(X, start) for part in (y, sympy.diff(y, X)))
+        found = evaluate(f"y'' + ({b})*y' + ({c})*y = {f}", points, x0=x0, y0=y0, dy0=dy0, digits=20, path=path)
+        for point, value in zip(points, found, strict=True):
+            exact = sympy.N(y.subs(X, sympified(point)), 40)
+            assert value.digits >= 20
+            with mpmath.workdps(40):
+                distance = abs(value.to_mpmath() - mpmath.mpmathify(exact))
+            assert distance <= value.radius, (x0, point)

@@ -38,17 +38,13 @@ _LEAST = fmpq(1, 2**40)  # the part of a way that is looked at for a singularity
 
 @dataclass(frozen=True)
 class Forcing:
-    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a.
-
-    `real` says that these and the equation are.
-    """
+    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a."""
 
     rational: RatFunc
     function: Any
     over: RatFunc
     symbol: str
     embedded: Embedded | None
-    real: bool
 
     def value(self, x: acb, analytic: bool = False) -> acb:
         """f/a + h/a on a ball; not finite where h isn't analytic, with `analytic`."""
@@ -116,15 +112,18 @@ class Forcing:
             polys.append(poly)
         start = to_acb(leg.disc.enter)
         stop = to_acb(leg.disc.leave)
-        real = self.real and start.imag.is_zero() and stop.imag.is_zero()
 
         def source(x: acb, analytic: bool) -> acb:
             return self.value(x, analytic) * growth(x, analytic)
 
         step = (stop - start) / _PIECES
         half = arb(0, 0.5)
-        pieces = (start + step * acb(arb(2 * k + 1) / 2 + half) for k in range(_PIECES))
-        size = sum((abs(source(x, False)) for x in pieces), arb(0)) * abs(step)
+        sources = [source(start + step * acb(arb(2 * k + 1) / 2 + half), False) for k in range(_PIECES)]
+        size = sum((abs(value) for value in sources), arb(0)) * abs(step)
+        # A real equation on a real way isn't enough: the centre may lie beside it, and g may have begun elsewhere.
+        on_axis = start.imag.is_zero() and stop.imag.is_zero()
+        real_solutions = all(im is None for _, im in expansion.columns)
+        real = on_axis and real_solutions and all(value.imag.is_zero() for value in sources)
         found = []
         for poly, defect in zip(polys, expansion.defect, strict=True):
 
@@ -149,4 +148,4 @@ def forcing_of(problem: NumericProblem) -> Forcing | None:
     given = problem.right
     if given is None:
         return None
-    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable, problem.embedded, problem.is_real)
+    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable, problem.embedded)

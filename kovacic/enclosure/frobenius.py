@@ -303,7 +303,7 @@ class FrobeniusSeries:
         if V.length():
             value = value + V(t) * log
             slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
-        real = value.imag.is_zero() and slope.imag.is_zero()
+        real = t.imag.is_zero() and value.imag.is_zero() and slope.imag.is_zero()
         size = max(arb(1), abs(log).upper())
         tails = [around_zero((error * size).upper(), real=real) for error in self.errors]
         whole = isinstance(self.exponent, fmpq) and self.exponent.q == 1

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import sympy
@@ -100,6 +101,19 @@ class CoefficientField:
         evaluated = CoefficientEvaluator(self.coefficients.at(x), analytic=analytic)
         return [evaluated(part) for part in self._parts]
 
+    def _has_real_values(self, series: Sequence[Any]) -> bool:
+        """Are the coefficients real, whose first terms at a real point these are?
+
+        Those made of real numbers are, where the functions in them are: all that are known here have f(conj z) = conj f(z).
+        """
+        return self._has_real_numbers and all(value.imag.is_zero() for value in series)
+
+    @cached_property
+    def _has_real_numbers(self) -> bool:
+        numbers = [node for part in self._parts for node in sympy.preorder_traversal(part) if node.is_number]
+        values = [to_ball(value) for _, value in self.coefficients.values]
+        return all(number.is_real for number in numbers) and all(value.imag.is_zero() for value in values)
+
     def is_regular(self, x: acb) -> bool:
         """Are the coefficients known to be analytic on the ball?"""
         return all(value.is_finite() for value in self.values(x, analytic=True))
@@ -155,7 +169,7 @@ class CoefficientField:
         values = [value for row in rows for value in row]
         if not all(value.is_finite() for value in values):
             return None
-        is_real = (self.is_real and centre.is_real()) or all(value.imag.is_zero() for value in values)
+        is_real = centre.is_real() and (self.is_real or self._has_real_values(values))
         B, C, F = (_polynomial(row, real=is_real) for row in rows)
         return B, C, F
 

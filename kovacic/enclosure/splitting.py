@@ -285,7 +285,7 @@ def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, m
     """
     offset = target - frame.centre
     sums, errors = _sum_series(system, frame, frame.seen(target), mirror, prec)
-    real = offset.is_real() and frame.centre.is_real()
+    real = offset.is_real() and frame.centre.is_real() and system.imaginary is None
     first_rows = (0, 2) if mirror else (0,)
     with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(offset)
