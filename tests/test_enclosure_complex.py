@@ -222,3 +222,36 @@ def test_real_right_hand_sides_on_ways_beside_the_axis(coefficients: tuple[str, 
             with mpmath.workdps(40):
                 distance = abs(value.to_mpmath() - mpmath.mpmathify(exact))
             assert distance <= value.radius, (x0, point)
+
+
+#: Numbers that aren't real, most of them without an i, and two that are.
+NUMBERS = [
+    "acos(2)",
+    "(-1)^(1/3)",
+    "atanh(2)",
+    "(-8)^(2/3)",
+    "log(-3)",
+    "(-2)^sqrt(2)",
+    "I",
+    "(1 + I)^2",
+    "acos(1/2)",
+    "sqrt(3)",
+]
+
+
+@parametrize("number", NUMBERS, ordinary=4)
+@pytest.mark.parametrize("right", ["{c}*exp(x)", "{c}*sqrt(x + 2)", "{c}*x", "exp({c}*x/5)"])
+@pytest.mark.parametrize("given", ["in the text", "a parameter"])
+def test_numbers_on_the_right_that_are_not_real(number: str, right: str, given: str) -> None:
+    """y(x) = cos(x) + int_0^x sin(x - t) f(t) dt for y'' + y = f."""
+    exact = sympified(number.replace("1/3", "Rational(1, 3)").replace("2/3", "Rational(2, 3)"))
+    f = sympy.lambdify(X, sympified(right.format(c="c"), c=exact), "mpmath")
+    end = mpmath.mpf(1) / 2
+    options: dict[str, Any] = {"params": {"c": number}} if given == "a parameter" else {}
+    text = right.format(c="c" if options else f"({number})")
+    found = evaluate(f"y'' + y = {text}", "1/2", x0=0, y0=1, dy0=0, digits=12, **options)
+    assert found.digits >= 12
+    with mpmath.workdps(30):
+        wanted = mpmath.cos(end) + mpmath.quad(lambda t: mpmath.sin(end - t) * f(t), [0, end])
+        assert abs(found.to_mpmath() - wanted) <= found.radius + 1e-25
+    assert found.real == (number in NUMBERS[-2:])

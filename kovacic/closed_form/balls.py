@@ -107,7 +107,7 @@ class BallEvaluator:
         value = self(argument)
         function = getattr(value, name)
         if isinstance(value, acb):
-            return function(analytic=self.analytic)
+            return function(analytic=self.analytic and bool(argument.free_symbols))  # a constant may lie on a cut
         return function()
 
     def _applied(self, e: Any) -> BallValue:

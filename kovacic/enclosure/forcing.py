@@ -38,13 +38,17 @@ _LEAST = fmpq(1, 2**40)  # the part of a way that is looked at for a singularity
 
 @dataclass(frozen=True)
 class Forcing:
-    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a."""
+    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a.
+
+    `real` says that these and the equation are.
+    """
 
     rational: RatFunc
     function: Any
     over: RatFunc
     symbol: str
     embedded: Embedded | None
+    real: bool
 
     def value(self, x: acb, analytic: bool = False) -> acb:
         """f/a + h/a on a ball; not finite where h isn't analytic, with `analytic`."""
@@ -96,8 +100,12 @@ class Forcing:
                 where = a + (b - a) * arb(middle)
                 raise InputError(f"{self.function} isn't analytic near {where.mid().str(6, radius=False)}, on the way")
 
-    def step(self, leg: Leg, growth: Callable[[acb, bool], acb]) -> State:
-        """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball."""
+    def step(self, leg: Leg, growth: Callable[[acb, bool], acb], *, on_axis: bool) -> State:
+        """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball.
+
+        `on_axis` says that the whole way is on the real axis, with the centres of its discs, and that g is real on it: it isn't
+        enough that the disc is entered and left there, since junctions are rounded.
+        """
         frame = leg.disc.frame
         expansion = leg.expansion
         assert expansion is not None
@@ -118,12 +126,9 @@ class Forcing:
 
         step = (stop - start) / _PIECES
         half = arb(0, 0.5)
-        sources = [source(start + step * acb(arb(2 * k + 1) / 2 + half), False) for k in range(_PIECES)]
-        size = sum((abs(value) for value in sources), arb(0)) * abs(step)
-        # A real equation on a real way isn't enough: the centre may lie beside it, and g may have begun elsewhere.
-        on_axis = start.imag.is_zero() and stop.imag.is_zero()
-        real_solutions = all(im is None for _, im in expansion.columns)
-        real = on_axis and real_solutions and all(value.imag.is_zero() for value in sources)
+        pieces = (start + step * acb(arb(2 * k + 1) / 2 + half) for k in range(_PIECES))
+        size = sum((abs(source(x, False)) for x in pieces), arb(0)) * abs(step)
+        real = self.real and on_axis
         found = []
         for poly, defect in zip(polys, expansion.defect, strict=True):
 
@@ -148,4 +153,4 @@ def forcing_of(problem: NumericProblem) -> Forcing | None:
     given = problem.right
     if given is None:
         return None
-    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable, problem.embedded)
+    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable, problem.embedded, problem.is_real)

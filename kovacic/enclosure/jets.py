@@ -34,7 +34,7 @@ from typing import Any
 import sympy
 from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 
-from kovacic.enclosure.constants import to_ball
+from kovacic.enclosure.constants import has_real_numbers, to_ball
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State, fundamental
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
@@ -110,9 +110,8 @@ class CoefficientField:
 
     @cached_property
     def _has_real_numbers(self) -> bool:
-        numbers = [node for part in self._parts for node in sympy.preorder_traversal(part) if node.is_number]
         values = [to_ball(value) for _, value in self.coefficients.values]
-        return all(number.is_real for number in numbers) and all(value.imag.is_zero() for value in values)
+        return all(map(has_real_numbers, self._parts)) and all(value.imag.is_zero() for value in values)
 
     def is_regular(self, x: acb) -> bool:
         """Are the coefficients known to be analytic on the ball?"""

@@ -253,10 +253,11 @@ class Traveller:
         forcing = self.forcing
         if forcing is not None:
             forcing.check(here, stop)
+        on_axis = here.is_real() and stop.is_real() and self.growth.imag.is_zero()
         for leg in walk(self.problem.system, here, stop, self.prec, targets=int(forcing is not None)):
             if forcing is not None:
                 y, dy = self.particular
-                change, slope_change = forcing.step(leg, self._inverse_growth)
+                change, slope_change = forcing.step(leg, self._inverse_growth, on_axis=on_axis)
                 self.particular = apply(leg.matrix, (y + change, dy + slope_change))
             self.product = self.product.after(leg.matrix)
 
