@@ -343,6 +343,9 @@ def test_a_table_in_the_users_variable(equation: str, interval: Any, start: Any,
     [
         ("y'' = y/(exp(x) - 2)", (0, 1), "analytic near 0.69314"),
         ("y'' = exp(I*x)*y", (0, 1), "real for real x"),
+        ("y'' + exp(x)*y = I", (0, 1), "real for real x"),
+        ("y'' + sin(sqrt(x + 1))*y = acos(2)", (0, 1), "real for real x"),
+        ("y'' + exp(x)*y = (-1)^(1/3)*sin(x)", (0, 1), "real for real x"),
     ],
 )
 def test_tables_and_pictures_where_there_are_no_values_are_refused(equation: str, interval: Any, message: str) -> None:

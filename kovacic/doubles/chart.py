@@ -241,14 +241,19 @@ class AnalyticChart:
         if parts is None:
             return [[arb(1)], [], [arb("nan")]]
         rows = [part.coeffs() for part in parts[:2]]
-        if not all(v.imag.contains(0) for row in rows for v in map(acb, row)):
-            raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
-        return [[arb(1)], *([acb(v).real for v in row] for row in rows)]
+        return [[arb(1)], *([_real_value(acb(v)) for v in row] for row in rows)]
 
     def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
         """H^2 f at u."""
         x = acb(centre.x) + acb(u) * acb(arb((1, e)))
-        return acb(self._functions.values(x)[2]).real * arb((1, 2 * e))
+        return _real_value(acb(self._functions.values(x)[2])) * arb((1, 2 * e))
+
+
+def _real_value(value: acb) -> arb:
+    """Of a coefficient or of the right-hand side; raises `InputError` where it isn't real."""
+    if not value.imag.contains(0):
+        raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
+    return value.real
 
 
 PieceChart = RationalChart | AnalyticChart
