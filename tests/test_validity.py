@@ -30,6 +30,22 @@ def test_what_is_needed(equation: str, real: list[object], exceptions: set[objec
     assert bool(found) is bool(real or exceptions)
 
 
+@parametrize(
+    ("equation", "claim"),
+    [
+        ("y'' + y = log(x)", "real and valid"),
+        ("y'' + y = sqrt(2)/x", "real and valid"),
+        ("y'' + I*y = log(x)", "valid"),
+        ("y'' + (-1)^(1/3)*y = 1/x", "valid"),
+        ("y'' = I/x", "valid"),
+        ("y'' + acos(2)*y = 1/x", "real and valid"),  # for no value: acos(2) isn't real
+    ],
+    ordinary=3,
+)
+def test_what_is_made_of_other_numbers_is_not_called_real(equation: str, claim: str) -> None:
+    assert kovacic.validity(kovacic.dsolve(equation)).claim == claim
+
+
 def test_the_oscillator() -> None:
     """Beyond m = 0, only critical damping, c^2 = 4 k m, is an exception, where the formula has one constant too few."""
     solution = kovacic.dsolve("m*y'' + c*y' + k*y = 0")

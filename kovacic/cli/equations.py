@@ -186,7 +186,7 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
         yield f"{indent}{solution.lhs} = {caret(as_text(solution.rhs))}"
         needed = validity(solution)
         if needed:
-            yield f"  real and valid for {caret(as_text(needed))}"
+            yield f"  {needed.claim} for {caret(as_text(needed))}"
 
     if latex:
         yield as_latex(found)

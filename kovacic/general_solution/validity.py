@@ -28,11 +28,20 @@ class Validity:
 
     `real` is `false` alone where what is assumed of symbols makes a part complex, as sqrt(k) for a negative k.  An exception
     depends on parameters alone: for values where it is zero a part has a zero denominator, or the two solutions of a general
-    solution become dependent, so that other formulas hold.
+    solution become dependent, so that other formulas hold.  Where a number in the formula isn't known to be real
+    (`of_real_numbers`), the relations make it valid, and whether it is real isn't said.
     """
 
     real: tuple[Expr, ...]
     exceptions: tuple[Expr, ...]
+    of_real_numbers: bool = True
+
+    @property
+    def claim(self) -> str:
+        """What the formula is where the relations hold: "real and valid"; "valid" where a number in it isn't real."""
+        if self.of_real_numbers or sympy.false in self.real:
+            return "real and valid"
+        return "valid"
 
     def __bool__(self) -> bool:
         """Is anything needed?"""
@@ -94,7 +103,13 @@ def validity(solution: Any) -> Validity:
     exceptions: dict[Expr, None] = {}
     for nonzero in (*needed.nonzero, _wronskian_somewhere(value, x)):
         exceptions |= dict.fromkeys(_exceptions(nonzero))
-    return Validity(_without_weaker(needed.on_x), tuple(exceptions))
+    return Validity(_without_weaker(needed.on_x), tuple(exceptions), _is_of_real_numbers(value))
+
+
+def _is_of_real_numbers(value: Expr) -> bool:
+    """Are all numbers in it known to be real?  The bounds of an integral may be infinite."""
+    numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
+    return all(number.is_extended_real for number in numbers)
 
 
 @dataclass(frozen=True)
