@@ -112,12 +112,11 @@ def test_an_integral_on_a_curve_needs_all_of_its_parts() -> None:
     form = structure_of(answer, Triangular)
     assert isinstance(form.primitive, CurveIntegral)
     integral = form.primitive
-    assert integral.unit is not None
-    unit = integral.unit
+    first, *others = integral.units
     for changed in (
-        replace(integral, unit=replace(unit, factor=unit.factor * 2)),
-        replace(integral, unit=replace(unit, A=unit.A + 1)),
-        replace(integral, unit=replace(unit, p=unit.p * QQ.poly([1, 1]))),
+        replace(integral, units=(replace(first, factor=first.factor * 2), *others)),
+        replace(integral, units=(replace(first, A=first.A + 1), *others)),
+        replace(integral, units=(first, first, *others)),
         replace(integral, rest=integral.rest + 1),
     ):
         assert not is_exact_solution(replace(form, primitive=changed), answer.S, ZERO)

@@ -277,9 +277,10 @@ class FunctionPoly(Poly):
         return bool(self.num) and int(self.num.leading_coefficient()) < 0
 
     def to_sympy(self, variable: Any) -> Any:
-        from sympy import Add, Mul, Pow, Symbol
+        from sympy import Add, Mul, Pow, Symbol, pi
 
-        symbols = [variable, *map(Symbol, self.field.names)]
+        # The parameter pi is the number: a field has no other letter of this name.
+        symbols = [variable, *(pi if name == "pi" else Symbol(name) for name in self.field.names)]
 
         def expression(part: Any) -> Any:
             return Add(*(Mul(int(c), *map(Pow, symbols, map(int, powers))) for powers, c in part.to_dict().items()))

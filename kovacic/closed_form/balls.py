@@ -33,15 +33,15 @@ _NAMES = {getattr(sympy, name): name for name in (_MEROMORPHIC + _INVERSE).split
 _CUT = {getattr(sympy, name) for name in _INVERSE.split()}
 #: Of power series flint has fewer functions: others are quotients,
 _QUOTIENTS: dict[str, Callable[[Any], Any]] = {
-    "cot": lambda s: s.cos() / s.sin(),
-    "sec": lambda s: 1 / s.cos(),
-    "csc": lambda s: 1 / s.sin(),
+    "cot": lambda s: _quotient(s.cos(), s.sin()),
+    "sec": lambda s: _quotient(1, s.cos()),
+    "csc": lambda s: _quotient(1, s.sin()),
     "sinh": lambda s: (s.exp() - (-s).exp()) / 2,
     "cosh": lambda s: (s.exp() + (-s).exp()) / 2,
-    "tanh": lambda s: 1 - 2 / ((2 * s).exp() + 1),
-    "coth": lambda s: 1 + 2 / ((2 * s).exp() - 1),
-    "sech": lambda s: 2 / (s.exp() + (-s).exp()),
-    "csch": lambda s: 2 / (s.exp() - (-s).exp()),
+    "tanh": lambda s: 1 - _quotient(2, (2 * s).exp() + 1),
+    "coth": lambda s: 1 + _quotient(2, (2 * s).exp() - 1),
+    "sech": lambda s: _quotient(2, s.exp() + (-s).exp()),
+    "csch": lambda s: _quotient(2, s.exp() - (-s).exp()),
 }
 #: or have a derivative that it knows, on their principal branches.
 _SLOPES: dict[str, Callable[[Any], Any]] = {
@@ -49,7 +49,7 @@ _SLOPES: dict[str, Callable[[Any], Any]] = {
     "acos": lambda s: -(1 - s * s).rsqrt(),
     "asinh": lambda s: (1 + s * s).rsqrt(),
     "acosh": lambda s: (s - 1).rsqrt() * (s + 1).rsqrt(),
-    "atanh": lambda s: 1 / (1 - s * s),
+    "atanh": lambda s: _quotient(1, 1 - s * s),
 }
 
 
@@ -99,7 +99,7 @@ class BallEvaluator:
             return self(exponent).exp()
         if exponent in (sympy.S.Half, -sympy.S.Half):
             root = self._cut(base, "sqrt")
-            return root if exponent == sympy.S.Half else 1 / root
+            return root if exponent == sympy.S.Half else _quotient(1, root)
         return (self(exponent) * self._cut(base, "log")).exp()
 
     def _cut(self, argument: Any, name: str) -> BallValue:
@@ -127,6 +127,13 @@ class BallEvaluator:
         """What isn't arithmetic and an elementary function."""
         known = ", ".join((_MEROMORPHIC + _INVERSE).split())
         raise InputError(f"{e} isn't known in balls", hint=f"the functions are log, sqrt, {known}")
+
+
+def _quotient(above: Any, below: BallValue) -> BallValue:
+    """above/below; FLINT has a value that isn't finite where a ball contains zero, and for a series raises an error."""
+    if isinstance(below, acb_series) and below[0].contains(0):
+        return above * below**-1
+    return above / below
 
 
 def _number(e: Any) -> acb | None:
@@ -169,7 +176,7 @@ def _whole_power(value: BallValue, exponent: int) -> BallValue:
         return value**exponent
     if exponent < 0:
         power = _whole_power(value, -exponent)
-        return power**-1 if power[0] == 0 else 1 / power  # the former isn't finite, as that of a ball
+        return _quotient(1, power)
     power = acb_series([1])
     for digit in f"{exponent:b}":
         power = power * power

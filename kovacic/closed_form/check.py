@@ -82,10 +82,9 @@ def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
 
 
 def _is_complete(integral: CurveIntegral) -> bool:
-    """If a unit stands for the residues and the rest: is its derivative theirs?"""
-    u = integral.unit
+    """If units stand for the residues and the rest: is the sum of their derivatives theirs?"""
     g = integral.g
-    return u is None or (u.is_unit(g) and u.integrand(g) == integral.without_exact)
+    return not integral.units or sum((u.integrand(g) for u in integral.units), RatFunc(g * 0)) == integral.without_exact
 
 
 def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:

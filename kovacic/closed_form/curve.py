@@ -37,11 +37,14 @@ from kovacic.algebra.ratfunc import RatFunc
 
 @dataclass(frozen=True)
 class Unit:
-    """The contribution factor * log((A + B tau s)/p)/tau to an integral; tau^2 = `tau_squared`, a constant of K."""
+    """The contribution factor * log((A + B tau s)/sqrt(norm))/tau to an integral; tau^2 = `tau_squared`, a constant of K.
+
+    p is a square root of the norm up to a constant; None where it isn't known to be a square.
+    """
 
     A: Poly
     B: Poly
-    p: Poly
+    p: Poly | None
     tau_squared: Poly
     factor: Fraction = Fraction(-1)
 
@@ -50,29 +53,25 @@ class Unit:
         return self.A * self.A - self.B * self.B * g * self.tau_squared
 
     def integrand(self, g: Poly) -> RatFunc:
-        """r with r dx/s the derivative of the contribution, for a norm that is a constant times p^2."""
+        """r with r dx/s the derivative of the contribution, which is log((A + B tau s)/(A - B tau s)) factor/(2 tau)."""
         A = self.A
         B = self.B
         top = (B.derivative() * g + B * g.derivative() * Fraction(1, 2)) * A - A.derivative() * B * g
         return RatFunc(top, self.norm(g)) * self.factor
-
-    def is_unit(self, g: Poly) -> bool:
-        """Is the norm a constant times p^2?"""
-        return self.norm(g).monic() == (self.p * self.p).monic()
 
 
 @dataclass(frozen=True)
 class CurveIntegral:
     """int r dx/sqrt(g) as in (1): `exact` is C, `residues` the simple poles, `rest` the polynomial of degree <= d - 2.
 
-    For d >= 3 `unit` is the logarithm that everything but the exact part amounts to, or `reason` says why it is left.
+    For d >= 3 everything but the exact part amounts to the logarithms of `units`, or `reason` says why it is left.
     """
 
     g: Poly
     exact: RatFunc
     residues: tuple[Residue, ...]
     rest: Poly
-    unit: Unit | None = None
+    units: tuple[Unit, ...] = ()
     reason: str | None = None
 
     @property

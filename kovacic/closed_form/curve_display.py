@@ -17,15 +17,21 @@ from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, rational
 from kovacic.closed_form.curve import CurveIntegral, Unit, unit
+from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import OnCurve
 from kovacic.exact import radical as sqrt
 
 
 @dataclass
 class _Terms:
-    """int r dx/sqrt(g) = sum of c log(base) over `logarithms` (c, base) + sum of `others`; `notes` on what was left."""
+    """int r dx/sqrt(g) = sum of c log(base) over `logarithms` (c, base) + sum of `others`; `notes` on what was left.
+
+    `norms` (p, n) stand for a sum of n log(p)/tau with tau^2 = `tau_squared`.
+    """
 
     logarithms: list[tuple[Expr, Expr]] = field(default_factory=list)
+    norms: list[tuple[Poly, Fraction]] = field(default_factory=list)
+    tau_squared: Poly | None = None
     others: list[Expr] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
@@ -40,6 +46,7 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
         integral = _turned(integral)
         scale = -sympy.I
     terms = _terms(integral, atoms, alone=False, exponents=False)
+    terms.logarithms += [(n / atoms.sqrt(terms.tau_squared), atoms.poly(p)) for p, n in terms.norms]
     return scale, Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
 
 
@@ -54,7 +61,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
-    common = display(form.common, atoms)
+    common, other = _with_norms(form, terms, kappa, atoms)
     A, B = _zero_factors(form, kappa, atoms)
     if not terms.others and not terms.logarithms:
         return common * A, common * B, terms.notes
@@ -66,8 +73,28 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
         s = sin(angle)
         return common * (A * c - B * s), common * (A * s + B * c), terms.notes
     first = Mul(common, A + B, *(base**e for base, e in powers), exp(Add(*inner)))
-    second = Mul(common, A - B, *(base**-e for base, e in powers), exp(-Add(*inner)))
+    second = Mul(other, A - B, *(base**-e for base, e in powers), exp(-Add(*inner)))
     return first, second, terms.notes
+
+
+def _with_norms(form: OnCurve, terms: _Terms, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
+    """The common factor of both solutions, times prod p^(+-n kappa/tau) over the norms, which join its powers in the field."""
+    if terms.tau_squared is None or not terms.norms:
+        common = display(form.common, atoms)
+        return common, common
+    ratio = form.common.field.sqrt(form.kappa_squared / terms.tau_squared)
+    if ratio is None:
+        terms.logarithms += [(n / atoms.sqrt(terms.tau_squared), atoms.poly(p)) for p, n in terms.norms]
+        common = display(form.common, atoms)
+        return common, common
+    # Both square roots are written as positive numbers.
+    if atoms.is_negative(ratio):
+        ratio = -ratio
+    first, second = (
+        display(replace(form.common, powers=gathered((*form.common.powers, *more))), atoms)
+        for more in ([Power(p, ratio * (sign * n)) for p, n in terms.norms] for sign in (1, -1))
+    )
+    return first, second
 
 
 def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
@@ -126,18 +153,19 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: boo
     if integral.exact:
         terms.others.append(atoms.ratio(integral.exact) * root)
     if not integral.is_elementary:
-        if integral.unit is None:
+        if not integral.units:
             terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
             terms.notes = (f"integral left because {integral.reason}",)
         else:
-            _append_unit(integral.unit, root, atoms, terms)
+            for u in integral.units:
+                _append_unit(u, root, atoms, terms, integral.g)
         return terms
     if integral.rest:
         _append_rest(integral, root, atoms, terms, alone=alone, exponents=exponents)
     for residue in integral.residues:
         found = unit(integral.g, residue)
         if found is not None:
-            _append_unit(found, root, atoms, terms)
+            _append_unit(found, root, atoms, terms, integral.g)
         else:
             terms.others.append(_root_sum(integral, residue, root, atoms))
     return terms
@@ -174,8 +202,8 @@ def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
     return asinh(z)
 
 
-def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms) -> None:
-    """factor * log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> None:
+    """factor * log((A + B tau s)/sqrt(norm))/tau, or the arc tangent for tau^2 < 0."""
     factor = rational(u.factor)
     A = u.A
     B = u.B
@@ -191,7 +219,11 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms) -> None:
         return
     tau = atoms.sqrt(u.tau_squared)
     argument = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
-    if u.p.degree > 0:
+    if u.p is None:
+        norm = u.norm(g)
+        terms.norms += [(p, -u.factor * k / 2) for p, k in norm.field.factor(norm)]
+        terms.tau_squared = u.tau_squared
+    elif u.p.degree > 0:
         argument = argument / atoms.primitive(u.p)[1]
     terms.logarithms.append((factor / tau, argument))
 

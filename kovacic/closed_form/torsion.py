@@ -8,8 +8,8 @@ only.  So
 - if the residues are rational multiples of one constant 1/tau, one U must do: with kappa = tau/4,
   kappa r dx/s = (1/(2n)) d log(U/sqrt(N)), N the norm of U.  Then y+- = f^(1/2) exp(+-kappa int r dx/s), f = s/r, solve
   y'' = S y with S = (f'/f)'/2 + (f'/f)^2/4 + kappa^2 r^2/g, whose group is dicyclic of order 4n if there is such a U, and
-  N(T) otherwise; `kovacic.galois` decides it, and has u^n as a function on the
-  curve, in pieces whose product, without the factors in K(x), is U.
+  N(T) otherwise; `kovacic.galois` decides it, and has u^n as a function on the curve, in O(log n) pieces whose product,
+  without the factors in K(x), is U.  It isn't multiplied out: its degree grows like n.
 
 Reference: J. H. Davenport, On the Integration of Algebraic Functions (1981).
 """
@@ -28,32 +28,27 @@ from kovacic.galois.group import GroupKind
 from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import Budget
 
-#: The largest degree of the norm of a unit that is written; beyond, the integral is left with that reason.
-_LARGEST_DEGREE = 2000
-
 FIRST_KIND = "it has no logarithmic part on the curve s^2 = {g} of genus {genus}, so it isn't elementary"
 SECOND_KIND = (
     "it has a pole of the second kind at infinity on the curve s^2 = {g} of genus {genus}, so it isn't elementary"
 )
 NOT_TORSION = "its poles on the curve s^2 = {g} of genus {genus} don't form a torsion divisor, so it isn't elementary"
 SEVERAL = "its residues on the curve s^2 = {g} of genus {genus} aren't rational multiples of one another; not decided"
-UNDECIDED = (
-    "whether its poles on the curve s^2 = {g} of genus {genus} form a torsion divisor wasn't decided within the limits"
-)
+UNDECIDED = "no function with its poles on the curve s^2 = {g} of genus {genus} was found within the limits"
 
 
 def completed(integral: CurveIntegral) -> CurveIntegral:
-    """The integral with its unit U if it is elementary on a curve of positive genus, else with the reason why it is left."""
+    """The integral with its units if it is elementary on a curve of positive genus, else with the reason why it is left."""
     if integral.is_elementary:
         return integral
     found = _decide(replace(integral, exact=integral.exact * 0))
     if isinstance(found, str):
         g = integral.g
         return replace(integral, reason=found.format(g=g, genus=(g.degree - 1) // 2))
-    return replace(integral, unit=found)
+    return replace(integral, units=found)
 
 
-def _decide(integral: CurveIntegral) -> Unit | str:
+def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
     g = integral.g
     field = integral.g.field
     middle = Fraction(g.degree, 2) - 1
@@ -74,7 +69,7 @@ def _decide(integral: CurveIntegral) -> Unit | str:
         return NOT_TORSION
     if group.kind is not GroupKind.DICYCLIC or group.function is None:
         return UNDECIDED
-    return _unit(integral, group.function, kappa_squared)
+    return _units(integral, group.function, kappa_squared)
 
 
 def _form(S: RatFunc, phi: RatFunc) -> SemiInvariant:
@@ -101,59 +96,20 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     return values[0]
 
 
-def _unit(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> Unit | str:
-    """U as A + B kappa s, from its pieces a + b y: y = c kappa s, c a constant."""
+def _units(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> tuple[Unit, ...] | str:
+    """The logarithms of the pieces a + b y of f as those of a + b c kappa s: y = c kappa s, c a constant up to its sign."""
     g = integral.g
-    r = integral.integrand
-    if _degree(f) > _LARGEST_DEGREE:
-        return UNDECIDED
     c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)
     if c is None:
         return UNDECIDED
-    a, b = _expanded(f)
-    root = _square_root(a * a - f.h * b * b)
-    if root is None:
-        return UNDECIDED
-    for B in (b * c, -b * c):
-        found = Unit(a, B, root, kappa_squared, Fraction(1, 2 * f.multiple))
-        if found.integrand(g) == r:
+    exponents: dict[tuple[Poly, Poly], int] = {}
+    for piece in f.pieces:
+        pair = (piece.a, piece.b)
+        exponents[pair] = exponents.get(pair, 0) + piece.exponent
+    for sign in (c, -c):
+        found = tuple(
+            Unit(a, b * sign, None, kappa_squared, Fraction(e, 2 * f.multiple)) for (a, b), e in exponents.items()
+        )
+        if sum((unit.integrand(g) for unit in found), RatFunc(g * 0)) == integral.integrand:
             return found
     return UNDECIDED
-
-
-def _degree(f: CurveFunction) -> int:
-    """At most so much is the degree of the norm of f."""
-    return sum(piece.exponent * (2 * piece.a.degree + 2 * piece.b.degree + f.h.degree) for piece in f.pieces)
-
-
-def _expanded(f: CurveFunction) -> tuple[Poly, Poly]:
-    """(a, b) without a common factor, f = a + b y up to a function of x; the exponents are powers of two, and fall."""
-    one = f.h.field.poly([1])
-    result = (one, one * 0)
-    power = f.pieces[0].exponent if f.pieces else 1
-    for piece in (*f.pieces, None):
-        exponent = 1 if piece is None else piece.exponent
-        while power > exponent:
-            result = _product(result, result, f.h)
-            power //= 2
-        if piece is not None:
-            result = _product(result, (piece.a, piece.b), f.h)
-    return result
-
-
-def _product(first: tuple[Poly, Poly], second: tuple[Poly, Poly], h: Poly) -> tuple[Poly, Poly]:
-    a = first[0] * second[0] + first[1] * second[1] * h
-    b = first[0] * second[1] + first[1] * second[0]
-    common = a.gcd(b)
-    return a.field.ground.cleared(a // common, b // common)
-
-
-def _square_root(square: Poly) -> Poly | None:
-    """The monic root of a polynomial that is a constant times a square; None for others."""
-    root = square.field.poly([1])
-    factors = square.field.factor(square) if square.degree else []
-    for factor, multiplicity in factors:
-        if multiplicity % 2:
-            return None
-        root = root * factor ** (multiplicity // 2)
-    return root
