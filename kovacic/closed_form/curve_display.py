@@ -35,6 +35,12 @@ class _Terms:
     others: list[Expr] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
+    def join_norms(self, atoms: Atoms) -> None:
+        """The norms as logarithms."""
+        if self.tau_squared is not None:
+            tau = atoms.sqrt(self.tau_squared)
+            self.logarithms += [(n / tau, atoms.poly(p)) for p, n in self.norms]
+
 
 def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """(c, F, notes): int r dx/sqrt(g) = c F, where F is real around 0 for g = x^2 - a, a > 0.
@@ -46,7 +52,7 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
         integral = _turned(integral)
         scale = -sympy.I
     terms = _terms(integral, atoms, alone=False, exponents=False)
-    terms.logarithms += [(n / atoms.sqrt(terms.tau_squared), atoms.poly(p)) for p, n in terms.norms]
+    terms.join_norms(atoms)
     return scale, Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
 
 
@@ -79,12 +85,9 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
 
 def _with_norms(form: OnCurve, terms: _Terms, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
     """The common factor of both solutions, times prod p^(+-n kappa/tau) over the norms, which join its powers in the field."""
-    if terms.tau_squared is None or not terms.norms:
-        common = display(form.common, atoms)
-        return common, common
-    ratio = form.common.field.sqrt(form.kappa_squared / terms.tau_squared)
+    ratio = terms.tau_squared and form.common.field.sqrt(form.kappa_squared / terms.tau_squared)
     if ratio is None:
-        terms.logarithms += [(n / atoms.sqrt(terms.tau_squared), atoms.poly(p)) for p, n in terms.norms]
+        terms.join_norms(atoms)
         common = display(form.common, atoms)
         return common, common
     # Both square roots are written as positive numbers.

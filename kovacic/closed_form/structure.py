@@ -122,7 +122,7 @@ def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
     g, r, kappa_squared = curve_of(S, semi)
     common = (semi.theta + gauge * 2) * Fraction(1, 2)
     zeros = gathered_zeros(g, r, kappa_squared, semi.P)
-    if zeros is None:
+    if zeros is None or zeros.p is None:
         common = common + logarithmic_derivative(semi.P) * Fraction(1, 2)
     else:
         common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
