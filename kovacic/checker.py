@@ -9,7 +9,8 @@ For each line one of
     not checked: why                         (parameters, algebraic numbers in S, too large, more than a minute)
     unreadable: why                          (no JSON, or a key twice in one object)
 
-Exit status: 0 all checked, 1 one refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
+Exit status: 0 all checked, 1 one refuted, 2 one unreadable, or nothing to check, 3 one not checked.
+It needs Python 3.11 and python-flint alone.
 
 What "checked" means, for an S over Q(x):
 - S from input: S was given, with + - * / ^ and parentheses, and is this one.
@@ -1404,7 +1405,7 @@ def verdicts(lines: Iterator[str], seconds: float = 60) -> Iterator[str]:
 
 def main(files: list[str]) -> int:
     """Check all lines of the files; the exit status."""
-    statuses = {0}
+    statuses: set[int] = set()
     sys.stdin = sys.stdin or io.StringIO()  # one that is closed is empty
     try:
         with fileinput.input(files, encoding="utf-8") as lines:
@@ -1413,6 +1414,9 @@ def main(files: list[str]) -> int:
                 print(f"{lines.filename()}:{lines.filelineno()}: {said}")
     except (OSError, UnicodeError) as error:
         print(f"checker: {error}", file=sys.stderr)
+        return 2
+    if not statuses:
+        print("checker: nothing to check", file=sys.stderr)
         return 2
     return min(statuses - {0}, default=0)
 

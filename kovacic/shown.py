@@ -91,3 +91,26 @@ def json_line(data: Any, default: Callable[[Any], str] | None = None) -> str:
     if line.isprintable():
         return line
     return "".join(char if char.isprintable() else json.dumps(char)[1:-1] for char in line)
+
+
+def strict_json(text: str) -> Any:
+    """The value of a JSON text.  Raises `ValueError` for what Python reads beyond JSON: repeated keys, NaN and Infinity.
+
+    >>> strict_json('{"S": "x", "S": "2"}')
+    Traceback (most recent call last):
+    ValueError: a key occurs twice in one object: 'S'
+    """
+    return json.loads(text, object_pairs_hook=_once, parse_constant=_no_number)
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"a key occurs twice in one object: {key!r}")
+        found[key] = value
+    return found
+
+
+def _no_number(name: str) -> Any:
+    raise ValueError(f"{name} isn't a number in JSON")

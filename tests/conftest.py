@@ -69,6 +69,8 @@ def pytest_collection_finish() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         named = item.path.stem in QUICK or isinstance(item, pytest.DoctestItem)
+        if item.get_closest_marker("slow"):
+            item.add_marker(pytest.mark.timeout(6 * 3600))
         if named and not any(map(item.get_closest_marker, ("slow", "long"))):
             item.add_marker(pytest.mark.quick)
 

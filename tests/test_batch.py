@@ -6,6 +6,7 @@ import gzip
 import io
 import json
 import os
+import random
 import re
 import signal
 import subprocess
@@ -18,7 +19,7 @@ from types import SimpleNamespace
 
 import pytest
 import workers
-from build import parametrize
+from build import parametrize, run
 from hypothesis import given
 from hypothesis import strategies as st
 from processes import finished, started
@@ -84,6 +85,106 @@ def test_csv_with_and_without_header() -> None:
     assert found[2].error is not None
     assert found[2].number == 5
     assert [item.text for item in read(b"x,1\nx^2+3,2\n", "csv")] == ["x", "x^2+3"]
+
+
+def csv_file(seed: int) -> tuple[str, dict[int, str | None]]:
+    """A table, and by line the expression that begins there, or None for a line with an error."""
+    chosen = random.Random(seed)
+    with_id = chosen.random() < 0.5
+    rows = ["S,id" if with_id else "S"]
+    expected: dict[int, str | None] = {}
+    number = 2
+    for k in range(chosen.randint(1, 12)):
+        text = f"x^{k} + {seed}"
+        kind = chosen.choice(["plain", "quoted", "two lines", "unclosed", "stray"])
+        if kind == "two lines":
+            text = text.replace(" ", " \n")
+        shown = {"plain": text, "unclosed": f'"{text}', "stray": f'"{text}"{k}'}.get(kind, f'"{text}"')
+        rows.append(f"{shown},{k}" if with_id else shown)
+        expected[number] = None if kind in ("unclosed", "stray") else text
+        number += 1 + text.count("\n")
+    return "\n".join(rows) + "\n" * chosen.randint(0, 2), expected
+
+
+def test_an_unclosed_quotation_mark_costs_no_other_line() -> None:
+    """400 tables with closed cells of one and two lines, unclosed quotation marks and text behind closing ones."""
+    for seed in range(400):
+        text, expected = csv_file(seed)
+        found = {item.number: None if item.error else item.text for item in read(text.encode(), "csv")}
+        assert found == expected, text
+
+
+def test_an_unclosed_quotation_mark_is_named_and_does_not_keep_the_file_in_memory() -> None:
+    found = list(read_items(io.BytesIO(b'S\n"x\n+1\n-x^2'), form="csv"))
+    assert [(item.number, item.text) for item in found[1:]] == [(3, "+1"), (4, "-x^2")]
+    assert "a quotation mark isn't closed" in str(found[0].error)
+    assert found[0].number == 2
+
+    def lines() -> Iterator[bytes]:
+        yield b'S\n"x\n'
+        while True:
+            yield b"x+1\n" * 100
+
+    class Endless(io.RawIOBase):
+        source = lines()
+
+        def readable(self) -> bool:
+            return True
+
+        def readinto(self, buffer: bytearray) -> int:
+            part = next(self.source)
+            buffer[: len(part)] = part
+            return len(part)
+
+    endless = read_items(io.BufferedReader(Endless()), form="csv", limits=Limits(text_length=1000))
+    assert [next(endless).number for _ in range(3)] == [2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    ("header", "message"),
+    [
+        ("equation,id", "a header without a column 'S'"),
+        ("id,equation", "a header without a column 'S'"),
+        ("f,id", "a header without a column 'S'"),
+        ("name,formula", "a header without a column 'S'"),
+        ("ode", "a header without a column 'S'"),
+        ("y'',var", "a header without a column 'S'"),
+        ("S,S", "two columns have the name 'S'"),
+        ("S,id,id", "two columns have the name 'id'"),
+        ("S,note,note", "two columns have the name 'note'"),
+        ("S,input", "two columns for one expression"),
+    ],
+)
+def test_a_header_that_names_no_expression_is_no_equation(header: str, message: str) -> None:
+    row = ",".join("x" * (header.count(",") + 1))
+    found = read(f"{header}\n{row}\n{row}\n".encode(), "csv")
+    assert [item.number for item in found] == [1, 2, 3]
+    assert all(message in str(item.error) for item in found)
+
+
+def test_further_columns_are_carried_along() -> None:
+    (item,) = read(b"note,S,id,source\nhello,x,7,\n", "csv")
+    assert (item.text, item.extra) == ("x", {"id": "7", "columns": {"note": "hello", "source": ""}})
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ('{"S": "x", "id": NaN}', "NaN isn't a number in JSON"),
+        ('{"S": "x", "id": [-Infinity]}', "-Infinity isn't a number in JSON"),
+        ('{"S": "x", "id": 1e999}', "JSON has no such float as the id"),
+        ('{"S": "x", "S": "y"}', "a key occurs twice in one object: 'S'"),
+        ('{"S": "x", "id": {"a": 1, "a": 2}}', "a key occurs twice in one object: 'a'"),
+        ('{"S": "x", "input": "y"}', "two keys for one expression: 'S' and 'input'"),
+        ('{"S": "x", "Var": "t"}', "unknown key 'Var'"),
+        ('{"S": "x", "assume": {"a": "positive"}}', "unknown key 'assume'"),
+    ],
+)
+def test_a_line_of_json_that_says_more_than_is_read_is_refused(line: str, message: str) -> None:
+    bad, good = read(f'{line}\n{{"S": "x"}}\n'.encode(), "jsonl")
+    assert message in str(bad.error)
+    assert good.error is None
+    assert json.loads(refused(bad, bad.error).json, parse_constant=lambda name: pytest.fail(name))["status"] == "error"
 
 
 @pytest.mark.parametrize("form", ["lines", "jsonl", "csv"])
@@ -190,9 +291,8 @@ def test_answers_validate_against_the_schema(pool: Pool) -> None:
 @pytest.mark.long
 def test_published_equations_have_their_answers(pool: Pool) -> None:
     expected = [json.loads(line)["case"] for line in CASES.read_text(encoding="utf-8").splitlines()][:60]
-    with CASES.open("rb") as stream:
-        some = [item for item in read_items(stream, form="jsonl") if item.number <= 60]
-    finished = list(pool.run(some, ordered=False))
+    texts = [json.loads(line)["S"] for line in CASES.read_text(encoding="utf-8").splitlines()][:60]
+    finished = list(pool.run(items(texts), ordered=False))
     assert sorted(record.number for record in finished) == list(range(1, 61))
     assert [record.case for record in sorted(finished, key=lambda record: record.number)] == expected
 
@@ -221,6 +321,15 @@ def single() -> Iterator[Pool]:
     """One process."""
     with Pool(1, Job()) as running:
         yield running
+
+
+def test_a_late_line_ends_and_costs_no_other() -> None:
+    """What waited behind it in the same lot is given back, answered, and the pool knows that nothing is left."""
+    texts = ["x", workers.FATAL, "x^2", "x^3"]
+    with Pool(1, Job(timeout=0.05), serve=workers.late) as pool:
+        found = finished(lambda: list(pool.run(items(texts))))
+        assert pool.replaced == 1
+    assert [record.label for record in found] == ["none", "undecided", "none", "none"]
 
 
 @parametrize("stream", [True, False], ordinary=1)
@@ -579,6 +688,17 @@ def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None
     assert "had been answered before" in ran.stderr
     numbers = [json.loads(line)["line"] for line in output.read_text(encoding="utf-8").splitlines()]
     assert sorted(numbers) == list(range(1, count + 1))
+
+
+def test_a_resumed_run_with_nothing_left_to_do_has_the_status_of_its_file(tmp_path: Path) -> None:
+    source, output = tmp_path / "in.txt", tmp_path / "out.jsonl"
+    source.write_text("x\nx +\n")
+    lines = [Item(1, "x"), Item(2, "x +")]
+    with answers(output) as write:
+        write(solve_item(lines[0], Job(), DEFAULT_LIMITS))
+        write(solve_item(lines[1], Job(), DEFAULT_LIMITS))
+    assert run(["batch", str(source), "-o", str(output), "--resume", "-q", "-j", "1"]) == 2
+    assert len(output.read_text(encoding="utf-8").splitlines()) == 2
 
 
 # The summary

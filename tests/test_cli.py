@@ -529,9 +529,11 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
 @parametrize(
     ("line", "status"),
     [
-        ("solve - <&-", 0),
-        ("check - <&-", 0),
-        ("batch - <&-", 0),
+        ("solve - <&-", 2),
+        ("check - <&-", 2),
+        ("check - </dev/null", 2),
+        ("batch - <&-", 2),
+        ("batch - </dev/null", 0),
         ("solve x >&-", 5),
         ("evaluate x --x0=0 --y0=1 --dy0=0 --at=1 >&-", 5),
         ("batch - >&- <<<x", 5),
@@ -546,7 +548,7 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
     long=3,
 )
 def test_streams_that_the_shell_has_closed(tmp_path: Path, line: str, status: int) -> None:
-    """Closed input is empty, closed output can't be written, and what closed standard error would get goes nowhere."""
+    """Closed input can't be read, closed output can't be written, and what closed standard error would get goes nowhere."""
     done = subprocess.run(
         ["bash", "-c", f"{sys.executable} -m kovacic {line}"],
         cwd=tmp_path,
@@ -562,12 +564,52 @@ def test_streams_that_the_shell_has_closed(tmp_path: Path, line: str, status: in
         assert [json.loads(line)["status"] for line in answers.read_text().splitlines()] == ["error"]
 
 
-def test_the_checker_alone_takes_closed_input_as_empty() -> None:
-    """As `kovacic check - <&-`."""
+def test_the_checker_alone_has_nothing_to_check_in_closed_input() -> None:
     done = subprocess.run(
         ["bash", "-c", f"{sys.executable} {checker.__file__} <&-"], capture_output=True, text=True, timeout=60
     )
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", "checker: nothing to check\n")
+
+
+_VALUE = "evaluate k*x --x0=0 --y0=1 --dy0=0 --at=1"
+_BALL = "ball --mass 1 --radius 1 --sphere 3"
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("solve x --full", "--full has no effect without --json"),
+        ("solve x --full --latex", "--full has no effect without --json"),
+        ("solve x --json --latex", "--json and --latex exclude each other"),
+        ("solve x --json --no-solutions", "--no-solutions has no effect with --json"),
+        ("solve x --latex --no-solutions", "--no-solutions has no effect with --latex"),
+        ("solve x --latex --explain", "--explain has no effect with --latex"),
+        ("solve a*x --ics y(0)=1 --assume a=positive", "--assume has no effect with --ics"),
+        ("solve x --var x --var x", "--var is given 2 times"),
+        ("dsolve y''=y --json --latex", "--json and --latex exclude each other"),
+        ("explain x --cite --format html", "--format has no effect with --cite"),
+        ("explain x --cite -o answer.html", "--output has no effect with --cite"),
+        ("conditions n/x^2 --json --format html", "--json and --format exclude each other"),
+        ("conditions n/x^2 --latex --all", "--all has no effect with --json, --latex or --format"),
+        ("conditions n/x^2 --format text --explain", "--explain has no effect with --json, --latex or --format"),
+        ("conditions n/x^2 --all --explain", "--all has no effect with --explain"),
+        ("spectrum x^2 --json --latex", "--json and --latex exclude each other"),
+        (f"{_VALUE} --param k=1 --param k=2", "--param k=2: k is 1 already"),
+        (f"{_VALUE} --x0=1 --param k=1", "--x0 is given 2 times"),
+        (f"{_VALUE} --limit degree=1 --limit degree=2", "--limit degree=2: degree is 1 already"),
+        (f"{_BALL} --time 5", "--time has no effect without --simulate or --plot"),
+        (f"{_BALL} --gravity 5", "--gravity has no effect without --simulate or --plot"),
+        (f"{_BALL} --potential cos(u)", "--potential has no effect without --simulate or --plot"),
+        (f"{_BALL} --mass 2", "--mass is given 2 times"),
+        ("ball --ratio 3/2 --offset 1", "--offset has no effect with --ratio"),
+        ("batch - --jobs 1 --jobs 2", "--jobs is given 2 times"),
+    ],
+)
+def test_an_option_without_effect_is_refused(line: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(line.split()) == 2
+    shown = capsys.readouterr()
+    assert message in shown.err
+    assert shown.out == ""
 
 
 @pytest.mark.parametrize("command", [["batch", "-"], ["scan", "x+n", "n=1:3"]])

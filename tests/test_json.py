@@ -357,3 +357,37 @@ def test_a_constant_with_a_reducible_polynomial_is_refuted_by_the_checker(square
     text = kovacic.solve("2").to_json().replace('"input": "2"', f'"input": "{square}"')
     forged = text.replace('"S": "2"', f'"S": "{square}"').replace("c**2 - 2", f"c**2 - {square}")
     assert checker.verdict(forged).partition(":")[0] == said
+
+
+@pytest.mark.parametrize(
+    "text", ["x^2 + 3", "-3/(16*x^2) + 1/x", "y'' + 2*y' + 3*y = 0", "a^2/x^2", "2", "y'' + y = x", "x"]
+)
+def test_derived_fields_that_contradict_the_answer_are_refused(text: str) -> None:
+    """The group and the solutions, where they are present; other solutions of the same equation are no contradiction."""
+    data = json.loads(kovacic.solve(text).to_json(full=True))
+    assert loads(data).verified
+    forged: list[dict[str, Any]] = [
+        {"group": {}},
+        {"group": {**data["group"], "finite": not data["group"]["finite"]}},
+        {"group": {**data["group"], "order": 7}},
+        {"solutions": ["0", "0"]},
+        {"solutions": ["x^2", "1"]},
+        {"solutions": []},
+        {"solutions": "x"},
+    ]
+    if data["solutions"] is not None:
+        y1, y2 = data["solutions"]
+        assert loads({**data, "solutions": [f"2*({y1})", f"({y1}) + 3*({y2})"]}).verified
+        forged += [
+            {"solutions": pair} for pair in ([y1], [y1, f"2*({y1})"], [y1, "0"], [y1, f"x*({y2})"], [y1, y2, y2])
+        ]
+    for change in forged:
+        with pytest.raises(InputError):
+            loads({**data, **change})
+
+
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
+def test_what_json_has_no_number_for_is_refused(number: str) -> None:
+    line = kovacic.solve("x").to_json()
+    with pytest.raises(InputError, match="isn't a number in JSON"):
+        loads(line.replace('"seconds"', f'"mine": {number}, "seconds"'))

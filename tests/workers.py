@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import time
 from functools import partial
 from typing import Any
 
@@ -32,6 +33,17 @@ def without_signals(end: str, channel: Channel) -> None:
         "signal 40": partial(os.kill, os.getpid(), 40),
     }
     _serve(ends[end], channel)
+
+
+def late(channel: Channel) -> None:
+    """Ready at once; sleeps at the fatal item, and answers every other one."""
+    channel.receive()
+    channel.send((0, "none", 0.0, "{}"))
+    while True:
+        (number, text, *_) = channel.receive()
+        if text == FATAL:
+            time.sleep(600)
+        channel.send((number, "none", 0.0, "{}"))
 
 
 def cannot_start(_: Channel) -> None:

@@ -12,24 +12,26 @@ from __future__ import annotations
 import csv
 import gzip
 import io
-import itertools
 import json
 import os
 import sys
 import tempfile
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections import Counter, deque
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, TextIO
 
 from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.shown import strict_json
 
-# Names of the column or key with the expression, in the order in which they are looked for.
+#: Names of the key or column with the expression; and all names that mean something.
 _EXPRESSION_KEYS = ("S", "input", "expression")
+_KEYS = (*_EXPRESSION_KEYS, "id", "var")
 
 # Bytes of a line for each character that an expression may have: UTF-8, and escapes of JSON.
 _BYTES_PER_CHARACTER = 6
@@ -50,21 +52,20 @@ def read_items(
 ) -> Iterator[Item]:
     """The items of "lines", "jsonl" or "csv"; by default JSONL if the first item begins with `{` or `"`, else lines.
 
-    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), and perhaps "id" and "var".  A CSV
-    file has such columns, or no header and the expressions in its first column.  `var` names the variable of all items
-    that don't name one.  What begins like a gzip file is decompressed.  Raises `InputError` where that fails, after the
-    items up to there.
+    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), perhaps "id" and "var", and no other.
+    A CSV file has such columns and any others, which are carried along, or no header and the expressions in its first column.
+    `var` names the variable of all items that don't name one.  What begins like a gzip file is decompressed.  Raises
+    `InputError` where that fails, after the items up to there.
     """
-    lines = _lines(stream, limits.text_length * _BYTES_PER_CHARACTER, var)
-    seen = [*_to_first_with_content(lines)]
-    if form is None and seen and seen[-1].text.lstrip()[:1] in ("{", '"'):
-        form = "jsonl"
-    lines = itertools.chain(seen, lines)
+    longest = limits.text_length * _BYTES_PER_CHARACTER
+    lines = _lines(stream, longest, var)
     if form == "csv":
-        yield from _csv_items(lines, var)
+        yield from _csv_items(lines, longest, var)
         return
     for line in lines:
         text = line.text.strip()
+        if form is None and (text or line.error is not None):
+            form = "jsonl" if text[:1] in ("{", '"') else "lines"
         if line.error is not None:
             yield Item(line.number, text, var, error=line.error)
         elif text and form == "jsonl":
@@ -84,7 +85,7 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
     if isinstance(value, Item):
         return value
     if isinstance(value, str | Mapping):
-        return _plain_item(number, value, str(value), var)
+        return _item_of(number, value, str(value), var)
     from kovacic.reading.read import read_input
 
     try:
@@ -95,7 +96,7 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
 
 
 def _lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
-    """The lines as items, with an error where one is too long, and then nothing of it is kept, or isn't text."""
+    """The lines as items; one that is too long, of which nothing is kept, or isn't text has an error."""
     number = 0
     try:
         raw = stream if isinstance(stream, io.BufferedReader) else io.BufferedReader(stream)  # type: ignore[type-var]
@@ -119,83 +120,164 @@ def _lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
         raise InputError(f"the input can't be read beyond line {number}: {broken}") from None
 
 
-def _to_first_with_content(lines: Iterator[Item]) -> Iterator[Item]:
-    for line in lines:
-        yield line
-        if line.error is not None or line.text.strip():
-            return
-
-
 def _json_item(number: int, text: str, var: str | None) -> Item:
     try:
-        return _plain_item(number, json.loads(text), text, var)
+        return _item_of(number, strict_json(text), text, var)
     except (ValueError, RecursionError) as error:
         return Item(number, text, var, error=ParseError(f"the line isn't JSON: {error}"))
 
 
-def _plain_item(number: int, value: Any, text: str, var: str | None) -> Item:
-    """The item of a string or an object; of anything else, that it is neither."""
+def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
+    """The item of a string or an object; `text` is what a refused line is shown as."""
     if isinstance(value, str):
         return Item(number, value, var)
-    if not isinstance(value, Mapping):
-        hint = 'a string, or an object like {"S": "x^2 + 3"}'
-        return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
-    extra = {"id": value["id"]} if "id" in value else {}
+    extra: dict[str, Any] = {}
     try:
-        json.dumps(extra)
-    except (TypeError, ValueError, RecursionError):
-        wrong = type(extra["id"]).__name__
-        return Item(number, text, var, error=InputError(f"the id is a {wrong}, which JSON doesn't have", hint="a text"))
-    key = next((key for key in _EXPRESSION_KEYS if key in value), None)
-    if key is None:
-        error = InputError(f"there is no key {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
-        return Item(number, text, var, extra, error)
-    own = value.get("var") or var
-    if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
-        return Item(number, text, None, extra, InputError(f"the values of {key!r} and 'var' are strings"))
+        if not isinstance(value, Mapping):
+            hint = 'a string, or an object like {"S": "x^2 + 3"}'
+            raise ParseError("the line is neither a string nor an object", hint=hint)
+        extra = _identified(value)
+        key = _expression_key(value)
+        own = value.get("var") or var
+        if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
+            raise InputError(f"the values of {key!r} and 'var' are strings")
+    except InputError as error:
+        return Item(number, text, None if extra else var, extra, error)
     return Item(number, value[key], own, extra)
 
 
-def _csv_items(lines: Iterable[Item], var: str | None) -> Iterator[Item]:
-    """The rows of a CSV file, which may have several lines."""
-    wrong: list[InputError | LimitExceeded] = []
+def _identified(value: Mapping[Any, Any]) -> dict[str, Any]:
+    """The "id" of an object, which its answer repeats."""
+    if "id" not in value:
+        return {}
+    extra = {"id": value["id"]}
+    try:
+        json.dumps(extra, allow_nan=False)
+    except (TypeError, ValueError, RecursionError):
+        wrong = type(extra["id"]).__name__
+        raise InputError(f"JSON has no such {wrong} as the id", hint="use text") from None
+    return extra
 
-    def texts() -> Iterator[str]:
-        for line in lines:
+
+def _expression_key(value: Mapping[Any, Any]) -> str:
+    """The key of the expression.  Raises `InputError` unless there is exactly one, and for a key that means nothing here."""
+    found = [key for key in _EXPRESSION_KEYS if key in value]
+    if not found:
+        raise InputError(f"there is no key {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
+    if len(found) > 1:
+        raise InputError(f"two keys for one expression: {found[0]!r} and {found[1]!r}", hint="keep one of them")
+    for key in value:
+        if key not in _KEYS:
+            hint = f"the keys are {', '.join(_KEYS)}; an id may be any JSON value"
+            raise InputError(f"unknown key {key!r}", hint=hint)
+    return found[0]
+
+
+def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator[Item]:
+    """The rows of a CSV file.  Without a header the expressions are in the first column."""
+    rows = _Rows(lines, longest)
+    header: list[str] | None = None
+    flaw: InputError | None = None  # of the header, for which no row can be read
+    is_first = True
+    while (row := rows.next(None if header is None else len(header))) is not None:
+        (line, cells) = row
+        number = line.number
+        shown = ",".join(cells) or line.text.strip()
+        if line.error is not None:
+            yield Item(number, shown, var, error=line.error)
+        elif any(cells):
+            if is_first and _is_header(cells):
+                header = cells
+                flaw = _flaw_of(header, number)
+                if flaw is not None:
+                    yield Item(number, shown, var, error=flaw)
+            elif flaw is not None:
+                yield Item(number, shown, var, error=flaw)
+            elif header is None:
+                yield Item(number, cells[0], var)
+            else:
+                yield _row_item(number, header, cells, var)
+        is_first = is_first and line.error is None and not any(cells)
+
+
+class _Rows:
+    """The rows of a CSV file, in which a cell between quotation marks may have several lines.
+
+    Where that makes no row, a quotation mark is unclosed: its line is refused, and the lines behind it are read anew, each for
+    itself, so that none is lost in a cell.
+    """
+
+    def __init__(self, lines: Iterator[Item], longest: int) -> None:
+        self._lines = lines
+        self._longest = longest
+        self._again: deque[Item] = deque()
+
+    def next(self, columns: int | None) -> tuple[Item, list[str]] | None:
+        """The first line of the next row, with its error, and the cells; None at the end."""
+        taken: list[Item] = []
+        try:
+            cells = [cell.strip() for cell in next(csv.reader(self._texts(taken), strict=True), [])]
+            error = None
+        except csv.Error as wrong:
+            cells = []
+            error = ParseError(f"the row isn't CSV: {wrong}")
+        if not taken:
+            return None
+        line = taken[0]
+        if line.error is not None:
+            return line, cells
+        if columns is not None and any(cells) and len(cells) != columns:
+            error = ParseError(f"{len(cells)} cells in a table of {columns} columns")
+        # An even number of quotation marks closes what it opens.
+        if error is not None and line.text.count('"') % 2:
+            error = ParseError("a quotation mark isn't closed", hint='write "" for a quotation mark within quoted text')
+        if error is None:
+            return line, cells
+        self._again.extendleft(reversed(taken[1:]))
+        return replace(line, error=error), cells if len(taken) == 1 else []
+
+    def _texts(self, taken: list[Item]) -> Iterator[str]:
+        """Lines for one row; one with an error, or too much text for an expression, ends it."""
+        size = 0
+        while size <= self._longest:
+            line = self._again.popleft() if self._again else next(self._lines, None)
+            if line is None:
+                return
+            taken.append(line)
             if line.error is not None:
-                wrong.append(line.error)
+                return
+            size += len(line.text)
             yield line.text
 
-    reader = csv.reader(texts())
-    header = None
-    first = True
-    while True:
-        number = reader.line_num + 1
-        row = [""]
-        wrong.clear()
-        try:
-            row = next(reader)
-        except StopIteration:
-            return
-        except csv.Error as error:
-            wrong.append(ParseError(f"the row isn't CSV: {error}"))
-        cells = [cell.strip() for cell in row]
-        if wrong:
-            yield Item(number, ",".join(row), var, error=wrong[0])
-        elif first and any(cell in _EXPRESSION_KEYS for cell in cells):
-            header = cells
-        elif any(cells):
-            yield _csv_item(number, cells, header, var)
-        first = first and not (wrong or any(cells))
+
+def _is_header(cells: list[str]) -> bool:
+    """True for names of columns; also for a line of words, which can be meant as such."""
+    is_of_words = all(map(str.isidentifier, cells)) and any(len(cell) > 1 for cell in cells)
+    return is_of_words or not set(_KEYS).isdisjoint(cells)
 
 
-def _csv_item(number: int, cells: list[str], header: list[str] | None, var: str | None) -> Item:
-    shown = ",".join(cells)
-    if header is None:
-        return Item(number, cells[0], var)
-    if len(cells) != len(header):
-        return Item(number, shown, var, error=ParseError(f"{len(cells)} cells in a table of {len(header)} columns"))
-    return _plain_item(number, dict(zip(header, cells, strict=True)), shown, var)
+def _flaw_of(header: list[str], number: int) -> InputError | None:
+    """What makes a header useless: no column of expressions, or more than one."""
+    repeated = [name for name, count in Counter(header).items() if count > 1]
+    if repeated:
+        return InputError(f"line {number}: two columns have the name {repeated[0]!r}")
+    found = [name for name in _EXPRESSION_KEYS if name in header]
+    if len(found) > 1:
+        return InputError(f"line {number}: two columns for one expression: {found[0]!r} and {found[1]!r}")
+    if found:
+        return None
+    return InputError(
+        f"line {number} is a header without a column 'S', or an expression that looks like one",
+        hint="name the column of the expressions S; if the file has no header, put S as its first line",
+    )
+
+
+def _row_item(number: int, header: list[str], cells: list[str], var: str | None) -> Item:
+    """The item of a row; its answer repeats the columns that mean nothing here as `columns`."""
+    named = dict(zip(header, cells, strict=True))
+    item = _item_of(number, {name: cell for name, cell in named.items() if name in _KEYS}, ",".join(cells), var)
+    others = {name: cell for name, cell in named.items() if name not in _KEYS}
+    return replace(item, extra={**item.extra, "columns": others}) if others else item
 
 
 @contextmanager

@@ -9,7 +9,7 @@ import json
 import os
 from array import array
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -235,9 +235,10 @@ def _without_answer(item: Item, label: str, data: Mapping[str, Any], seconds: fl
 
 
 class Summary:
-    """Counts by case, and the quantiles of the time of an equation."""
+    """Counts by case, and the quantiles of the time of an equation; `before` are the labels of an interrupted run."""
 
-    def __init__(self) -> None:
+    def __init__(self, before: Iterable[str] = ()) -> None:
+        self.before = Counter(before)
         self.counts: Counter[str] = Counter()
         self.slowest: Record | None = None
         self._times = array("d")
@@ -269,5 +270,9 @@ class Summary:
 
     @property
     def exit_status(self) -> int:
-        """As for `kovacic solve`: 4 if a self-check failed, else 2 if an input was bad, else 3 if one is undecided, else 0."""
-        return next((status for label, status in _EXIT_STATUS.items() if self.counts[label]), 0)
+        """As for `kovacic solve`: 4 if a self-check failed, else 2 if an input was bad, else 3 if one is undecided, else 0.
+
+        The answers of the interrupted run count: they are in the same file.
+        """
+        occurring = self.counts + self.before
+        return next((status for label, status in _EXIT_STATUS.items() if occurring[label]), 0)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 from click.core import ParameterSource
 
-from kovacic.cli.options import PICTURE
+from kovacic.cli.options import PICTURE, Command, formats, refuse
 from kovacic.shown import json_line
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class AnswerRow(NamedTuple):
             title = ""
 
 
-@click.command()
+@click.command(cls=Command)
 @click.option("--ratio", metavar="R/R1", help="R/R1 alone, a number or a name: all in x1, x2, the roots of D.")
 @click.option("--mass", metavar="M", help="The ball's mass.")
 @click.option("--radius", metavar="R", help="The ball's radius.")
@@ -64,7 +64,7 @@ class AnswerRow(NamedTuple):
 @click.option("--A1", "a1", metavar="A1", help="The moment of inertia A1 = A2 (default: homogeneous, 2/5 m R^2).")
 @click.option("--A3", "a3", metavar="A3", help="The moment of inertia about the axis (default: 2/5 m R^2).")
 @click.option("--sphere", metavar="R1", help='The sphere\'s radius (negative: rolling inside), or "plane".')
-@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+@formats(json="One JSON object.")
 @click.option("--latex", is_flag=True, help="The equations in LaTeX, for $...$.")
 @click.option(
     "--explain",
@@ -84,7 +84,7 @@ class AnswerRow(NamedTuple):
 )
 @click.option("--time", "end", metavar="T", default="20", show_default=True, help="The motion from 0 to this time.")
 @click.option("--plot", metavar="FILE", type=PICTURE, help="A picture (png, pdf, svg).")
-def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
+def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
     """A ball with an axially symmetric mass distribution that rolls on a sphere.
 
     Numbers are exact: 3/2, 0.25, sqrt(2), and only the motion is computed in floating point.  Any consistent units; moments
@@ -99,8 +99,10 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     kovacic ball --mass 1 --radius 1 --sphere 3 --simulate --plot path.png
     """
     if explain and not _names_a_ball():
-        _explain_all(as_json=as_json, latex=latex)
+        _explain_all(as_json=form == "json", latex=latex)
         return
+    if not given["simulate"] and given["plot"] is None:
+        refuse({"start", "end", *_FORCE}, "without --simulate or --plot")
     place = _place(given)
     rows = _answer(place, latex=latex)
     motion: list[AnswerRow] = []
@@ -108,7 +110,7 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
         force = {name: given[name] for name in _FORCE}
         motion = _simulate(place, start=given["start"], end=given["end"], plot=given["plot"], **force)
     derivation = _derivation(latex=latex) if explain else {}
-    if as_json:
+    if form == "json":
         data = {**derivation, **_in_json(rows)}
         if motion:
             data["motion"] = _in_json(motion)
@@ -175,6 +177,7 @@ def _place(given: Mapping[str, Any]) -> Rolling:
 
 def _demand_ratio_alone(given: Mapping[str, Any]) -> None:
     """R/R1 says nothing of moments or of a motion."""
+    refuse({"offset"}, "with --ratio")
     is_alone = all(given[name] is None for name in ("mass", "radius", "sphere", "a1", "a3", "plot"))
     if given["simulate"] or not is_alone:
         raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")

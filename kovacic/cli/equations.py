@@ -20,15 +20,13 @@ if TYPE_CHECKING:
 
     from kovacic.solution import Solution
 
-#: The formats of an explanation, by the suffixes of files.
-_FORMATS = {".html": "html", ".md": "markdown", ".tex": "latex", ".txt": "text"}
-
 
 @options.equation_command()
 @click.argument("equations", metavar="S...", nargs=-1, required=True)
-@click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each equation.")
+@options.formats(
+    json="One JSON object (schema 1) a line for each equation.", latex="The equation and its solutions in LaTeX."
+)
 @click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
-@click.option("--latex", is_flag=True, help="The equation and its solutions in LaTeX.")
 @click.option("--no-solutions", is_flag=True, help="Only the verdict and omega: faster.")
 @click.option("--explain", "derived", is_flag=True, hidden=True)
 @click.option("--ics", multiple=True, hidden=True)
@@ -40,9 +38,8 @@ def solve(
     context: click.Context,
     /,
     equations: tuple[str, ...],
-    as_json: bool,
+    form: str,
     full: bool,
-    latex: bool,
     no_solutions: bool,
     derived: bool,
     ics: tuple[str, ...],
@@ -61,16 +58,23 @@ def solve(
     """
     from kovacic.views.text import render, solution_lines
 
+    if form != "json":
+        options.refuse({"full"}, "without --json")
+    if form != "text":
+        options.refuse({"no_solutions", "derived"}, f"with --{form.replace('formula', 'latex')}")
     if derived:  # the former names of what explain and dsolve do
+        options.refuse({"ics"}, "with --explain")
         return int(context.invoke(explain, equations=equations, no_solutions=no_solutions, **given))
     if ics:
+        options.refuse({"assume", "full", "no_solutions"}, "with --ics")
         del given["assume"]
-        return _with_values(context, equations, ", ".join(ics), latex=latex, as_json=as_json, **given)
+        chosen = {"as_json": form == "json", "as_formula": form == "formula"}
+        return _with_values(context, equations, ", ".join(ics), **chosen, **given)
 
     def show(answer: Solution) -> Iterable[str]:
-        if as_json:
+        if form == "json":
             return (answer.to_json(full=full),)
-        if latex:
+        if form == "formula":
             return (answer._repr_latex_(),)
         solutions: Iterable[str] | None = None
         if not no_solutions:
@@ -78,8 +82,8 @@ def solve(
             solutions = solution_lines(answer) if homogeneous else _inhomogeneous(answer)
         return map(fitted, render(answer, style=options.styled, solutions=solutions))
 
-    refuse = _print_refusal if as_json else None
-    gap = "" if as_json or latex else "\n"
+    refuse = _print_refusal if form == "json" else None
+    gap = "\n" if form == "text" else ""
     return options.answer_each(equations, show, gap=gap, refuse=refuse, **given)
 
 
@@ -121,8 +125,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
 
 @options.equation_command()
 @click.argument("equation", metavar="EQUATION")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1).")
-@click.option("--latex", is_flag=True, help="The solution in LaTeX.")
+@options.formats(json="One JSON object (schema 1).", latex="The solution in LaTeX.")
 @click.option(
     "--ics",
     metavar="VALUES",
@@ -132,7 +135,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
 )
 @options.VAR
 @options.LIMIT
-def dsolve(equation: str, as_json: bool, latex: bool, ics: str, **given: Any) -> int:
+def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
     """The general solution of a linear equation of second order; with values, or --ics, the one that has these.
 
     The right-hand side may contain exp, log, sin, cos and the like.  Where nothing is Liouvillian, special functions are
@@ -147,22 +150,21 @@ def dsolve(equation: str, as_json: bool, latex: bool, ics: str, **given: Any) ->
     from kovacic.general_solution import NothingKnown
 
     try:
-        if as_json:
+        if form == "json":
             print(_solution_in_json(equation, ics, **given))
             return DECIDED
         with options.waiting("solving"):
-            lines = list(_solution_lines(equation, latex=latex, ics=ics, **given))
+            lines = list(_solution_lines(equation, latex=form == "formula", ics=ics, **given))
         for line in lines:
-            shown = line if latex else fitted(line)
-            print(shown)
+            print(fitted(line) if form == "text" else line)
         return DECIDED
     except KovacicError as error:
-        if as_json:
+        if form == "json":
             _print_refusal(equation, error)
         raise
     except NotImplementedError as reason:
         is_proven = isinstance(reason, NothingKnown) and reason.is_proven
-        if as_json:
+        if form == "json":
             status = "none" if is_proven else "undecided"
             print(json_line({"schema": 1, "input": equation, "status": status, "reason": str(reason)}))
         elif is_proven:
@@ -226,18 +228,16 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 
 @options.equation_command()
 @click.argument("equations", metavar="EQUATION...", nargs=-1, required=True)
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "markdown", "latex", "html"]),
-    help="Text (the default); Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, "
+@options.formats(
+    choice="Text (the default); Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, "
     "graphicx); or a page of its own for a browser.",
+    suffixes=options.DOCUMENTS,
 )
 @click.option(
     "-o",
     "--output",
-    type=options.OutputFile(tuple(_FORMATS)),
-    help=f"Write to this file; without --format its suffix says which: {', '.join(_FORMATS)}.",
+    type=options.OutputFile(tuple(options.DOCUMENTS)),
+    help=f"Write to this file; without --format its suffix says which: {', '.join(options.DOCUMENTS)}.",
 )
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
@@ -246,7 +246,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 @options.LIMIT
 def explain(
     equations: tuple[str, ...],
-    form: str | None = None,
+    form: str,
     output: Path | None = None,
     cite: bool = False,
     no_solutions: bool = False,
@@ -258,8 +258,8 @@ def explain(
     kovacic explain "x^2 + 3"
     kovacic explain "x^2*y'' + x*y' + (x^2-1/4)*y = 0" -o bessel.html
     """
-    if form is None:
-        form = "text" if output is None else _FORMATS[output.suffix.lower()]
+    if cite:
+        options.refuse({"form", "output", "no_solutions"}, "with --cite")
     if output is not None and (len(equations) > 1 or equations == ("-",)):
         raise click.UsageError("--output takes the explanation of one equation")
 

@@ -105,11 +105,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _open_closed_streams() -> None:
     """Stand in for the standard streams that the caller has closed (`<&-`, `>&-`, `2>&-`), which Python gives as None.
 
-    Closed input is empty.  Closed output fails when it is written to, as it would in C.  Closed standard error swallows
-    what it gets; left as it is, `print` would put messages among the data, and an output file could get its number.
+    Closed input fails when it is read and closed output when it is written to, as they would in C: hence the descriptors that
+    are open in the other direction only.  Closed standard error swallows what it gets; left as it is, `print` would put
+    messages among the data, and an output file could get its number.
     """
     if sys.stdin is None:
-        _occupy(0, os.O_RDONLY)
+        _occupy(0, os.O_WRONLY)
         sys.stdin = open(0, encoding="utf-8")  # noqa: SIM115 - it stays until the end, as do the others
     if sys.stdout is None:
         _occupy(1, os.O_RDONLY)

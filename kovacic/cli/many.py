@@ -52,7 +52,7 @@ def _batch_options(command: Command) -> Command:
     return command
 
 
-@click.command()
+@click.command(cls=options.Command)
 @click.argument("file", metavar="FILE", type=click.File("rb"))
 @click.option("-o", "--output", type=options.OutputFile(), help="Append the answers to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted run up again: answer what the output file lacks.")
@@ -99,7 +99,12 @@ def batch(
 @click.argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
 @click.option("-o", "--output", type=options.OutputFile(), help="Write to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted scan up again (JSONL).")
-@click.option("--format", "form", type=click.Choice(["jsonl", "csv"]), help="By default by the name of the output.")
+@options.formats(
+    choice="By default by the name of the output.",
+    choices=("jsonl", "csv"),
+    suffixes={".csv": "csv"},
+    default="jsonl",
+)
 @click.option("--map", "picture", type=options.PICTURE, help="Draw two parameters as a map (png, pdf, svg).")
 @click.option("--group/--no-group", default=True, show_default=True, help="The differential Galois group.")
 @click.option("--var", metavar="NAME", help="The name of the variable; by default x, or what isn't a parameter.")
@@ -109,7 +114,7 @@ def scan(
     ranges: tuple[str, ...],
     output: Path | None,
     resume: bool,
-    form: str | None,
+    form: str,
     picture: Path | None,
     var: str | None,
     **run: Any,
@@ -132,8 +137,6 @@ def scan(
     grids = [parse_grid(text) for text in ranges]
     if picture is not None and len(grids) != 2:
         raise click.UsageError("a map needs two parameters")
-    if form is None:
-        form = "csv" if output is not None and output.suffix == ".csv" else "jsonl"
     if resume and form == "csv":
         raise click.UsageError("--resume needs --output FILE.jsonl, the file of the interrupted scan")
     done = _already_answered(output, resume)
@@ -211,11 +214,11 @@ def _answer_all(
     job = Job(**run)
     if job.backend == "dask":
         _hush_dask()
-    summary = Summary()
+    summary = Summary(before=done.labels.values())
     start = time.monotonic()
     with ExitStack() as stack:
         if not quiet:
-            stack.callback(lambda: _print_summary(summary, len(done), time.monotonic() - start))
+            stack.callback(lambda: _print_summary(summary, time.monotonic() - start))
         wanted = not on_screen if progress is None else progress
         refresh = None
         if wanted and sys.stderr.isatty():
@@ -262,7 +265,7 @@ def _progress(summary: Summary, total: int | None) -> Iterator[Callable[[], None
             bar.update(summary.total - bar.pos)
 
 
-def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
+def _print_summary(summary: Summary, seconds: float) -> None:
     """Counts by case and the times, on standard error."""
     from kovacic.writing.document import FORMATS, Paragraph, Table
 
@@ -272,6 +275,6 @@ def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
         quantiles = f"median {summary.quantile(0.5):.2g} s, 90 % within {summary.quantile(0.9):.2g} s"
         slowest = f"slowest {summary.slowest.seconds:.2g} s (line {summary.slowest.number})"
         lines.insert(0, f"time of an equation: {quantiles}, {slowest}")
-    if answered:
-        lines.insert(0, f"{answered} more had been answered before")
+    if summary.before:
+        lines.insert(0, f"{summary.before.total()} more had been answered before")
     print(FORMATS["text"].render([counts, Paragraph("\n".join(lines))]), end="", file=sys.stderr)

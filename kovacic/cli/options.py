@@ -7,23 +7,28 @@ import re
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import fields, replace
-from functools import partial
+from functools import partial, wraps
 from itertools import islice, repeat
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED, reported
-from kovacic.errors import KovacicError
+from kovacic.errors import InputError, KovacicError
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from kovacic.limits import Limits
     from kovacic.solution import Solution
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class OutputFile(click.Path):
@@ -51,12 +56,56 @@ _CODE = re.compile(r"\x1b\[\d*m")
 _CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 
 
+#: The formats of documents, by the suffixes of files.
+DOCUMENTS = {".html": "html", ".md": "markdown", ".tex": "latex", ".txt": "text"}
+
+
+def formats(
+    *,
+    json: str | None = None,
+    latex: str | None = None,
+    choice: str | None = None,
+    choices: Sequence[str] = ("text", "markdown", "latex", "html"),
+    suffixes: Mapping[str, str] | None = None,
+    default: str = "text",
+) -> Callable[[Function], Function]:
+    """The options --json, --latex and --format, those that have a help text here, for what a command prints.
+
+    The command gets a single keyword `form`: "json"; "formula" for --latex; what --format or the suffix of --output says; or
+    the default.  Two of them at once are refused.
+    """
+    found = {
+        "as_json": json and click.option("--json", "as_json", is_flag=True, help=json),
+        "as_formula": latex and click.option("--latex", "as_formula", is_flag=True, help=latex),
+        "form": choice and click.option("--format", "form", type=click.Choice(choices), help=choice),
+    }
+
+    def decorate(command: Function) -> Function:
+        @wraps(command)
+        def with_form(
+            *arguments: Any, as_json: bool = False, as_formula: bool = False, form: str | None = None, **given: Any
+        ) -> Any:
+            asked = {"--json": as_json and "json", "--latex": as_formula and "formula", "--format": form}
+            chosen = [name for name, value in asked.items() if value]
+            if len(chosen) > 1:
+                raise click.UsageError(f"{' and '.join(chosen)} exclude each other")
+            output = given.get("output")
+            named = (suffixes or {}).get(output.suffix.lower()) if output is not None else None
+            return command(*arguments, form=asked[chosen[0]] if chosen else named or default, **given)
+
+        for option in reversed([option for option in found.values() if option]):
+            with_form = option(with_form)
+        return with_form  # type: ignore[return-value]
+
+    return decorate
+
+
 def parse_limits(settings: Sequence[str]) -> Limits:
     """The default limits with the given changes, each `NAME=VALUE`.  Raises `click.UsageError`."""
     from kovacic.limits import DEFAULT_LIMITS
 
-    limits = DEFAULT_LIMITS
-    names = [field.name for field in fields(limits)]
+    names = [field.name for field in fields(DEFAULT_LIMITS)]
+    changes: dict[str, Any] = {}
     for setting in settings:
         name, separator, value = setting.partition("=")
         name = name.strip().replace("-", "_")
@@ -68,8 +117,10 @@ def parse_limits(settings: Sequence[str]) -> Limits:
             raise click.UsageError(f"--limit {setting}: {value!r} isn't a number") from None
         if not number > 0:
             raise click.UsageError(f"--limit {setting}: a limit is positive")
-        limits = replace(limits, **{name: number})
-    return limits
+        if name in changes:
+            raise click.UsageError(f"--limit {setting}: {name} is {changes[name]} already")
+        changes[name] = number
+    return replace(DEFAULT_LIMITS, **changes)
 
 
 def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
@@ -100,11 +151,37 @@ def parse_values(settings: Sequence[str]) -> dict[str, str] | None:
         name, separator, value = (part.strip() for part in setting.partition("="))
         if not (separator and name and value):
             raise click.UsageError(f"--param {setting}: write NAME=NUMBER, such as n=1/2")
+        if name in found:
+            raise click.UsageError(f"--param {setting}: {name} is {found[name]} already")
         found[name] = value
     return found or None
 
 
-class EquationCommand(click.Command):
+class Command(click.Command):
+    """A command that refuses a value given twice: click would take the last one without a word."""
+
+    def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
+        _, _, order = self.make_parser(context).parse_args(list(args))
+        for parameter, count in Counter(order).items():
+            if count > 1 and isinstance(parameter, click.Option) and not _is_repeatable(parameter):
+                raise click.UsageError(f"{max(parameter.opts, key=len)} is given {count} times", context)
+        return super().parse_args(context, args)
+
+
+def _is_repeatable(option: click.Option) -> bool:
+    return option.multiple or option.is_flag or option.count
+
+
+def refuse(names: Iterable[str], beside: str) -> None:
+    """Raise `click.UsageError` if one of these parameters was given: it would have no effect, for the reason `beside`."""
+    context = click.get_current_context()
+    for parameter in context.command.params:
+        source = context.get_parameter_source(parameter.name or "")
+        if parameter.name in names and source is ParameterSource.COMMANDLINE:
+            raise click.UsageError(f"{max(parameter.opts, key=len)} has no effect {beside}")
+
+
+class EquationCommand(Command):
     """A command with expressions among its arguments: what isn't exactly the name of an option is one, -x^2 and -j*x too.
 
     Beside the names, -j4 and -vv are options.  Two minus signs and a word are an option always, a misspelt one perhaps.
@@ -313,10 +390,13 @@ def answer_each(
 def _expressions(arguments: Sequence[str]) -> Iterator[str]:
     """The arguments, `-` standing for the lines of standard input; empty lines and those beginning with # are skipped."""
     for argument in arguments:
-        if argument == "-":
-            yield from (text for line in sys.stdin if (text := line.strip()) and not text.startswith("#"))
-        else:
+        if argument != "-":
             yield argument
+            continue
+        try:
+            yield from (text for line in sys.stdin if (text := line.strip()) and not text.startswith("#"))
+        except OSError as error:
+            raise InputError(f"standard input can't be read: {error.strerror}") from None
 
 
 def fitted(text: str) -> str:

@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 @click.option("--at", "points", required=True, multiple=True, metavar="NUMBERS", help='Where: 1,5/2,0.1,"1+2*I".')
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits.")
 @click.option("--path", type=click.Choice(["above", "below"]), help="The side on which singular points are passed.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each point.")
+@options.formats(json="One JSON object (schema 1) a line for each point.")
 @options.PARAM
 @options.VAR
 @options.VERBOSE
 @options.LIMIT
-def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, as_json: bool, **given: Any) -> None:
+def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form: str, **given: Any) -> None:
     """Values of one solution of y'' = S(x) y, or of an equation with y'' in it, and of its derivative.
 
     The exact value differs from what is printed by at most the bound after it; that is proven.  Numbers are exact: integers,
@@ -55,7 +55,7 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, as_j
     ):
         found = evaluate(equation, places, derivative=True, frobenius=basis, **given)
     for place, (y, dy) in zip(places, found, strict=True):
-        if as_json:
+        if form == "json":
             print(json_line({"schema": 1, "input": equation, "x": place, "y": y.to_dict(), "dy": dy.to_dict()}))
         else:
             print(f"y({place}) = {y}")
@@ -106,13 +106,11 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
 
 @options.equation_command()
 @click.argument("equation", metavar="S")
-@click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
-@click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "markdown", "latex", "html"]),
-    help="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; the body of a LaTeX document "
+@options.formats(
+    json="One line of JSON.",
+    latex="A LaTeX formula.",
+    default="summary",
+    choice="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; the body of a LaTeX document "
     "(amsmath, amssymb, graphicx); or a page of its own for a browser.",
 )
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
@@ -122,16 +120,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
 @click.option("--explain", "explained", is_flag=True, help="What each region follows from, and its solutions.")
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @options.LIMIT
-def conditions(
-    equation: str,
-    as_json: bool,
-    as_latex: bool,
-    form: str | None,
-    everything: bool,
-    explained: bool,
-    samples: int | None,
-    **given: Any,
-) -> int:
+def conditions(equation: str, form: str, everything: bool, explained: bool, samples: int | None, **given: Any) -> int:
     """For which values of its parameters does y'' = S(x) y have Liouvillian solutions?
 
     \b
@@ -141,23 +130,24 @@ def conditions(
     """
     from kovacic.parameters import conditions
 
+    if form != "summary":
+        options.refuse({"everything", "explained"}, "with --json, --latex or --format")
+    if explained:
+        options.refuse({"everything"}, "with --explain")
     with options.waiting("searching"):
         answer = conditions(equation, **given)
         report = None if samples is None else answer.check(samples)
-        if as_json:
+        if form == "json":
             shown = answer.to_json()
-        elif as_latex:
+        elif form == "formula":
             shown = answer.latex()
-        elif form is not None:
-            theorem = answer.theorem(format=form).rstrip("\n")
-            shown = options.fitted(theorem) if form == "text" else theorem
+        elif form == "summary":
+            shown = answer.explain() if explained else answer.text(all=everything)
         else:
-            text = answer.explain() if explained else answer.text(all=everything)
-            shown = options.fitted(text)
-    print(shown)
+            shown = answer.theorem(format=form).rstrip("\n")
+    print(options.fitted(shown) if form in ("text", "summary") else shown)
     if report is not None:
-        is_for_programs = as_json or as_latex or form is not None
-        stream = sys.stderr if is_for_programs else sys.stdout
+        stream = sys.stdout if form == "summary" else sys.stderr
         print(f"  {_agreement(report)}", file=stream)
         if not report:
             return CHECK_FAILED
@@ -184,10 +174,9 @@ def _agreement(report: CheckReport) -> str:
 @options.ASSUME
 @click.option("--boundary", type=click.Choice(["friedrichs"]), help="The smaller solution, where one must be chosen.")
 @click.option("--max-degree", default=2, show_default=True, help="Quasi-exactly solvable levels up to this degree d.")
-@click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
-@click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
+@options.formats(json="One line of JSON.", latex="A LaTeX formula.")
 @options.LIMIT
-def spectrum(potential: str, start: str, stop: str, as_json: bool, as_latex: bool, **given: Any) -> int:
+def spectrum(potential: str, start: str, stop: str, form: str, **given: Any) -> int:
     """For which energies E has -y'' + V y = E y a square integrable solution?
 
     \b
@@ -198,9 +187,9 @@ def spectrum(potential: str, start: str, stop: str, as_json: bool, as_latex: boo
 
     with options.waiting("searching"):
         answer = spectrum(potential, domain=(start, stop), **given)
-    if as_json:
+    if form == "json":
         print(answer.to_json())
-    elif as_latex:
+    elif form == "formula":
         print(answer.latex())
     else:
         print(options.fitted(answer.text(shell=True)))

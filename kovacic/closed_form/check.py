@@ -116,6 +116,16 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
     return abs(sum(terms)) / scale
 
 
+def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
+    """True if the Wronskian of the expressions is proven not to vanish at the point of `is_numerical_solution`."""
+    from kovacic.closed_form.jets import jet
+
+    with ctx.workdps(DIGITS + 15):
+        point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
+        first, second = (jet(y, variable, point) for y in (y1, y2))
+        return not (first[0] * second[1] - first[1] * second[0]).contains(0)
+
+
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
     """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?
 

@@ -15,7 +15,6 @@ Keys may be added within schema 1; none is removed or changes its meaning.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -47,7 +46,7 @@ from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.read import read_input
 from kovacic.reading.written import WrittenReader
-from kovacic.shown import json_line
+from kovacic.shown import json_line, strict_json
 from kovacic.verify import verify
 from kovacic.verify.factors import is_a_field
 from kovacic.verify.identity import form_numerators
@@ -71,8 +70,8 @@ def dumps(answer: Answer, *, full: bool = False) -> str:
 def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
     """The answer that `dumps` wrote (or the object that the line stands for), verified again: its `verified` isn't believed.
 
-    What is said twice must agree, and the group, where it is given, must be that which is computed anew; `seconds`, `notices`,
-    `solutions`, the evidence for the group and keys of the user's own aren't looked at.
+    What is said twice must agree; a group must be the one that is computed anew, and solutions must solve the equation.
+    `seconds`, `notices`, the evidence for the group and keys of the user's own aren't looked at.
 
     Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself, and `VerificationFailed` where the
     answer doesn't pass its check, unless `unverified` says that it is wanted all the same.
@@ -85,7 +84,7 @@ def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
 
 def _loaded(text: str | Mapping[str, Any]) -> Answer:
     try:
-        data = json.loads(text, object_pairs_hook=_once) if isinstance(text, str) else text
+        data = strict_json(text) if isinstance(text, str) else text
     except (ValueError, RecursionError) as error:
         raise InputError(f"this isn't JSON: {error}") from None
     if not isinstance(data, Mapping):
@@ -221,6 +220,7 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     if verified:
         _check_invariant(answer)
         _check_group(answer, data.get("group"))
+        _check_solutions(answer, data.get("solutions"))
     return answer
 
 
@@ -287,14 +287,6 @@ _MAY_BE_ABSENT = {"field", "generic_conditions", "equation", "gauge", "change", 
 #: What is said of a group, and what shows it, which is computed anew.
 _FACTS = ("name", "order", "finite", "family", "n")
 _EVIDENCE = {"form", "function", "orders"}
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """A JSON object, whose keys must be different."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise ValueError("a key occurs twice in one object")
-    return found
 
 
 def _demand_the_same(found: Any, written: Any, path: str) -> None:
@@ -366,10 +358,37 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
         return
     found = group_dict(answer)
     if found is None:
-        return
+        raise ValueError("a group, where none is found")
     said = {key: value for key, value in data.items() if key not in _EVIDENCE}
-    facts = {key: found[key] for key in _FACTS if key in data}
+    # Older versions write neither the family nor n.
+    facts = {key: found[key] for key in _FACTS if key in data or key in ("name", "order", "finite")}
     _demand_the_same(said, facts, "group")
+
+
+def _check_solutions(answer: Answer, texts: Any) -> None:
+    """Raises `ValueError` where the solutions are neither those that are computed anew nor others of the same equation."""
+    if texts is None:
+        return
+    found = derived.solutions(answer)
+    if not found:
+        raise ValueError("solutions, where there is none")
+    if texts == [as_text(y) for y in found]:
+        return
+    from sympy import Symbol
+
+    from kovacic.closed_form.check import are_independent, is_numerical_solution
+    from kovacic.reading.symbolic import read_expression
+
+    # Another version may write them in another way, but not in another variable.
+    if not isinstance(texts, list) or len(texts) != 2 or not all(isinstance(text, str) for text in texts):
+        raise ValueError("two solutions are expected")
+    variable = Symbol(answer.variable)
+    y1, y2 = (read_expression(text, what="a solution", limits=_LIMITS) for text in texts)
+    # The residual is relative to y, which the Wronskian shows not to vanish.
+    if not are_independent(y1, y2, variable) or not all(
+        is_numerical_solution(y, variable, answer.S, answer.gauge) for y in (y1, y2)
+    ):
+        raise ValueError("the solutions aren't those of the equation")
 
 
 def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
