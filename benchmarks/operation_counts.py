@@ -1,4 +1,4 @@
-"""How much work the published equations take, counted in operations: the same on every machine.
+"""How much work equations take, published ones and some with many or irreducible poles: operations, the same on every machine.
 
     python benchmarks/operation_counts.py            compare with the recorded counts; exit status 1 if they differ
     python benchmarks/operation_counts.py --accept   record the counts of this version
@@ -11,6 +11,8 @@ One that has been renamed or moved stops this program, so that nothing is silent
     primes          primes that were taken
     systems         sizes (rows x columns) of the linear systems, in the order in which they were solved
     verifications   forms and polynomials of omega checked, and pieces of evidence recomputed
+    roots           degrees of the polynomials whose roots modulo a prime the kernel looked for
+    factors         degrees over Q of the polynomials that were factored over number fields
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ import pkgutil
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from functools import wraps
 from pathlib import Path
 from typing import Any
@@ -44,6 +46,8 @@ class Counts:
     primes: int = 0
     systems: list[str] = field(default_factory=list)
     verifications: int = 0
+    roots: int = 0
+    factors: int = 0
 
 
 # Where the function lives, its name, and what a call adds to the counts: (counts, arguments by name or position).
@@ -74,6 +78,15 @@ def _verification(counts: Counts, arguments: tuple[Any, ...], options: dict[str,
     counts.verifications += 1
 
 
+def _roots(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    counts.roots += arguments[0].degree
+
+
+def _factors(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    number_field, polynomial = arguments
+    counts.factors += polynomial.degree * number_field.absolute_degree
+
+
 def _exact_term(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
     counts.exact_terms += 1
 
@@ -87,6 +100,7 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.engine.expansion", "_null_vector"): _system,
     ("kovacic.verify", "_omega_holds"): _verification,
     ("kovacic.verify.primes", "homomorphisms_modulo"): _prime,
+    ("kovacic.verify.primes", "roots_modulo"): _roots,
     ("kovacic.verify.series", "solutions_at_ordinary_point"): _terms(2),
     ("kovacic.verify.series", "product_of_powers"): _terms(1),
     ("kovacic.verify.series", "solution_at_singular_point"): _terms(3),
@@ -94,6 +108,7 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.verify.series", "nullity"): _rank,
 }
 METHODS: dict[tuple[str, str, str], Rule] = {
+    ("kovacic.algebra.extension", "AlgebraicField", "factor"): _factors,
     ("kovacic.algebra.recurrence", "RationalSeries", "extend"): _exact_term,
     ("kovacic.algebra.recurrence", "FieldSeries", "extend"): _exact_term,
     ("kovacic.engine.riccati", "Form", "numerators"): _verification,
@@ -166,9 +181,22 @@ def load_engine() -> None:
     kovacic.solve("x^2 + 3")
 
 
+#: Irreducible poles of high order and degree, and many poles; no published equation has them.
+POLES = {
+    "pole of order 4 and degree 20": "1/(x^20 - x - 1)^4",
+    "pole of order 4 and degree 30": "1/(x^30 - x - 1)^4",
+    "pole of order 4 and degree 12, the root of x^2": "x^2/(x^12 + x + 1)^4",
+    "pole of order 4 and degree 9, a longer root": "(x^5 - 3*x + 2)^2/(x^9 - 4*x^6 + 2*x + 5)^4",
+    "pole of order 6 and degree 8": "(x^2 + 1)/(x^8 + 3*x^5 - x + 7)^6",
+    "double pole of degree 60": "2/(x^60 - 7*x^31 + 5*x^2 - 3*x + 11)^2",
+    "double poles at 1, ..., 60": " + ".join(f"{k * (k + 1)}/(x - {k})^2" for k in range(1, 61)),
+}
+
+
 def corpus() -> dict[str, str]:
-    """The published equations: their names, and S."""
-    return {row["id"]: row["S"] for row in map(json.loads, CORPUS.read_text().splitlines())}
+    """The published equations, and those of `POLES`: their names, and S."""
+    published = {row["id"]: row["S"] for row in map(json.loads, CORPUS.read_text().splitlines())}
+    return published | POLES
 
 
 def measure() -> dict[str, dict[str, Any]]:
@@ -193,14 +221,14 @@ def differences(old: dict[str, dict[str, Any]], new: dict[str, dict[str, Any]]) 
     """What has changed, one line for each count, the totals last."""
     lines = []
     for name in sorted(old.keys() | new.keys()):
-        for key in ("series_terms", "exact_terms", "primes", "systems", "verifications"):
+        for key in (f.name for f in fields(Counts)):
             before, after = old.get(name, {}).get(key), new.get(name, {}).get(key)
             if before != after:
                 lines.append(f"{name}: {key} {before} -> {after}")
     if lines:
         lines += [
-            f"all: {key} {sum(c[key] for c in old.values())} -> {sum(c[key] for c in new.values())}"
-            for key in ("series_terms", "exact_terms", "primes", "verifications")
+            f"all: {key} {sum(c.get(key, 0) for c in old.values())} -> {sum(c.get(key, 0) for c in new.values())}"
+            for key in (f.name for f in fields(Counts) if f.name != "systems")
         ]
     return lines
 

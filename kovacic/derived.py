@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from kovacic.answer import Answer, computed_once
+from kovacic.decision import GroupClaim
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, limited
 from kovacic.verify import Verification, verify
@@ -110,6 +111,8 @@ def verification(answer: Answer) -> Verification:
     """Every claim recomputed, the group's too, by independent code; true exactly when all of them hold."""
     from kovacic.galois import group_of
 
-    of_decision = verify(answer.S, answer.decision)
-    found = group_of(answer.S, answer.decision, answer.limits) if of_decision else None
-    return of_decision if found is None else verify(answer.S, answer.decision, found.claim)
+    def claim() -> GroupClaim | None:
+        found = group_of(answer.S, answer.decision, answer.limits)
+        return None if found is None else found.claim
+
+    return verify(answer.S, answer.decision, claim)

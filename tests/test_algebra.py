@@ -579,3 +579,21 @@ def test_reduction_at_a_pole(r: RatFunc, p: Poly, order: int, alpha: Fraction, n
     W, rest, _ = reduce_poles(r, slope, apart=QQ.poly([0, 1]))
     assert W.derivative() + W * slope + rest == r
     assert rest.den.remove(p)[1] <= 1
+
+
+@pytest.mark.parametrize(
+    ("modulus", "over"),
+    [([1, 0, -10, 0, 1], None), ([576, 0, -960, 0, 352, 0, -40, 0, 1], None), ([-3, 1, 0, 0, 0, 1], None),
+     ([-2, 0, 0, 1], [-5, 0, 1]), ([1, 0, 1], [-2, 0, 0, 1])],
+)  # fmt: skip
+def test_square_roots_in_number_fields(modulus: list[int], over: list[int] | None) -> None:
+    """Of squares of generators, of squares in smaller fields whose roots are outside of these, and of what is no square."""
+    field = AlgebraicField(QQ, QQ.poly(modulus))
+    if over is not None:
+        field = AlgebraicField(field, field.poly([*over]), "d")
+    c = field.generator
+    for root in (c, c * c + 3, c**3 - 2 * c + 7, c**2 * c - 11 * c, (c + 4).inverse(), field.poly([5])):
+        found = field.sqrt(root * root)
+        assert found in (root, -root)
+        assert field.sqrt(root * root * 7) is None
+        assert field.sqrt(root * root * (c * c + 1000)) is None

@@ -18,10 +18,15 @@ import kovacic
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.invariants import least_valuation
 from kovacic.verify import forms
-from kovacic.verify.residue import exponent_difference_squared
+from kovacic.verify.residue import residue_over_leading_root
 from kovacic.verify.zeros import zero_counts
 
 X = RatFunc(QQ.poly([0, 1]))
+
+
+def exponent_difference_squared(N: Any, q: Any, p: Any, nu: int) -> Any:
+    """(2 r)^2 for the residue r of sqrt(N/(p^(2 nu) q)), by the kernel."""
+    return 4 * N * q * residue_over_leading_root(N, q, p, nu) ** 2 % p
 
 
 @settings(max_examples=12)

@@ -11,16 +11,17 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import count
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, nmod_poly
 
 from kovacic.algebra import splitting
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Lifter, inverse_by_primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
-from kovacic.algebra.traces import coefficients_from_traces, power_sums
+from kovacic.algebra.traces import characteristic_polynomial, coefficients_from_traces, power_sums
 from kovacic.exact import radical
 from kovacic.limits import check_time
 
@@ -144,12 +145,29 @@ class AlgebraicField(Field):
                 square = self.modulus[1] * self.modulus[1] / 4 - self.modulus[0]
                 root = self.base.sqrt(value.parts[0] / square)
                 return None if root is None else middle * root
-        if self.base.sqrt(norm(value)) is None:  # that of a square is one
+        return self._sqrt_of_irrational(value)
+
+    def _sqrt_of_irrational(self, value: ExtensionPoly) -> ExtensionPoly | None:
+        """A square root r of e, whose characteristic polynomial mu over K is irreducible once e generates K(c).
+
+        Then mu(Y^2) = f(Y) f(-Y) up to its sign, f(r) = 0, exactly where e is a square, and with f(Y) = A(Y^2) + Y B(Y^2) the
+        root is -A(e)/B(e).  An e of a smaller field is multiplied by squares until it generates K(c).
+        """
+        unit = self.poly([1])
+        for shift in count():
+            e = value * unit * unit
+            element = self.base.poly([part[0] for part in e.parts])
+            mu = characteristic_polynomial(element, self.modulus)
+            if self.base.sqrt(mu[0] * (-1) ** self.dimension) is None:  # the norm, which of a square is one
+                return None
+            if mu.gcd(mu.derivative()).degree == 0:
+                break
+            unit = self.generator + shift
+        even = self.base.poly([c for coefficient in mu for c in (coefficient, 0)][:-1])
+        f = self.base.factor(even)[0][0]
+        if f.degree == even.degree:
             return None
-        for factor, _ in self.factor(self.poly([-constant, 0, 1])):
-            if factor.degree == 1:
-                return -factor[0]
-        return None
+        return self.element(_root_by_primes(element, f, self.modulus)) / unit
 
     def __str__(self) -> str:
         return f"{self.base}({self.name})"
@@ -284,6 +302,30 @@ class ExtensionPoly(Poly):
         base = self.field.base
         name = self.field.name
         return [base.poly([part[power] for part in self.parts]).integer_str(name) for power in range(self.degree + 1)]
+
+
+def _root_by_primes(element: Poly, f: Poly, modulus: Poly) -> Poly:
+    """-A(e)/B(e) in K[x]/modulus for f(Y) = A(Y^2) + Y B(Y^2), which is a square root of e, from its images modulo primes."""
+    lifter = Lifter(element.field)
+    for bundle in element.field.bundles():
+        check_time()
+        try:
+            images = [[_root_modulo(h(element), h.keeping_degree(f), h.keeping_degree(modulus))] for h in bundle]
+        except BadPrimeError:
+            continue
+        proposal = lifter.add(bundle, images)
+        if proposal is not None and not (proposal[0] * proposal[0] - element) % modulus:
+            return proposal[0]
+    raise AssertionError("there are infinitely many primes")
+
+
+def _root_modulo(element: Any, f: Any, modulus: Any) -> Any:
+    p = f.modulus()
+    A, B = (nmod_poly(f.coeffs()[start::2], p).compose_mod(element, modulus) for start in (0, 1))
+    common, inverse, _ = B.xgcd(modulus)
+    if common.degree() > 0:
+        raise BadPrimeError(f"{p} divides the norm of B(e)")
+    return -A * inverse % modulus
 
 
 def norm(polynomial: Poly) -> Poly:

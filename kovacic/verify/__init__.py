@@ -17,6 +17,7 @@ Everything else is written here, in the plainest way, and a contract in pyprojec
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape
 
@@ -93,28 +94,31 @@ def _outcome(check: Check) -> str:
 
 
 def verify(
-    S: RatFunc, decision: Decision, group: GroupClaim | None = None, *, budget: Budget | None = None
+    S: RatFunc,
+    decision: Decision,
+    group: GroupClaim | Callable[[], GroupClaim | None] | None = None,
+    *,
+    budget: Budget | None = None,
 ) -> Verification:
     """Recompute everything that the decision claims about y'' = S y, and the group where it is claimed.
 
-    Raises `LimitExceeded` when the budget (by default that of `kovacic.Limits()`) is used up before the group is reached.
+    A function that finds the claim about the group is called once the decision has passed.  Raises `LimitExceeded` when the
+    budget (by default that of `kovacic.Limits()`) is used up before the group is reached.
     """
     if not is_a_field(S.field):
         return Verification((Check("the polynomials of the constants are irreducible", False),))
     inspector = Inspector(S, budget or Budget())
-    checks = [*_claimed_solution(inspector, decision), *_claimed_exclusions(inspector, decision)]
-    if group is None or not all(check.passed for check in checks):
-        return Verification(tuple(checks))
-    return _with_group(tuple(checks), inspector, decision, group)
-
-
-def _with_group(checks: tuple[Check, ...], inspector: Inspector, decision: Decision, group: GroupClaim) -> Verification:
-    """And is the group the one that is claimed?"""
+    checks = (*_claimed_solution(inspector, decision), *_claimed_exclusions(inspector, decision))
+    claim = None
+    if all(check.passed for check in checks):
+        claim = group() if callable(group) else group
+    if claim is None:
+        return Verification(checks)
     from kovacic.verify.group import group_holds  # which a decision alone doesn't need
 
     statement = "the Galois group is the one that is named"
     try:
-        holds = group_holds(inspector, decision, group)
+        holds = group_holds(inspector, decision, claim)
     except LimitExceeded as limit:
         return Verification(checks, (f"{statement}: {limit}",))
     if holds is None:

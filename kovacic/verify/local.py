@@ -13,6 +13,8 @@ from functools import cached_property
 from math import isqrt
 from typing import Any
 
+from flint import nmod_poly
+
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget, check_time
@@ -229,16 +231,15 @@ def _power_modulo(base: Poly, exponent: int, modulus: Poly) -> Poly:
 def has_no_series(M: Any, E: Any, n: int) -> bool:
     """Has t^2 E y'' = M y no solution t^e (1 + O(t)) with the smaller exponent e = (1-n)/2, so that there is a logarithm?
 
-    For y = t^e u the equation t E u'' + 2 e E u' + (e (e-1) E - M)/t u = 0 determines u below t^n; the coefficient of t^(n-1)
+    For y = t^e u the equation t u'' + 2 e u' + (e (e-1) - M/E)/t u = 0 determines u below t^n; the coefficient of t^(n-1)
     in it doesn't depend on u_n, and must vanish [Frobenius].
     """
     p = E.modulus()
-    E = E.truncate(n + 1)  # no later terms have a part in it
-    M = M.truncate(n + 1)
+    S = M.mul_low(E.inverse_series_trunc(n + 1), n + 1)  # no later terms have a part in it
     e = (1 - n) * pow(2, -1, p) % p
-    second = E.left_shift(1)
-    first = 2 * e * E
-    zeroth = (e * (e - 1) * E - M).right_shift(1)
+    second = nmod_poly([0, 1], p)
+    first = nmod_poly([2 * e], p)
+    zeroth = (e * (e - 1) - S).right_shift(1)
     u = solution_at_singular_point(second, first, zeroth, n)
     rest = second * u.derivative().derivative() + first * u.derivative() + zeroth * u
     return bool(int(rest[n - 1]))
@@ -256,9 +257,6 @@ def solution_with_exponential_part(M: Any, E: Any, start: Any, nu: int, count: i
 
     It satisfies t^nu E u'' + 2 start E u' + V u = 0, t^nu V = E (t^(2 nu) (start/t^nu)' + start^2) - M.
     """
-    if 6 * E.degree() > count:  # one scalar product a term instead of three short ones
-        M = M.mul_low(E.inverse_series_trunc(count + nu), count + nu)
-        E = E**0
     slope = start.derivative().left_shift(nu) - (nu * start).left_shift(nu - 1)
     V = (E * (slope + start * start) - M).right_shift(nu)
     return solution_at_singular_point(E.left_shift(nu), 2 * start * E, V, count)

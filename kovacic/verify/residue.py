@@ -17,15 +17,13 @@ from kovacic.algebra.poly import Poly
 from kovacic.verify.division import inverse
 
 
-def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
-    """(2 r)^2 as an element of K[x]/p, for the residue r of sqrt(S) at the class of x: 36 for sqrt(S) = 1/x^2 + 3/x + ..."""
+def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
+    """The residue of R/(q p^nu) at the class of x in K[x]/p: times the square root of N q it is that of sqrt(S)."""
     modulus = p**nu
     radicand = (N % modulus) * (q % modulus) % modulus
-    leading = radicand % p
-    unit = radicand * _constant(inverse(leading, p), p, nu) % modulus
+    unit = radicand * _constant(inverse(radicand % p, p), p, nu) % modulus
     R = unit * _inverse_square_root(unit, p, nu) % modulus
-    r = residue(R * _inverse(q, p, nu) % modulus, p, nu)
-    return 4 * leading * r * r % p
+    return residue(R * _inverse(q, p, nu) % modulus, p, nu)
 
 
 def _steps(p: Poly, nu: int) -> Iterator[Poly]:

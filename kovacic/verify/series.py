@@ -14,8 +14,8 @@ from flint import nmod_mat, nmod_poly
 from kovacic.limits import check_time
 from kovacic.verify.reduction import BadPrimeError
 
-#: Terms of a series between two looks at the clock.
-_LOOK = 64
+#: Terms that are computed one by one, between two looks at the clock.
+_BLOCK = 32
 
 
 def solutions_at_ordinary_point(num: Any, den: Any, count: int) -> tuple[Any, Any]:
@@ -47,42 +47,40 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     """u = 1 + O(t) with second u'' + first u' + zeroth u = 0 to `count` terms, where second(0) = 0.
 
     The coefficient of t^(j-1) says what u_j is, term after term, as long as the indicial factor j ((j - 1) second_1 + first_0)
-    isn't 0.  Raises `BadPrimeError` where it is 0 modulo the prime.
+    isn't 0.  What the terms of earlier blocks leave of the equation is found by multiplication.
+    Raises `BadPrimeError` where an indicial factor is 0 modulo the prime.
     """
     p = second.modulus()
-    of_second = _padded(second, 2)
-    of_first = _padded(first, 1)
-    of_zeroth = _padded(zeroth, 0)
-    width = max(map(len, (of_second, of_first, of_zeroth)))
-    # u_k, k u_k and k (k - 1) u_k
-    u = [1]
-    once = [0]
-    twice = [0]
-    for j in range(1, count):
-        if j % _LOOK == 0:
-            check_time()
-        indicial = j * ((j - 1) * int(second[1]) + int(first[0])) % p
-        if not indicial:
-            raise BadPrimeError(f"{p} divides an indicial factor")
-        end = max(j - width, 0)
-        total = sum(map(mul, of_second, _backwards(twice, end)))
-        total += sum(map(mul, of_first, _backwards(once, end)))
-        total += sum(map(mul, of_zeroth, _backwards(u, end)))
-        value = -total * pow(indicial, -1, p) % p
-        u.append(value)
-        once.append(j * value % p)
-        twice.append(j * (j - 1) * value % p)
-    return nmod_poly(u, p)
+    of_second, of_first, of_zeroth = (_tail(f, start) for f, start in ((second, 2), (first, 1), (zeroth, 0)))
+    second_1 = int(second[1])
+    first_0 = int(first[0])
+    u = nmod_poly([1], p)
+    for start in range(1, count, _BLOCK):
+        check_time()
+        end = min(start + _BLOCK, count)
+        slope = u.derivative()
+        rest = second.mul_low(slope.derivative(), end) + first.mul_low(slope, end) + zeroth.mul_low(u, end)
+        # u_k, k u_k and k (k - 1) u_k for the k of this block
+        terms: list[int] = []
+        once: list[int] = []
+        twice: list[int] = []
+        for j in range(start, end):
+            indicial = j * ((j - 1) * second_1 + first_0) % p
+            if not indicial:
+                raise BadPrimeError(f"{p} divides an indicial factor")
+            total = int(rest[j - 1]) + sum(map(mul, of_second, reversed(twice)))
+            total += sum(map(mul, of_first, reversed(once))) + sum(map(mul, of_zeroth, reversed(terms)))
+            value = -total * pow(indicial, -1, p) % p
+            terms.append(value)
+            once.append(j * value % p)
+            twice.append(j * (j - 1) * value % p)
+        u = u + nmod_poly(terms, p).left_shift(start)
+    return u
 
 
-def _padded(polynomial: Any, shift: int) -> list[int]:
-    """The coefficients from t^shift on, as integers."""
-    return [int(c) for c in polynomial.coeffs()[shift:]]
-
-
-def _backwards(terms: list[int], end: int) -> list[int]:
-    """The terms from the last one down to number `end`."""
-    return terms[end:][::-1]
+def _tail(polynomial: Any, start: int) -> list[int]:
+    """The coefficients from t^start on, as many as a block needs, as integers."""
+    return [int(c) for c in polynomial.coeffs()[start : start + _BLOCK]]
 
 
 def square_root(series: Any, root: int, count: int) -> Any:
@@ -91,7 +89,7 @@ def square_root(series: Any, root: int, count: int) -> Any:
     half = pow(2 * root, -1, p)
     r = [root]
     for k in range(1, count):
-        if k % _LOOK == 0:
+        if k % _BLOCK == 0:
             check_time()
         rest = int(series[k]) - sum(r[i] * r[k - i] for i in range(1, k))
         r.append(rest * half % p)
