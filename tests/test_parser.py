@@ -781,3 +781,29 @@ def test_every_wrong_text_is_told_where_and_what_to_write(text: str) -> None:
         read_input(text, exponentials=True)
     assert caught.value.position is not None
     assert caught.value.hint
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(x+a+b+c)^100",
+        "(x+a+b)^400",
+        "(a+b+c+d)^100*x",
+        "((x+a+b)^20+c)^20",
+        "(x^3+a*x^2+b*x+c)^200",
+        "(x+a+b)^90*(x-a-c)^90",
+        "1/(x+a+b+c)^100",
+        "y'' = (sqrt(2)*x+a+b+c)^80*y",
+    ],
+)
+def test_the_number_of_terms_in_the_parameters_is_foreseen(text: str) -> None:
+    with pytest.raises(LimitExceeded) as caught:  # multiplying out takes up to minutes
+        read_input(text)
+    assert caught.value.limit == "terms"
+
+
+def test_what_is_foreseen_isnt_less_than_what_there_is_nor_much_more() -> None:
+    for text, terms in (("(x+a+b)^30", 496), ("(x+a)^12*(x-b)^12", 169), ("(x^2+a)^40/(x+b)", 41)):
+        assert read_input(text, limits=Limits(terms=terms)).S.num.extent()[0] <= terms
+        with pytest.raises(LimitExceeded, match="terms"):
+            read_input(text, limits=Limits(terms=terms // 3))

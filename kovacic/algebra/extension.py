@@ -200,6 +200,10 @@ class ExtensionPoly(Poly):
     def leaves(self) -> list[Poly]:
         return [leaf for part in self.parts for leaf in part.leaves()]
 
+    def extent(self) -> tuple[int, tuple[int, ...]]:
+        terms, degrees = zip(*(part.extent() for part in self.parts), strict=True)
+        return sum(terms), tuple(map(max, zip(*degrees, strict=True)))
+
     @property
     def degree(self) -> int:
         return max(part.degree for part in self.parts)

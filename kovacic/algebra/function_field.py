@@ -195,6 +195,10 @@ class FunctionPoly(Poly):
     def degree(self) -> int:
         return -1 if self.num.is_zero() else int(self.num.degrees()[0])
 
+    def extent(self) -> tuple[int, tuple[int, ...]]:
+        degrees = zip(self.num.degrees(), self.den.degrees(), strict=True)
+        return max(len(self.num), len(self.den)), tuple(int(max(pair)) for pair in degrees)
+
     def __eq__(self, other: object) -> bool:
         if isinstance(other, FunctionPoly) and (other.field is self.field or other.field == self.field):
             return bool(self.num == other.num and self.den == other.den)

@@ -104,6 +104,10 @@ class Poly(Immutable, ABC):
         """The coordinates over the ground field, polynomials themselves."""
         return [self]
 
+    def extent(self) -> tuple[int, tuple[int, ...]]:
+        """The terms of numerator or denominator, whichever has more, and the degrees in x and in each parameter."""
+        return self.degree + 1, (self.degree,)
+
     @abstractmethod
     def coefficient_strings(self) -> list[str]:
         """The coefficients in Python syntax, low to high; they must have integer coordinates."""

@@ -268,7 +268,7 @@ LIMIT = click.option(
     metavar="NAME=VALUE",
     multiple=True,
     callback=lambda _, __, settings: parse_limits(settings),
-    help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
+    help="Change a limit: seconds, degree, bits, terms, digits, exponent, text_length, unknown_degree.",
 )
 
 

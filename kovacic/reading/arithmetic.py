@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from itertools import zip_longest
+from math import comb, prod
 from typing import TypeVar
 
 from flint import fmpq_poly, fmpz
@@ -225,6 +227,7 @@ class Arithmetic:
         n = right.degree
         carries = (min(m, n) + 1).bit_length()
         self._check(m + n, left.height_bits() + right.height_bits() + carries)
+        self._check_terms((left, 1), (right, 1))
         return left * right
 
     def _poly_power(self, base: Poly, n: int) -> Poly:
@@ -237,6 +240,7 @@ class Arithmetic:
             norm = sum(abs(int(c.p)) * (denominator // int(c.q)) for c in base.rational_coefficients())
             bits = n * max((norm - 1).bit_length(), (denominator - 1).bit_length())
         self._check(n * base.degree, bits)
+        self._check_terms((base, n))
         return base**n
 
     def _ratfunc_power(self, base: RatFunc, n: int) -> RatFunc:
@@ -264,6 +268,23 @@ class Arithmetic:
             size = f"up to {degree + 1} coefficients of up to {bits} bits"
             raise LimitExceeded(f"{size}, above the limit of {most} bits for all together", limit="bits")
         check_time()
+
+    def _check_terms(self, *factors: tuple[Poly, int]) -> None:
+        """Refuses products of powers P^n, as pairs (P, n), with too many terms in x and the parameters.
+
+        (t_1 + ... + t_m)^n has at most C(n + m - 1, n) terms, and no product more than its degrees leave room for.
+        """
+        if all(isinstance(factor, RationalPoly) for factor, _ in factors):
+            return  # the degree is checked
+        sparse = 1
+        degrees: list[int] = []
+        for factor, n in factors:
+            terms, of_factor = factor.extent()
+            sparse *= comb(n + terms - 1, n)
+            degrees = [n * d + e for d, e in zip_longest(of_factor, degrees, fillvalue=0)]
+        terms = min(sparse, prod(d + 1 for d in degrees))
+        if terms > self.limits.terms:
+            raise LimitExceeded(f"up to {terms:,} terms, above the limit of {self.limits.terms:,}", limit="terms")
 
     def _integer_of(self, exponent: Value | int) -> int:
         if isinstance(exponent, int):

@@ -37,6 +37,8 @@ _READY = re.compile(f"[{chr(_PART)}-{chr(0x10FFFD)}]")
 LARGEST_DEGREE = 300
 #: Bits of all coefficients together, above which a function isn't printed in `Math`: some twenty screens.
 _LARGEST_SIZE = 100_000
+#: Terms in the variable and the parameters together: some four screens.
+_MOST_TERMS = 500
 #: Characters; longer formulas are shortened.
 _LONGEST = 2000
 # The names within the engine.
@@ -154,6 +156,8 @@ def _is_long(function: RatFunc) -> bool:
     for part in (function.num, function.den):
         terms = _number_of_terms(part)
         if terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE:
+            return True
+        if parameters_of(part.field) and part.extent()[0] > _MOST_TERMS:
             return True
     return False
 
