@@ -227,7 +227,9 @@ class CurveFunction:
 
 @dataclass(frozen=True)
 class GroupClaim:
-    """What is said of the group: the name of its family, as in `kovacic.galois.Kind`, and its parameter n.
+    """What is said of the group: its family, as in `kovacic.galois.GroupKind`, the parameter n, and its size.
+
+    `order` is None for an infinite group, and for one whose order wasn't determined; then the dimension is None as well.
 
     `form` is a rational form of degree 2 for a reducible group, where the decision has none.  For an imprimitive one on a curve
     of positive genus, `function` shows whether it is finite; or `orders` has primes, with orders modulo them, for an infinite
@@ -239,3 +241,5 @@ class GroupClaim:
     form: SemiInvariant | None = None
     orders: tuple[tuple[int, int], ...] = ()
     function: CurveFunction | None = None
+    order: int | None = None
+    dimension: int | None = None

@@ -6,7 +6,9 @@ The records that evidence and claims are made of, and what weighs them, are name
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import islice
+from typing import Any
 
 from build import Poly, RatFunc
 
@@ -43,6 +45,7 @@ __all__ = [
     "RiccatiPolynomial",
     "Rule",
     "SemiInvariant",
+    "claimed",
     "forged_evidence",
     "inspector",
     "primes_with_a_root",
@@ -85,3 +88,13 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
 def primes_with_a_root(factor: Poly) -> Iterator[int]:
     """The primes, among the first ones, modulo which a factor has a simple root."""
     return (h.p for h in islice(homomorphisms(factor.field), 100) if roots_modulo(factor, h))
+
+
+def claimed(claim: GroupClaim, **changes: Any) -> GroupClaim:
+    """The claim with another family, n or evidence, and the size that belongs to it, which then can't give it away."""
+    claim = replace(claim, **changes)
+    n = claim.n
+    infinite = {"multiplicative": 1, "additive": 1, "infinite dihedral": 1, "borel": 2, "SL2": 3}
+    finite = {"tetrahedral": 24, "octahedral": 48, "icosahedral": 120, "cyclic": n, "dicyclic": n and 4 * n}
+    order = finite.get(claim.family)
+    return replace(claim, order=order, dimension=infinite.get(claim.family) if order is None else 0)

@@ -21,7 +21,7 @@ import pytest
 import strategies
 import transform
 from build import QQ, RatFunc, parametrize, verify
-from forged import INVARIANT_DEGREE, Decision, Exclusion, GroupClaim, NoInvariant, forged_evidence, inspector
+from forged import INVARIANT_DEGREE, Decision, Exclusion, GroupClaim, NoInvariant, claimed, forged_evidence, inspector
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from published import Published, load
@@ -538,7 +538,7 @@ def test_a_power_of_the_function_doesnt_make_the_order_larger() -> None:
         for k in (2, 3, 5):
             f = claim.function
             pieces = tuple(replace(piece, exponent=k * piece.exponent) for piece in f.pieces)
-            power = replace(claim, n=5 * k, function=replace(f, multiple=5 * k, pieces=pieces))
+            power = claimed(claim, n=5 * k, function=replace(f, multiple=5 * k, pieces=pieces))
             assert not verify(S, answer.decision, power)
             data = json.loads(answer.to_json(full=True))
             shown = data["group"]["function"]
@@ -619,7 +619,9 @@ def test_orders_modulo_primes_are_those_of_the_kernel() -> None:
         decision = solve(S).decision
         for p in (5, 7, 11, 13, 17, 19):
             for k in range(1, 13):
-                claim = GroupClaim("infinite dihedral", None, orders=((known["prime"], known["order"]), (p, k)))
+                claim = claimed(
+                    GroupClaim("infinite dihedral", None, orders=((known["prime"], known["order"]), (p, k)))
+                )
                 data["group"]["orders"] = [known, {"prime": p, "order": k}]
                 said = checker.verdict(json.dumps(data))
                 verified = bool(verify(S, decision, claim))

@@ -15,7 +15,7 @@ import strategies
 import sympy
 import transform
 from build import QQ, AlgebraicField, Budget, Equation, Field, Ground, RatFunc, analyse, parametrize, verify
-from forged import CurveFunction
+from forged import CurveFunction, claimed
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -146,7 +146,7 @@ def test_pull_backs_of_dihedral_equations_on_curves_of_positive_genus(n: int, f:
     assert solution.group.n == n
     assert solution.verify()
     assert not any(
-        verify(S, solution.decision, replace(solution.group.claim, n=k)) for k in range(1, 2 * n + 1) if k != n
+        verify(S, solution.decision, claimed(solution.group.claim, n=k)) for k in range(1, 2 * n + 1) if k != n
     )
 
 
@@ -184,7 +184,7 @@ def test_the_same_divisor_with_another_holomorphic_part(constant: int, order: in
     without = replace(group.function, rest=group.function.rest * 0)
     family, n = ("dicyclic", 6) if order is None else ("infinite dihedral", None)
     for function in (group.function, without):
-        claim = replace(group.claim, family=family, n=n, function=function)
+        claim = claimed(group.claim, family=family, n=n, function=function)
         assert not verify(solution.S, solution.decision, claim)
 
 
@@ -219,7 +219,7 @@ def test_a_unit_beside_a_differential_of_the_first_kind(genus: int, field: Field
             function = replace(group.function, rest=group.function.rest * 0 + wrong)
             assert not verify(solution.S, solution.decision, replace(claim, function=function))
         other = (
-            replace(claim, family="dicyclic", n=1000) if rest else replace(claim, family="infinite dihedral", n=None)
+            claimed(claim, family="dicyclic", n=1000) if rest else claimed(claim, family="infinite dihedral", n=None)
         )
         assert not verify(solution.S, solution.decision, other)
         if field == QQ:
@@ -240,7 +240,7 @@ def test_the_differential_of_a_unit_isnt_of_the_first_kind(genus: int) -> None:
     assert solution.group.order == 20
     a = QQ.poly([1, 2, *[0] * (genus - 1), 1])
     forged = CurveFunction(5, a * a - 3, (), a.derivative())
-    claim = replace(solution.group.claim, family="infinite dihedral", n=None, function=forged)
+    claim = claimed(solution.group.claim, family="infinite dihedral", n=None, function=forged)
     assert not verify(solution.S, solution.decision, claim)
     data = json.loads(solution.to_json())
     written = {"multiple": 5, "h": str(forged.h), "pieces": [], "rest": str(forged.rest)}

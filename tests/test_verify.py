@@ -23,6 +23,7 @@ from forged import (
     NoRationalOmega,
     Rule,
     SemiInvariant,
+    claimed,
     forged_evidence,
     inspector,
     primes_with_a_root,
@@ -99,8 +100,33 @@ def test_the_group_is_the_named_one_and_no_other(text: str) -> None:
     assert (answer.group.kind.value, answer.group.n) == (family, n)
     for other in FAMILIES:
         for k in (None, 1, 2, 3, 6):
-            verification = verify(answer.S, answer.decision, GroupClaim(other, k, answer.group.form))
+            verification = verify(answer.S, answer.decision, claimed(GroupClaim(other, k, answer.group.form)))
             assert bool(verification) is ((other, k) == (family, n)), (other, k)
+
+
+SCHWARZ = [transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, n)).to_str("x") for n in (4, 5)]
+
+
+@pytest.mark.parametrize("text", [*NAMED, *SCHWARZ])
+def test_the_size_of_the_group_is_checked_with_its_name(text: str) -> None:
+    """A quarter of the order, none, or another dimension, which a fault in `galois.group` may say of the right family."""
+    answer = kovacic.solve(text)
+    claim = answer.group.claim
+    assert verify(answer.S, answer.decision, claim)
+    sizes = [
+        (None, None),
+        (claim.n, claim.dimension),
+        (None, 1),
+        (None, 2),
+        (None, 3),
+        (24, 0),
+        (48, 0),
+        (120, 0),
+        (7, 0),
+    ]
+    for order, dimension in sizes:
+        wrong = replace(claim, order=order, dimension=dimension)
+        assert wrong == claim or not verify(answer.S, answer.decision, wrong), wrong
 
 
 @pytest.mark.long
@@ -115,7 +141,7 @@ def test_every_group_is_confirmed_and_a_random_other_one_refuted(
     right = verify(answer.S, answer.decision, group.claim)
     assert right
     if (family, n) != (group.kind.value, group.n):
-        wrong = verify(answer.S, answer.decision, replace(group.claim, family=family, n=n))
+        wrong = verify(answer.S, answer.decision, claimed(group.claim, family=family, n=n))
         assert not wrong or (wrong.unchecked and right.unchecked)
 
 
@@ -162,12 +188,12 @@ def test_an_order_on_a_curve_of_positive_genus_needs_its_function() -> None:
     for wrong in forged:
         assert not verify(S, answer.decision, replace(group.claim, function=wrong))
     for n in (1, 2, 4, 6):
-        assert not verify(S, answer.decision, replace(group.claim, n=n))
-    assert not verify(S, answer.decision, replace(group.claim, family="infinite dihedral"))
+        assert not verify(S, answer.decision, claimed(group.claim, n=n))
+    assert not verify(S, answer.decision, claimed(group.claim, family="infinite dihedral"))
     for k in (2, 3, 4):  # a power of the function, which a smaller order explains
         pieces = tuple(replace(piece, exponent=k * piece.exponent) for piece in function.pieces)
         power = replace(function, multiple=3 * k, pieces=pieces)
-        assert not verify(S, answer.decision, replace(group.claim, n=3 * k, function=power))
+        assert not verify(S, answer.decision, claimed(group.claim, n=3 * k, function=power))
 
 
 @pytest.mark.parametrize(
@@ -191,7 +217,7 @@ def test_powers_of_the_function_show_no_larger_order(
         if k in powers:
             shown = replace(piece, exponent=k) if written_as_power else replace(piece, a=a, b=b)
             power = replace(function, multiple=3 * k, pieces=(shown,))
-            assert not verify(answer.S, answer.decision, replace(answer.group.claim, n=3 * k, function=power))
+            assert not verify(answer.S, answer.decision, claimed(answer.group.claim, n=3 * k, function=power))
 
 
 # ------------------------------------------------------------------------------------------- forged answers
@@ -586,7 +612,7 @@ def test_dimensions_of_forms_are_exact(text: str, m: int, dimension: int) -> Non
 def test_a_group_isnt_unipotent_because_no_form_is_shown(text: str, family: str, n: int | None) -> None:
     answer = kovacic.solve(text, var="x")
     silent = replace(answer.decision, invariant=None)
-    assert not verify(answer.S, silent, GroupClaim(family, n))
+    assert not verify(answer.S, silent, claimed(GroupClaim(family, n)))
     assert verify(answer.S, silent)
 
 
@@ -608,8 +634,8 @@ def test_a_residue_of_the_inverse_square_makes_a_logarithm(omega: RatFunc, famil
     S = omega.derivative() + omega * omega
     answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
     decision = replace(answer.decision, invariant=SemiInvariant(2, 2 * omega, QQ.poly([1])))
-    assert verify(S, decision, GroupClaim(family, n))
-    assert not verify(S, decision, GroupClaim(other, n))
+    assert verify(S, decision, claimed(GroupClaim(family, n)))
+    assert not verify(S, decision, claimed(GroupClaim(other, n)))
 
 
 # ------------------------------------------------------------------------------------------- orders modulo primes
@@ -695,8 +721,8 @@ def test_an_infinite_group_on_a_curve_of_positive_genus_needs_its_orders(g: RatF
         if orders != ((p, k),):
             assert not verify(S, answer.decision, replace(claim, orders=orders)), orders
     for n in (1, 2, k, 2 * k):
-        assert not verify(S, answer.decision, replace(claim, family="dicyclic", n=n))
-        assert not verify(S, answer.decision, replace(claim, n=n))
+        assert not verify(S, answer.decision, claimed(claim, family="dicyclic", n=n))
+        assert not verify(S, answer.decision, claimed(claim, n=n))
 
 
 @pytest.mark.parametrize(("residue", "n"), [(1, 5), (Fraction(1, 2), 10), (Fraction(1, 3), 15), (Fraction(5, 2), 2)])
@@ -708,7 +734,7 @@ def test_a_finite_order_on_a_curve_of_genus_two(residue: Fraction, n: int) -> No
     assert (answer.group.kind.value, answer.group.n) == ("dicyclic", n)
     assert answer.verify()
     k = n // Fraction(residue).denominator
-    assert not verify(S, answer.decision, GroupClaim("infinite dihedral", None, None, ((7, k),)))
+    assert not verify(S, answer.decision, claimed(GroupClaim("infinite dihedral", None, None, ((7, k),))))
 
 
 def test_residues_that_agree_modulo_a_prime() -> None:
@@ -741,7 +767,7 @@ def test_true_orders_dont_make_a_finite_group_infinite() -> None:
     for k in range(1, 7):  # (A + z)^(2/5), and A + z has the divisor 3 D/6 for the points at infinity
         orders = tuple((p, k) for p in range(3, 40) if order_holds(H, {Fraction(6, 5)}, p, k))
         assert bool(orders) is (k == 1)
-        assert not orders or not verify(S, decision, GroupClaim("infinite dihedral", None, None, orders[:2]))
+        assert not orders or not verify(S, decision, claimed(GroupClaim("infinite dihedral", None, None, orders[:2])))
 
 
 def test_orders_over_a_number_field() -> None:

@@ -139,7 +139,8 @@ class Group:
     @property
     def claim(self) -> GroupClaim:
         """What the kernel checks."""
-        return GroupClaim(self.kind.value, self.n, self.form, self.orders, self.function)
+        evidence = (self.form, self.orders, self.function)
+        return GroupClaim(self.kind.value, self.n, *evidence, order=self.order, dimension=self.dimension)
 
     @property
     def _facts(self) -> _Facts:
