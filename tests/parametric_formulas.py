@@ -13,6 +13,7 @@ import sympy
 from build import AlgebraicField
 
 from kovacic.parametric.check import Sampler
+from kovacic.parametric.claims import DegreeExists
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
@@ -175,12 +176,18 @@ def misread(answer: ParametricAnswer, points: int, seed: int = 5) -> tuple[int, 
     return read, wrong
 
 
+def text_differs(part: Statement, point: ParameterPoint, values: dict[str, Any]) -> bool:
+    """Does the text say another thing than the statement means there?"""
+    return _comparison(part, point, values) is False
+
+
 def _comparison(part: Statement, point: ParameterPoint, values: dict[str, Any]) -> bool | None:
     """Does the text say what the statement means there?  None where it isn't one that is read."""
     try:
-        if isinstance(part, Natural):
+        claim = part.claim
+        if isinstance(part, Natural) and isinstance(claim, DegreeExists):
             meant = {number for number in part.numbers_at(point) if number < RANGE.stop}
-            return numbers_said(part, values) == meant
-        return says(part, values) == part.holds(point)
+            return numbers_said(claim.degree, values) == meant
+        return says(claim, values) == part.holds(point)
     except (NotReadError, ZeroDivisionError):  # no such sentence, or a function in it isn't defined there
         return None

@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
 import sympy
 
-from kovacic.parametric.integers import Congruence
-from kovacic.parametric.natural import Natural
-from kovacic.parametric.statements import Both, Either, Statement, Vanishes
+from kovacic.parametric.claims import (
+    AllOf,
+    Alternatives,
+    AnyOf,
+    Claim,
+    DegreeClaim,
+    EquationFor,
+    Family,
+    InClasses,
+    RootSum,
+    ThatIs,
+    Zero,
+)
+from kovacic.parametric.prose import marked, sentence
 
 #: The integers that are tried.
 RANGE = range(-90, 91)
@@ -22,43 +34,57 @@ class NotReadError(Exception):
     """A text that these rules don't cover."""
 
 
-def says(statement: Statement, values: Values) -> bool:
+def written(claim: Claim | DegreeClaim) -> str:
+    """What is printed, with formulas between backquotes."""
+    return marked(sentence(claim))
+
+
+def says(claim: Claim, values: Values) -> bool:
     """Is it true, as it is written, at rational values of the parameters?"""
-    if isinstance(statement, Both):
-        return all(says(part, values) for part in statement.parts)
-    if isinstance(statement, Either):
-        return any(says(part, values) for part in statement.parts)
-    if isinstance(statement, Vanishes):
-        (equation,) = statement.written.strip("`").split("`")
+    if isinstance(claim, AllOf):
+        return all(says(part, values) for part in claim.parts)
+    if isinstance(claim, AnyOf):
+        return any(says(part, values) for part in claim.parts)
+    if isinstance(claim, Zero):
+        (equation,) = written(claim).strip("`").split("`")
         return _is_true(equation, values)
-    if isinstance(statement, Congruence):
-        return _integer(statement.written, statement.letter, values)
-    raise NotReadError(type(statement).__name__)
+    if isinstance(claim, Family | EquationFor | RootSum | InClasses | ThatIs):
+        family = claim.second if isinstance(claim, ThatIs) else claim
+        letter = family.letter if isinstance(family, Family | EquationFor) else ""
+        return _integer(written(claim), letter, values)
+    raise NotReadError(type(claim).__name__)
 
 
-def numbers_said(statement: Natural, values: Values) -> set[int]:
+def numbers_said(degree: DegreeClaim, values: Values) -> set[int]:
     """The natural numbers below a bound that the text allows."""
-    text, found, _ = statement.written.partition(f", `{statement.letter} in N`")
-    if not found:
-        raise NotReadError(text)
+    text, letter = written(degree), degree.letter
+    if isinstance(degree, Alternatives):
+        return _alternative_numbers(degree, values)
     if " for integers " in text:
         return _sums_of_exponents(text, values)
-    if match := re.fullmatch(r"`(.*)` for an integer `(\w+)` from (\d+) to (\d+)", text):
-        equation, j, least, most = match.groups()
-        integers = range(int(least), int(most) + 1)
-        pairs = product(range(RANGE.stop), integers)
-        return {
-            d
-            for d, k in pairs
-            if _has_value(equation, {**values, statement.letter: sympy.Integer(d), j: sympy.Integer(k)})
-        }
-    if re.fullmatch(rf"`{statement.letter}\b[^`=]* = \+-[^`]*`", text):
-        return _sums_with_signs(text.strip("`"), statement.letter, values)
-    notes = re.findall(r"`([^`]*) = 0` where `\w+ = (\d+)`", text)
-    text = re.sub(r" \((?:`[^`]* = 0` where `\w+ = \d+`(?:, )?)+\)", "", text)
-    found_at_poles = {int(root) for factor, root in notes if read(factor, values) == 0}
-    numbers = {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
-    return numbers | found_at_poles
+    if match := re.fullmatch(r"(?:`\w+ = (\d+)`, or )?`(.*)` for an integer `(\w+)` from (\d+) to (\d+)", text):
+        constant, equation, j, least, most = match.groups()
+        pairs = product(range(RANGE.stop), range(int(least), int(most) + 1))
+        found = {d for d, k in pairs if _has_value(equation, {**values, letter: sympy.Integer(d), j: sympy.Integer(k)})}
+        return found if constant is None else found | {int(constant)}
+    if re.fullmatch(rf"`{letter}\b[^`=]* = \+-[^`]*`", text):
+        return _sums_with_signs(text.strip("`"), letter, values)
+    raise NotReadError(text)
+
+
+def _alternative_numbers(degree: Alternatives, values: Values) -> set[int]:
+    letter = degree.letter
+    found: set[int] = set()
+    for one in degree.where:
+        if says(Zero(one.zero), values):
+            found |= numbers_said(one.said, values)
+    text = written(replace(degree, where=()))
+    notes = re.findall(r"`([^`]*) = 0` where `\w+ = ([^`]*)`", text)
+    text = re.sub(r" \((?:`[^`]* = 0` where `\w+ = [^`]*`(?:, )?)+\)", "", text)
+    for factor, root in notes:
+        if read(factor, values) == 0:
+            found |= _natural(read(root, values))
+    return found | {d for d in range(RANGE.stop) if _alternatives(text, {**values, letter: sympy.Integer(d)})}
 
 
 def _sums_of_exponents(text: str, values: Values) -> set[int]:

@@ -17,15 +17,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kovacic import Structure
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import read_assumptions
-from kovacic.parametric.formulas import root_written, text_of, written
+from kovacic.parametric.formulas import root_written, written
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.ranks import without_constant_pivots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
-from kovacic.parametric.spectra import Notation, alternatives
+from kovacic.parametric.solving import alternatives
 from kovacic.parametric.statements import Statement, Vanishes, both
 
 F = Fraction
@@ -196,7 +197,7 @@ def values(text: str, n: Fraction, largest: int = 40) -> bool:
 def test_symmetric_families_are_written_once(functions: list, total: int, expected: str) -> None:  # type: ignore[type-arg]
     families = [*functions, *(total - f for f in functions)]
     equations = [over_parameters((d * 0 + n - f).monic()) for f in families]
-    text = text_of(alternatives(equations, Notation(letter="d")))
+    text = prose.text_of(prose.sentence(alternatives(equations, "d")))
     assert text.startswith(expected)
     assert text.count("d") == (2 if len(functions) == 1 else len(functions))
     constants = [[Fraction(int(v.numerator), int(v.denominator)) for v in f.rational_coefficients()] for f in families]
@@ -208,4 +209,4 @@ def test_symmetric_families_are_written_once(functions: list, total: int, expect
 
 def test_a_family_without_its_mirror_image_is_not_merged() -> None:
     equations = [over_parameters((n - f).monic()) for f in (2 * d, -2 * d - 1, 2 * d + 2, 3 * d + 5)]
-    assert text_of(alternatives(equations, Notation(letter="d"))).startswith("n = ")
+    assert prose.text_of(prose.sentence(alternatives(equations, "d"))).startswith("n = ")

@@ -37,7 +37,7 @@ from kovacic.limits import Budget
 from kovacic.parametric.exponents import Exponents, LocalPart, choices, choices_of_degree
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.restriction import Hypersurface, hypersurface
-from kovacic.parametric.solutions import Given, has_radicals, solution_of_degree
+from kovacic.parametric.solutions import has_radicals, solution_of_degree, translated
 
 #: Higher degrees aren't proposed.
 _HIGHEST = 50
@@ -246,7 +246,7 @@ def _found(
         raise Uncovered("the energies aren't the zeros of a polynomial")
     wave = with_energy.wave
     if parsed.equation is not None:
-        wave = Given(lambda _: (), parsed.equation).translated(wave)
+        wave = translated(wave, parsed.equation)
     return replace(with_energy, polynomial=sympy.factor(with_energy.polynomial), wave=wave)
 
 

@@ -14,6 +14,8 @@ module:
 5. both give exact `statements` about the parameters, true or false at every algebraic point: a function vanishes, an equation
    has a root among `integers`, Delta_d vanishes for a `natural` number d; `functions` has what they are made of;
 6. `regions`: statement, case and group, without those that earlier ones cover;
-7. `parametric_answer`: what is returned; statements are written by `spectra` and `formulas`, and as data by `record`; `check`
-   compares with the engine at exact points, `map` draws.
+7. `claims`: what is printed of a statement, true or false at a point as a reader takes it; `solving` makes them, with every
+   stratum of a condition that was solved for a parameter; `prose` alone writes them, and `formulas` the functions in them;
+8. `parametric_answer`: what is returned; statements as data by `record`; `check` compares with the engine at exact points, `map`
+   draws.
 """

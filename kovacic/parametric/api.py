@@ -24,7 +24,14 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty, without_implied
+from kovacic.parametric.regions import (
+    ParameterRegion,
+    RegionVerdict,
+    equations_on,
+    settled,
+    without_empty,
+    without_implied,
+)
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import Given
 from kovacic.parametric.statements import Statement
@@ -81,12 +88,13 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
             found = _in_powers(lifted, settings, found)
     field = lifted.field.ground
     assert isinstance(field, FunctionField)
-    regions = _distinct(found.regions, field, constant, parsed.variable, budget)
+    regions = _distinct(found.regions, constant, budget)
     result = _under(assumptions, replace(found, regions=tuple(regions)), parsed.S, budget)
     with budget.watched(), suppress(LimitExceeded):
         generic = result.generic if result.complete is True else None
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
-    regions = [_finished(region, parsed.equation, max_degree, budget) for region in result.regions]
+    regions = settled(result.regions, parsed.variable, field.names, constant.names)
+    regions = [_finished(region, parsed.equation, max_degree, budget) for region in regions]
     return ParametricAnswer(
         S=shown,
         variable=parsed.variable,
@@ -119,15 +127,11 @@ def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
     return replace(direct, complete=found.complete) if is_limited else direct
 
 
-def _distinct(
-    regions: Iterable[ParameterRegion], field: FunctionField, constant: ParameterPoint, variable: str, budget: Budget
-) -> list[ParameterRegion]:
+def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:
     """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
-    names = (variable, *field.names)
-    numbers = (*constant.names, *(name for name in field.names if name == PI))
     different: dict[Statement, ParameterRegion] = {}
     for region in regions:
-        statement = without_implied(reduced(region.statement, constant)).avoiding(names, numbers)
+        statement = without_implied(reduced(region.statement, constant))
         different.setdefault(statement, replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):
@@ -159,7 +163,9 @@ def _finished(
 ) -> ParameterRegion:
     """With its first determinants, and solutions of the equation that was given."""
     if region.origin is not None and equation is not None:
-        region = replace(region, origin=Given(region.origin, equation))
+        there = equations_on(region.statement, equation)
+        origin = Given(region.origin, tuple((one.equation, one.zeros) for one in there)) if there else None
+        region = replace(region, origin=origin)
     statement = region.statement
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region

@@ -1,8 +1,7 @@
-"""How functions of the parameters are written, in the shortest of their usual forms, and statements about them in LaTeX.
+"""How functions of the parameters are written, in the shortest of their usual forms.
 
 A quotient f/g is one of polynomials, a product of irreducible factors, a sum of terms over a monomial
-(-n^2 - b^2/(4*n^2)), or a polynomial in one parameter with coefficients in factors (n + k*n*(n - 1)/2).  Everything is text;
-among words, formulas are marked by backquotes, from which `latex_of` makes LaTeX.
+(-n^2 - b^2/(4*n^2)), or a polynomial in one parameter with coefficients in factors (n + k*n*(n - 1)/2).
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.numerals import digits
 from kovacic.parametric.functions import over_parameters
-from kovacic.writing.formula import Math, caret, latex_text
+from kovacic.writing.formula import caret
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
@@ -31,57 +30,6 @@ _FOR_FACTORS = 4
 _VARIABLE_FIRST = r"\b(x(?:\^\d+)?)\*(t\d+(?:\^\d+)?(?:\*t\d+(?:\^\d+)?)*)"
 #: A power of a polynomial in the parameters, flint's.
 Power = tuple[Any, int]
-#: Around formulas among words.
-_MARK = "`"
-#: What stands in formulas beside functions, in LaTeX: that something is a natural number, a congruence, Delta_d, signs.
-_SIGNS = {
-    r"\\mathrm{in} ([ZN])$": r"\\in \\mathbb{\1}",
-    r" = (.*) \\mathrm{mod} (.*)$": r" \\equiv \1 \\pmod{\2}",
-    r"\\mathrm{Delta}": r"\\Delta",
-    r"Z$": r"\\mathbb{Z}",
-    r"\+- ?": r"\\pm ",
-}
-
-
-def text_of(said: str) -> str:
-    """What is said, without the marks of its formulas."""
-    return said.replace(_MARK, "")
-
-
-def latex_of(said: str) -> str:
-    r"""The same in LaTeX.
-
-    >>> print(latex_of("`E = -n^2 - b^2/(4*n^2)` for an integer `n`"))
-    E = -n^{2} - \frac{b^{2}}{4 n^{2}}\text{ for an integer } n
-    """
-    return "".join(map(_latex_of_part, sentence_of(said))).strip()
-
-
-def _latex_of_part(part: str | Math) -> str:
-    if isinstance(part, Math):
-        return part.latex
-    return rf"\text{{{part}}} "
-
-
-def sentence_of(said: str) -> list[str | Math]:
-    """The same as the parts of a sentence, words and formulas: every other piece is a formula."""
-    found: list[str | Math] = []
-    for k, piece in enumerate(said.split(_MARK)):
-        if not piece:
-            continue
-        if k % 2:
-            found.append(Math(piece, _formula(piece)))
-        else:
-            found.append(piece)
-    return found
-
-
-def _formula(text: str) -> str:
-    """A formula in LaTeX, with what stands beside functions."""
-    latex = latex_text(text)
-    for pattern, replacement in _SIGNS.items():
-        latex = re.sub(pattern, replacement, latex)
-    return latex
 
 
 def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
@@ -179,18 +127,28 @@ def _in_factors(function: RatFunc, variable: str) -> str:
     return _sum([_factored(above, below)], names)
 
 
-def equation_written(function: FunctionPoly) -> str:
-    """`function = 0`; it is solved where it is linear, or a power is a product of linear factors; two terms have two sides."""
+class SidesOfEquation(NamedTuple):
+    """Left and right side of an equation, as they are written."""
+
+    left: str
+    right: str
+
+
+def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
+    """That a function vanishes.
+
+    It is solved where it is linear, or a power is a product of linear factors; two terms have two sides.
+    """
     above, _, names = _cleared(function, "x")
     solved = _solved_for_a_parameter(above)
     if solved is None:
         solved = _power_in_linear_factors(above)
     if solved is not None:
-        return f"{_polynomial(solved.left, names)} = {_shortest(solved.values, names)}"
+        return SidesOfEquation(_polynomial(solved.left, names), _shortest(solved.values, names))
     right = _negative_one_of_two(above)
     if right is not None:
-        return f"{_polynomial(above + right, names)} = {_polynomial(right, names)}"
-    return f"{_polynomial(above, names)} = 0"
+        return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
+    return SidesOfEquation(_polynomial(above, names), "0")
 
 
 class _SolvedFor(NamedTuple):
@@ -240,8 +198,11 @@ def _negative_one_of_two(polynomial: Any) -> Any:
     return polynomial.context().from_dict(negative)
 
 
-def root_written(square: Poly) -> str:
-    """The square root of an element of Q(t), up to its sign; squares are taken out: (4*a*c - b^2)/(4*a*sqrt(a))."""
+def root_written(square: Poly, factor: str = "") -> str:
+    """The square root of an element of Q(t), up to its sign, times a name: (4*a*c - b^2)/(4*a*sqrt(a)), 2*j*sqrt(a).
+
+    Squares are taken out.
+    """
     if not square:
         return "0"
     above, below, names = _cleared(over_parameters(square), "x")
@@ -253,7 +214,7 @@ def root_written(square: Poly) -> str:
         odd = -odd
         under = -under
     number = Fraction(top.number, bottom.number)
-    return _sum([_FormulaTerm(number, top.factors, bottom.factors, root=odd, under=under)], names)
+    return _sum([_FormulaTerm(number, top.factors, bottom.factors, root=odd, under=under, name=factor)], names)
 
 
 class _Quotient(NamedTuple):
@@ -273,13 +234,14 @@ def _cleared(function: FunctionPoly | RatFunc, letter: str) -> _Quotient:
 
 @dataclass(frozen=True)
 class _FormulaTerm:
-    """A number times powers of polynomials over others, times sqrt(root)/sqrt(under)."""
+    """A number, times a name maybe, times powers of polynomials over others, times sqrt(root)/sqrt(under)."""
 
     number: Fraction
     top: tuple[Power, ...] = ()
     bottom: tuple[Power, ...] = ()
     root: Any = 1
     under: Any = 1
+    name: str = ""
 
 
 def _forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
@@ -355,6 +317,8 @@ def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
 def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
     """A quotient of products; a sum alone needs no parentheses."""
     top = _pieces(abs(term.number.numerator), term.top, term.root, names)
+    if term.name:
+        top.insert(abs(term.number.numerator) != 1, term.name)
     bottom = _pieces(term.number.denominator, term.bottom, term.under, names)
     sign = "-" if term.number < 0 else ""
     above = "*".join(top) or "1"
@@ -389,6 +353,13 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
 
 def _square_root(text: str) -> str:
     return "I" if text == "-1" else f"sqrt({text})"
+
+
+def in_sum(text: str) -> str:
+    """A term behind a sign: a sum in parentheses, where it isn't within some."""
+    outside = re.sub(r"[({][^()]*[)}]", "", text)
+    is_sum = " + " in outside or " - " in outside
+    return f"({text})" if is_sum else text
 
 
 def in_product(text: str) -> str:

@@ -8,17 +8,18 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import chain, count, product
 from math import ceil, lcm
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.claims import INTEGERS as INTEGER_CLASS
+from kovacic.parametric.claims import AnyOf, Claim, Classes, InClasses, rational_roots
 from kovacic.parametric.functions import (
     Coset,
     ParameterPoint,
@@ -28,8 +29,8 @@ from kovacic.parametric.functions import (
     over_parameters,
     values_at_integers,
 )
-from kovacic.parametric.spectra import Notation, classes, families, integer_condition, kind
-from kovacic.parametric.statements import ALWAYS, Statement, Vanishes, either
+from kovacic.parametric.solving import all_solved, integer_condition
+from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
 
 #: What integers are called, the first that isn't a parameter.
 LETTERS = "nNmMkKjJ"
@@ -39,15 +40,13 @@ LETTERS = "nNmMkKjJ"
 class Congruence(Statement):
     """`equation`, a polynomial in N over Q(t), has a rational root N congruent to one of `residues` modulo `modulus`.
 
-    The numbers are integers but for degree 1.  N is called `letter`; the `fixed` parameters are constants, for which it isn't
-    solved.
+    The numbers are integers but for degree 1.
     """
 
     equation: FunctionPoly
     residues: tuple[Fraction, ...]
     modulus: Fraction
-    letter: str = field(default="n", compare=False)
-    fixed: tuple[str, ...] = field(default=(), compare=False)
+    setting: Setting = field(default=Setting(), compare=False)
 
     @classmethod
     def make(cls, equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Congruence:
@@ -121,7 +120,7 @@ class Congruence(Statement):
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         made = Congruence.make(change(self.equation), self.residues, self.modulus)
-        return replace(made, letter=self.letter, fixed=self.fixed)
+        return replace(made, setting=self.setting)
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         N = random.choice(self.residues) + random.randint(-4, 4) * self.modulus
@@ -137,7 +136,7 @@ class Congruence(Statement):
         numbers = self._numbers_below(common)
         numbers += [relation.sign * number + relation.shift for number in other._numbers_below(common)]
         made = Congruence.make(self.equation, numbers, common)
-        return replace(made, letter=self.letter, fixed=self.fixed)
+        return replace(made, setting=self.setting)
 
     def _numbers_below(self, multiple: Fraction) -> list[Fraction]:
         """The classes for a multiple of the modulus."""
@@ -190,19 +189,34 @@ class Congruence(Statement):
                 found.append(here)
         return either(*found)
 
-    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
-        return replace(self, letter=free_letter(names), fixed=tuple(fixed))
+    def avoiding(self, setting: Setting) -> Statement:
+        return replace(self, setting=setting)
+
+    @property
+    def letter(self) -> str:
+        """What the integer is called."""
+        return free_letter(self.setting.names)
 
     @cached_property
-    def written(self) -> str:
-        n = Notation(self.letter, self.fixed)
+    def claim(self) -> Claim:
         if self.form is None:
-            return integer_condition(self.equation, [*map(int, self.residues)], int(self.modulus), n)
+            return self._solved(self.equation, Classes(self.residues, self.modulus))
         if len(self.residues) == 1:
-            return self._one_class(self.form, n)
-        return f"`{n.function(self.form)} = {classes(self.residues, self.modulus)} mod {self.modulus}`"
+            return self._one_class(self.form)
+        return InClasses(self.form, Classes(self.residues, self.modulus))
 
-    def _one_class(self, form: FunctionPoly, n: Notation) -> str:
+    def _solved(self, equation: FunctionPoly, numbers: Classes) -> Claim:
+        """An equation for an integer, with what holds where the parameter for which it was solved is free."""
+        known = self.setting
+        found = integer_condition(equation, numbers, self.letter, known.fixed, known.covered)
+        claims = [found.claim]
+        for zero, rest in found.strata:
+            there = integer_roots(rest, [*map(int, numbers.residues)], int(numbers.modulus)) if rest else ALWAYS
+            if there != NEVER:
+                claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(known).claim)
+        return claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
+
+    def _one_class(self, form: FunctionPoly) -> Claim:
         """That a form is congruent to one number."""
         (residue,) = self.residues
         modulus = self.modulus
@@ -210,16 +224,15 @@ class Congruence(Statement):
         multiple = over_parameters(form * below)
         remainder = residue * below
         if modulus.numerator == 1:
-            shift = f" - {remainder}" if remainder else ""
-            return f"`{n.function(multiple)}{shift} in Z`"
+            return InClasses(over_parameters(multiple - remainder), INTEGER_CLASS)
         if modulus.numerator == 2 and remainder.denominator == 1:
-            return f"`{n.function(multiple)}` is {kind([remainder], 2)}"
+            return InClasses(multiple, Classes.of([remainder], 2))
         scale = lcm(residue.denominator, below)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         has_several_parameters = sum(map(bool, degrees(equation))) > 1
-        if has_several_parameters and families(equation):
-            return integer_condition(equation, [int(residue * scale)], int(modulus * scale), Notation(self.letter))
-        return f"`{n.function(form)} = {residue} mod {modulus}`"
+        if has_several_parameters and all_solved(equation, self.setting.fixed):
+            return self._solved(equation, Classes.of([residue * scale], modulus * scale))
+        return InClasses(form, Classes(self.residues, modulus))
 
 
 class _Relation(NamedTuple):
@@ -262,18 +275,3 @@ def _without_parameters(polynomial: Poly) -> Poly | None:
             return None
         values.append(value)
     return QQ.poly(values)
-
-
-def rational_roots(polynomial: Poly) -> list[Fraction]:
-    """The rational roots of a polynomial over Q or Q(alpha)."""
-    common = polynomial
-    if isinstance(polynomial, ExtensionPoly):
-        common = reduce(lambda a, b: a.gcd(b), polynomial.parts)
-    if common.degree < 1:
-        return []
-    found: list[Fraction] = []
-    for factor, _ in QQ.factor(common):
-        root = QQ.rational_value(-factor[0]) if factor.degree == 1 else None
-        if root is not None:
-            found.append(root)
-    return found

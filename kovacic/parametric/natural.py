@@ -10,8 +10,7 @@ References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbin
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -19,8 +18,8 @@ from functools import cached_property, lru_cache
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
@@ -28,7 +27,19 @@ from kovacic.engine.places import Problem, analyse
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.claims import (
+    NATURALS,
+    Claim,
+    DegreeByFamily,
+    DegreeBySum,
+    DegreeClaim,
+    DegreeExists,
+    SignedDegree,
+    SolutionWithZeros,
+    rational_roots,
+)
 from kovacic.parametric.exponents import (
     Numbers,
     choices_of_degree,
@@ -40,7 +51,7 @@ from kovacic.parametric.exponents import (
     is_too_large,
     zeros_of_forms,
 )
-from kovacic.parametric.formulas import equation_written, root_written, shown, text_of, written
+from kovacic.parametric.formulas import in_sum, shown
 from kovacic.parametric.functions import (
     Coset,
     ParameterPoint,
@@ -49,12 +60,12 @@ from kovacic.parametric.functions import (
     over_parameters,
     union,
 )
-from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
+from kovacic.parametric.integers import LETTERS, free_letter
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
-from kovacic.parametric.spectra import Notation, alternatives, families
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.solving import alternatives, solved_with_another_integer
+from kovacic.parametric.statements import Setting, Statement
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
@@ -113,7 +124,7 @@ class Determinant:
             return NO_FORMULA
         parts = sorted(map(shown, self.factors), key=len)
         if len(parts) > 1 or self.system:
-            parts = [_in_parentheses(part) for part in parts]
+            parts = [in_sum(part) for part in parts]
         if self.system:
             parts.append(f"({', '.join(map(shown, self.system))})")
         return "*".join(parts) or "1"
@@ -132,11 +143,15 @@ class Natural(Statement):
     m: int
     factors: tuple[FunctionPoly, ...] | None
     structure: Structure
-    letter: str = field(default="d", compare=False)
-    fixed: tuple[str, ...] = field(default=(), compare=False)
+    setting: Setting = field(default=Setting(), compare=False)
 
-    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
-        return replace(self, letter=free_letter(names, f"d{LETTERS}"), fixed=tuple(fixed))
+    def avoiding(self, setting: Setting) -> Statement:
+        return replace(self, setting=setting)
+
+    @property
+    def letter(self) -> str:
+        """What the natural number is called."""
+        return free_letter(self.setting.names, f"d{LETTERS}")
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
@@ -156,6 +171,10 @@ class Natural(Statement):
         numbers = self.numbers_at(point)
         if self.factors is not None and not numbers:
             return False
+        return self.exists(point, numbers)
+
+    def exists(self, point: ParameterPoint, numbers: Sequence[int]) -> bool:
+        """True if P has one of these degrees at the point, or an invariant of degree m exists there."""
         S = point.restricted(self.S)
         if self.m > 1:
             return _has_form(S, self.m)
@@ -223,7 +242,7 @@ class Natural(Statement):
         """What Delta is, each with the equations for the exponents where it is that."""
         at_exponents: dict[str, dict[str, None]] = {}
         for determinant in self.determinants(number):
-            where = equation_written(determinant.exponents)
+            where = prose.equation(determinant.exponents).text
             at_exponents.setdefault(where, {})[str(determinant)] = None
         values: dict[str, list[str]] = {}
         for where, texts in at_exponents.items():
@@ -266,74 +285,63 @@ class Natural(Statement):
         return tuple(factor for factor in self.factors if not _has_no_natural_root(factor, assumptions))
 
     @cached_property
-    def written(self) -> str:
+    def claim(self) -> Claim:
         factors = self.factors
         if factors is not None and not any(any(degrees(factor)) for factor in factors):
-            return self._with_these_numbers([-f[0] / f[1] for f in factors])
-        text = f"{self._numbers_written()}, `{self.letter} in N`, and `Delta_{self.letter} = 0`"
-        if self.m == 1:
-            return text
-        return f"{text} for an invariant of degree {self.m}"
+            zeros = [factor.field.rational_value(-factor[0] / factor[1]) for factor in factors]
+            return SolutionWithZeros(tuple(zero for zero in zeros if zero is not None), self.m, self)
+        return DegreeExists(self._degree, self.m, self)
 
-    def _with_these_numbers(self, zeros: Sequence[Poly]) -> str:
-        """That P, or an invariant, with so many zeros exists, where there are no parameters in the equations."""
-        numbers = " or ".join(written(over_parameters(number)) for number in zeros)
-        what = "a solution" if self.m == 1 else f"an invariant of degree {self.m}"
-        noun = "zero" if numbers == "1" else "zeros"
-        return f"{what} with {numbers} {noun} exists"
-
-    def _numbers_written(self) -> str:
+    @property
+    def _degree(self) -> DegreeClaim:
         """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
-        found: list[str] = []
+        found: list[DegreeClaim] = []
         if self.factors is not None:
-            listed = alternatives(self.factors, Notation(self.letter, self.fixed))
+            listed = alternatives(self.factors, self.letter, self.setting.fixed, self.setting.covered)
             longest = _WRITTEN_OUT if self.m == 1 else _EQUATIONS
-            is_solved = "= 0" not in listed
-            if is_solved and len(text_of(listed)) <= longest:
+            if not listed.equations and prose.length(listed) <= longest:
                 return listed
             found.append(listed)
         sums = self._by_exponents()
         if sums is not None:
             found.append(sums)
-        return min(found, key=len)
+        return min(found, key=prose.length)
 
-    def _by_exponents(self) -> str | None:
+    def _by_exponents(self) -> DegreeClaim | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
         problem = analyse(self.S, Budget())
         numbers = self._allowed(problem)
         if numbers is None:
             return None
-        roots = [_in_parentheses(root_written(root.square)) for root in numbers.roots]
-        distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
+        squares = tuple(root.square for root in numbers.roots)
         if numbers.only_signs:
-            return f"`{written(distance, self.letter)} = +-{' +- '.join(roots)}`"
-        has_constant = self.factors is None or distance in self.factors
-        letters = self._letters_beside(parameters_of(problem.field), len(roots))
+            return SignedDegree(self.letter, numbers.constant, squares)
+        distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
+        has_zero = self.factors is None or distance in self.factors
+        letters = self._letters_beside(parameters_of(problem.field), len(squares))
         if len(letters) == 1:
-            solved = self._solved_for_a_parameter(numbers, letters[0], has_zero=has_constant)
+            solved = self._solved_for_a_parameter(numbers, letters[0], has_zero=has_zero)
             if solved is not None:
                 return solved
-        said = self._as_sum(numbers, roots, letters)
-        if has_constant:
-            return said
-        which = "0" if len(letters) == 1 else "all 0"
-        return f"{said}, not {which}"
+        bounds = tuple(root.largest for root in numbers.roots)
+        return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero)
+
+    def _solved_for_a_parameter(self, numbers: Numbers, j: str, *, has_zero: bool) -> DegreeByFamily | None:
+        """(d - constant)^2 = j^2 square for the only root, solved for a parameter; d is the constant for j = 0."""
+        (root,) = numbers.roots
+        square = over_parameters(root.square)
+        solved = solved_with_another_integer(square, numbers.constant, self.letter, j, self.setting.fixed)
+        if solved is None:
+            return None
+        is_natural = has_zero and NATURALS.contain(numbers.constant)
+        constant = int(numbers.constant) if is_natural else None
+        return DegreeByFamily(self.letter, constant, solved.parameter, solved.value, j, root.largest)
 
     def _allowed(self, problem: Problem) -> Numbers | None:
         """What the exponents allow as degrees of P, or as numbers of zeros of an invariant."""
         if self.m == 1:
             return degrees_of_solutions(problem)
         return zeros_of_forms(problem, self.m)
-
-    def _as_sum(self, numbers: Numbers, roots: Sequence[str], letters: Sequence[str]) -> str:
-        """The number as a constant plus integers times roots, with the bounds of the integers."""
-        terms = [str(numbers.constant)]
-        bounds = []
-        for k, root, exponent in zip(letters, roots, numbers.roots, strict=True):
-            # a factor comes first: 2*k*sqrt(a) for k*2*sqrt(a)
-            terms.append(re.sub(r"^(\w+)\*(\d+)\*", r"\2*\1*", f"{k}*{root}"))
-            bounds.append(f"`{k}` from -{exponent.largest} to {exponent.largest}")
-        return f"`{self.letter} = {' + '.join(terms)}` for integers {', '.join(bounds)}"
 
     def _letters_beside(self, names: Sequence[str], count: int) -> list[str]:
         """So many names of integers that are neither parameters nor d."""
@@ -342,26 +350,6 @@ class Natural(Statement):
             letters.append(free_letter([self.letter, *names, *letters], "jkmnl"))
         return letters
 
-    def _solved_for_a_parameter(self, numbers: Numbers, j: str, *, has_zero: bool) -> str | None:
-        """(d - constant)^2 = j^2 square for the only root, solved for a parameter that is linear in the square.
-
-        None where there is none.  `has_zero`: j can be 0.
-        """
-        (root,) = numbers.roots
-        names = parameters_of(root.square.field)
-        field = FunctionField((*names, j))
-        square = over_parameters(root.square).value_at([field.generator(name) for name in names], field)
-        d = field.poly([0, 1])
-        equation = over_parameters((d - numbers.constant) ** 2 - field.generator(j) ** 2 * square)
-        solved = families(equation, (*self.fixed, j))
-        if not solved:
-            return None
-        name, f = solved[0]
-        if _has_others(f.num, j) or _has_others(f.den, j):
-            return None  # where numerator and denominator vanish for some parameters, more would have to be said
-        least = 0 if has_zero else 1
-        return f"{Notation(self.letter).equals(name, f)} for an integer `{j}` from {least} to {root.largest}"
-
 
 class _Given(NamedTuple):
     """The exponents give a number where a polynomial vanishes: that, its zeros, and S there."""
@@ -369,20 +357,6 @@ class _Given(NamedTuple):
     exponents: FunctionPoly
     surface: Hypersurface
     S: RatFunc
-
-
-def _has_others(part: Poly, j: str) -> bool:
-    """Are there parameters beside j in it?"""
-    function = over_parameters(part)
-    return any(degree for name, degree in zip(function.field.names, degrees(function), strict=True) if name != j)
-
-
-def _in_parentheses(text: str) -> str:
-    """A sum in parentheses, where it isn't within some."""
-    outside = re.sub(r"[({][^()]*[)}]", "", text)
-    if re.search(r" [+-] ", outside):
-        return f"({text})"
-    return text
 
 
 def _has_no_natural_root(factor: FunctionPoly, assumptions: Assumptions) -> bool:

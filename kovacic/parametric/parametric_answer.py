@@ -28,7 +28,7 @@ from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line, said_of
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line, said_of, settled
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
@@ -473,11 +473,13 @@ class ParametricAnswer:
             constant = constant_from(data)
             if not all(name.isidentifier() for name in (*names, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
-            reader = StatementReader(FunctionField((*names, *constant.names)))
+            field = FunctionField((*names, *constant.names))
+            reader = StatementReader(field)
+            regions = [_region_from(region, reader) for region in data["regions"]]
             return cls(
                 variable=variable,
                 parameters=names,
-                regions=tuple([_region_from(region, reader) for region in data["regions"]]),
+                regions=tuple(settled(regions, variable, field.names, constant.names)),
                 generic=RegionVerdict.from_dict(data["generic"]["verdict"]),
                 complete=data["complete"],
                 theory=data["theory"],

@@ -12,6 +12,7 @@ defined, one in case 2 is in case 1 or 2, and one that has Liouvillian solutions
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -25,23 +26,27 @@ from kovacic.decision import Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
-from kovacic.galois import group_of
+from kovacic.galois import Group, group_of
 from kovacic.limits import Budget, count_work
-from kovacic.parametric import restriction
+from kovacic.parametric import prose, restriction
 from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
 from kovacic.parametric.solutions import solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
+from kovacic.writing.formula import Math
 
 #: How completeness begins where a limit was reached.
 LIMITED = "only as far as the limits allowed"
 #: Said of a theory that holds for an equation without apparent singularities.
 _TRANSFORMED = ", after Darboux' transformation"
+#: What is a formula in the name of a group.
+_FORMULA = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _UNKNOWN = RegionVerdict(None, known=False)
 
 
@@ -246,7 +251,7 @@ def _add_natural(
 def _with_a_number(statement: Natural, variable: str) -> ParameterRegion:
     """The region of a statement with a natural number; case 3 leaves the group open."""
     structure = statement.structure
-    family = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
+    family = ("binary tetrahedral, octahedral or icosahedral",) if structure.case == 3 else None
     origin = partial(statement.solutions, variable)
     return ParameterRegion(statement, RegionVerdict(structure, family=family), origin=origin)
 
@@ -376,8 +381,8 @@ def _rest(
 
 def _without_formulas(verdict: RegionVerdict) -> RegionVerdict:
     """Without a family whose name has functions of the parameter of a curve in it, which isn't one of the user's."""
-    has_roots = "sqrt" in (verdict.family or "")
-    return replace(verdict, family=None) if has_roots else verdict
+    has_formulas = any(isinstance(part, Math) for part in verdict.family or ())
+    return replace(verdict, family=None) if has_formulas else verdict
 
 
 def _at_a_value(
@@ -387,9 +392,16 @@ def _at_a_value(
     decision = decide(S, settings.budget)
     if decision.structure is None or decision.undecided:
         return ParameterRegion(statement, verdict, complete)
-    verdict = replace(verdict, family=str(group_of(S, decision)))
+    group = group_of(S, decision)
+    if group is not None:
+        verdict = replace(verdict, family=_named(group))
     origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
     return ParameterRegion(statement, verdict, complete, origin=origin)
+
+
+def _named(group: Group) -> Words:
+    """The name of a group, what is a formula in it as one."""
+    return prose.phrase(_FORMULA.sub(r"`\g<0>`", group.name))
 
 
 def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[ParameterRegion]:

@@ -188,8 +188,8 @@ class StatementReader:
         return Congruence.make(equation, _residues(data), fraction(data["modulus"]))
 
     def integer_root(self, data: Mapping[str, Any]) -> Statement:
-        letter = data.get("unknown", "x")
-        return Congruence(self.polynomial(data["equation"], letter), _residues(data), fraction(data["modulus"]), letter)
+        equation = self.polynomial(data["equation"], data.get("unknown", "x"))
+        return Congruence(equation, _residues(data), fraction(data["modulus"]))
 
     def natural(self, data: Mapping[str, Any]) -> Statement:
         letter = data.get("unknown", "x")
@@ -197,7 +197,7 @@ class StatementReader:
         if data["equations"] is not None:
             equations = tuple(self.polynomial(text, letter) for text in data["equations"])
         S = self.function(data["S"], data["variable"])
-        return Natural(S, data["degree"], equations, Structure(data["structure"]), letter)
+        return Natural(S, data["degree"], equations, Structure(data["structure"]))
 
     def schwarz(self, data: Mapping[str, Any]) -> Statement:
         squares = self.polynomial(data["squares"], data.get("unknown", "x"))

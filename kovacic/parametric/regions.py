@@ -14,17 +14,31 @@ from typing import Any, NamedTuple
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
+from kovacic.equation import PI, Equation
 from kovacic.limits import check_time
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
-from kovacic.parametric.formulas import text_of
+from kovacic.parametric.claims import Classes
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.prose import Words
 from kovacic.parametric.record import statement_data
-from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.restriction import hypersurface, with_free_constant
 from kovacic.parametric.solutions import Origin, PolynomialSolution
-from kovacic.parametric.spectra import families
-from kovacic.parametric.statements import ALWAYS, Both, Either, Statement, Vanishes, alternatives_of, both, either
+from kovacic.parametric.solving import Solved, all_solved, possible
+from kovacic.parametric.statements import (
+    ALWAYS,
+    Both,
+    Either,
+    Setting,
+    Statement,
+    Vanishes,
+    all_of,
+    alternatives_of,
+    both,
+    either,
+)
 
 #: Characters up to which statements share a line.
 _LINE = 100
@@ -40,8 +54,8 @@ class RegionVerdict:
         The structure of the group; None without a Liouvillian solution.
     known : bool
         Is anything claimed?
-    family : str or None
-        More about the group than the structure says.
+    family : tuple or None
+        More about the group than the structure says, in words and formulas.
 
     Examples
     --------
@@ -53,7 +67,7 @@ class RegionVerdict:
 
     structure: Structure | None
     known: bool = True
-    family: str | None = field(default=None, compare=False)
+    family: Words | None = field(default=None, compare=False)
 
     @classmethod
     def of(cls, decision: Decision) -> RegionVerdict:
@@ -91,7 +105,8 @@ class RegionVerdict:
         >>> kovacic.conditions("n/x^2").generic.to_dict()
         {'structure': 'reducible', 'known': True, 'family': None}
         """
-        return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
+        family = self.family and prose.marked(self.family)
+        return {"structure": self.structure and self.structure.value, "known": self.known, "family": family}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionVerdict:
@@ -116,7 +131,7 @@ class RegionVerdict:
         """
         name = data["structure"]
         structure = None if name is None else Structure(name)
-        return cls(structure, data["known"], data["family"])
+        return cls(structure, data["known"], data["family"] and prose.phrase(data["family"]))
 
     @property
     def case(self) -> int | None:
@@ -126,13 +141,15 @@ class RegionVerdict:
     @property
     def group(self) -> str:
         """The family of the Galois group."""
-        return text_of(self.group_written)
+        if self.known and self.family is None and self.structure in _ADJECTIVES:
+            return f"{_ADJECTIVES[self.structure]}: {prose.text_of(self.group_in_words)}"
+        return prose.text_of(self.group_in_words)
 
     @property
-    def group_written(self) -> str:
-        """The same with formulas between backquotes."""
+    def group_in_words(self) -> Words:
+        """The same with its formulas, without the structure."""
         if not self.known:
-            return "not determined"
+            return ("not determined",)
         return self.family or _GROUPS[self.structure]
 
     def __str__(self) -> str:
@@ -141,13 +158,14 @@ class RegionVerdict:
         return "no Liouvillian solution" if self.case is None else f"case {self.case}"
 
 
-_GROUPS = {
-    Structure.REDUCIBLE: "reducible: a subgroup of the triangular group",
-    Structure.IMPRIMITIVE: "imprimitive: dicyclic, or the infinite dihedral group",
-    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
-    Structure.OCTAHEDRAL: "binary octahedral, order 48",
-    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
-    None: "`SL2(C)`",
+_ADJECTIVES = {Structure.REDUCIBLE: "reducible", Structure.IMPRIMITIVE: "imprimitive"}
+_GROUPS: dict[Structure | None, Words] = {
+    Structure.REDUCIBLE: ("a subgroup of the triangular group",),
+    Structure.IMPRIMITIVE: ("dicyclic, or the infinite dihedral group",),
+    Structure.TETRAHEDRAL: ("binary tetrahedral, order 24",),
+    Structure.OCTAHEDRAL: ("binary octahedral, order 48",),
+    Structure.ICOSAHEDRAL: ("binary icosahedral, order 120",),
+    None: prose.phrase("`SL2(C)`"),
 }
 
 
@@ -307,6 +325,24 @@ def said_of(region: ParameterRegion) -> str:
     return region.group
 
 
+def settled(
+    regions: Sequence[ParameterRegion], variable: str, names: tuple[str, ...], constants: tuple[str, ...]
+) -> list[ParameterRegion]:
+    """The regions in their order, so that each is printed for the values that belong to none before it.
+
+    `names` are the parameters, among them the `constants`, for which nothing is solved, nor for pi.
+    """
+    fixed = (*constants, *(name for name in names if name == PI))
+    covered: list[FunctionPoly] = []
+    found = []
+    for region in regions:
+        setting = Setting((variable, *names), fixed, tuple(covered))
+        found.append(replace(region, statement=region.statement.avoiding(setting)))
+        alternatives = alternatives_of(all_of(both(region.statement).parts))
+        covered += [one.function for one in alternatives if isinstance(one, Vanishes)]
+    return found
+
+
 @dataclass(frozen=True)
 class Theorem:
     """The regions, in their order, that describe all values at which none of the functions in `exceptions` vanishes."""
@@ -460,20 +496,27 @@ def _charts(statement: Statement) -> list[_Chart]:
         return [] if chart is None else [_Chart(chart, NOTHING_ASSUMED)]
     charts: list[_Chart] = []
     for part in alternatives_of(statement):
-        if not isinstance(part, Congruence) or not _is_spectrum(part):
+        solved = _spectrum(part) if isinstance(part, Congruence) else None
+        if not isinstance(part, Congruence) or solved is None:
             return []
-        charts += _of_integers(part)
+        charts += _of_integers(part, solved)
     return charts
 
 
-def _is_spectrum(statement: Congruence) -> bool:
-    """Is it an equation for an integer, not a form, that can be solved for a parameter?"""
-    return statement.form is None and bool(families(statement.equation))
+def _spectrum(statement: Congruence) -> Solved | None:
+    """An equation for an integer, not a form, solved for a parameter that is nowhere free; None for any other."""
+    if statement.form is not None:
+        return None
+    numbers = Classes(statement.residues, statement.modulus)
+    for solved in all_solved(statement.equation):
+        if not solved.strata and not possible(solved.poles, numbers):
+            return solved
+    return None
 
 
-def _of_integers(statement: Congruence) -> list[_Chart]:
+def _of_integers(statement: Congruence, solved: Solved) -> list[_Chart]:
     """One parameter as a function of an integer k, which is a new parameter, for each of the classes."""
-    solved, f = families(statement.equation)[0]
+    f = solved.value
     names = statement.equation.field.names
     letter = next(name for name in map("k{}".format, count()) if name not in names)
     field = FunctionField((*names, letter))
@@ -486,7 +529,7 @@ def _of_integers(statement: Congruence) -> list[_Chart]:
     charts = []
     for residue in statement.residues:
         N = k * statement.modulus + residue
-        on_class = {**values, solved: above(N) / below(N)}
+        on_class = {**values, solved.parameter: above(N) / below(N)}
         charts.append(_Chart(ParameterPoint(names, tuple(on_class.values()), field), known))
     return charts
 
@@ -514,6 +557,46 @@ def _zeros_on(chart: ParameterPoint, function: FunctionPoly) -> ParameterPoint |
     surface = hypersurface(factors[0])
     values = tuple(surface.at(over_parameters(value)) for value in chart.values)
     return ParameterPoint(chart.names, values, surface.field)
+
+
+@dataclass(frozen=True)
+class EquationThere:
+    """The equation that was given, on one piece of a region; `zeros` vanish there and not on every piece."""
+
+    equation: Equation
+    zeros: tuple[FunctionPoly, ...] = ()
+
+
+def equations_on(statement: Statement, equation: Equation) -> list[EquationThere]:
+    """The equation y'' + p y' + q y = 0 restricted to the pieces of a region, whose formulas have their gauge from it.
+
+    At the zeros that make up a region, poles of b/a can merge or go to infinity, and the gauge for generic values, specialised,
+    is another function.  Pieces that aren't given by functions of fewer parameters are left out.
+    """
+    pieces: list[tuple[FunctionPoly, ...]] = [()]
+    for part in both(statement).parts:
+        zeros = _vanishing(alternatives_of(part))
+        if zeros and len(zeros) == len(alternatives_of(part)):
+            pieces = [(*piece, zero) for piece in pieces for zero in zeros]
+    found = []
+    for piece in pieces:
+        there = _restricted(equation, piece)
+        if there is not None:
+            found.append(EquationThere(there, piece if len(pieces) > 1 else ()))
+    return found
+
+
+def _restricted(equation: Equation, zeros: tuple[FunctionPoly, ...]) -> Equation | None:
+    if not zeros:
+        return equation
+    chart = _common_zeros(zeros)
+    if chart is None:
+        return None
+    try:
+        p, q = (chart.restricted(with_free_constant(part / equation.a).S) for part in (equation.b, equation.c))
+    except ZeroDivisionError:
+        return None
+    return replace(equation, a=q * 0 + 1, b=p, c=q, f=q * 0, h=None)
 
 
 def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:

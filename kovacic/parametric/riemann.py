@@ -21,7 +21,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, reduce
+from functools import lru_cache, reduce
 from itertools import product
 from math import gcd, lcm
 from random import Random
@@ -32,7 +32,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.claims import Claim
 from kovacic.parametric.formulas import root_written, shown
 from kovacic.parametric.functions import (
     ParameterPoint,
@@ -43,8 +45,10 @@ from kovacic.parametric.functions import (
     values_at_integers,
 )
 from kovacic.parametric.integers import Congruence, integer_roots
+from kovacic.parametric.prose import Words, with_both_signs
 from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both, either
+from kovacic.writing.formula import Math, latex_text
 
 _F = Fraction
 #: The largest denominator in Schwarz's table.
@@ -140,7 +144,7 @@ _CYCLIC = "finite cyclic, or `G_a` extended by a finite cyclic group"
 
 
 @dataclass(frozen=True)
-class Schwarz(Statement):
+class Schwarz(Statement, Claim):
     """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table."""
 
     cubic: FunctionPoly
@@ -169,16 +173,10 @@ class Schwarz(Statement):
             return [_F(k, 60) for k in random.choice(rows)]
         return [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
 
-    @cached_property
-    def written(self) -> str:
-        names = differences(self.cubic)
-        if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
-            return _two_half_integers(names)
-        rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
-        which = "row 1 (two half-integers)"
-        if rows:
-            which = f"rows {rows[0]}-{rows[-1]}"
-        return f"the exponent differences {_listed(names)} are in Schwarz's {which}"
+    @property
+    def claim(self) -> Claim:
+        """Itself: what is printed names the exponent differences and the rows."""
+        return self
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
@@ -219,6 +217,17 @@ class Schwarz(Statement):
             return ALWAYS
         return NEVER
 
+    def sentence(self) -> Words:
+        """Which differences are in which rows."""
+        names = differences(self.cubic)
+        if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
+            return prose.phrase(_two_half_integers(names))
+        rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
+        which = "row 1 (two half-integers)"
+        if rows:
+            which = f"rows {rows[0]}-{rows[-1]}"
+        return prose.phrase(f"the exponent differences {_listed(names)} are in Schwarz's {which}")
+
     def resolved(self) -> ResolvedDifferences:
         """The classes modulo 1 or 2, up to signs, of two differences beside a constant one, with their names.
 
@@ -231,7 +240,7 @@ class Schwarz(Statement):
             return ResolvedDifferences([], self._rows_of_the_table())
         return ResolvedDifferences(names, self._rows_beside(constants[0]))
 
-    def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[str]]]:
+    def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
         """The classes of the other two differences, modulo 1 where these say it."""
         found = self._pairs_beside(third)
         lattice = "2*Z"
@@ -241,14 +250,14 @@ class Schwarz(Statement):
         found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
         return [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
 
-    def _rows_of_the_table(self) -> list[tuple[Structure, list[str]]]:
+    def _rows_of_the_table(self) -> list[tuple[Structure, list[Words]]]:
         """The differences modulo 1, and whether the sum of the integers must be even."""
         found = []
         for row in _SCHWARZ.values():
             if row.structure in self.structures:
                 residues = ", ".join(map(str, row.differences))
                 parity = "even" if row.is_even else "any"
-                found.append((row.structure, [f"`{residues}`", parity]))
+                found.append((row.structure, [prose.phrase(f"`{residues}`"), (parity,)]))
         return found
 
     def _pairs_beside(self, third: Fraction) -> list[_DifferencePair]:
@@ -266,15 +275,21 @@ class Schwarz(Statement):
         return None
 
 
+prose.writes({Schwarz: Schwarz.sentence})
+
+
 class ResolvedDifferences(NamedTuple):
     """The names of exponent differences, and what they are for each structure; without names, rows of Schwarz's table."""
 
     names: list[str]
-    rows: list[tuple[Structure, list[str]]]
+    rows: list[tuple[Structure, list[Words]]]
 
 
-def _class(sixtieths: int, lattice: str) -> str:
-    return f"`+-{_F(sixtieths, 60)} + {lattice}`"
+def _class(sixtieths: int, lattice: str) -> Words:
+    """`+-1/3 + 2*Z`."""
+    latex = latex_text(lattice.replace("Z", "")) + r"\mathbb{Z}"
+    number = with_both_signs([str(_F(sixtieths, 60))], "+-")
+    return (Math(f"{number.text} + {lattice}", f"{number.latex} + {latex}"),)
 
 
 @dataclass(frozen=True)
@@ -375,7 +390,7 @@ def difference_squared(place: Place) -> Poly:
     return (1 + 4 * place.num * cofactor.inverse_modulo(p)) % p
 
 
-def group(problem: Problem, structure: Structure) -> str | None:
+def group(problem: Problem, structure: Structure) -> Words | None:
     """The family of the groups with this structure; None where the structure is all there is to say.
 
     All residues of a logarithmic derivative of a solution come from the exponents and from zeros, so that its constant
@@ -384,9 +399,9 @@ def group(problem: Problem, structure: Structure) -> str | None:
     """
     cubic = squares_of_differences(problem)
     if structure is Structure.REDUCIBLE:
-        return _reducible_group(cubic)
+        return prose.phrase(_reducible_group(cubic))
     if structure is Structure.IMPRIMITIVE:
-        return _imprimitive_group(_split(cubic))
+        return prose.phrase(_imprimitive_group(_split(cubic)))
     return None
 
 

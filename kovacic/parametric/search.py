@@ -18,13 +18,13 @@ from fractions import Fraction
 from itertools import product
 from math import lcm, prod
 
-from kovacic.algebra.extension import AlgebraicField, norm
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
 from kovacic.parametric import riemann
+from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.exponents import (
     Numbers,
     conditions_of_degree,
@@ -290,16 +290,6 @@ def _may_be_branch_point(place: Place) -> bool:
     return place.delta is None or place.delta.denominator == 2
 
 
-def _signed_sums(squares: Sequence[Poly], constant: Fraction, field: Field) -> Poly:
-    """The squarefree polynomial in Y over Q(t) whose roots are the constant plus sums of +- the square roots."""
-    total = field.poly([-constant, 1])
-    for square in squares:
-        root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
-        total = norm(total(root.field.poly([0, 1]) + root))
-        total = total // total.gcd(total.derivative())
-    return total
-
-
 def degree_equation(problem: Problem) -> Poly | None:
     """The polynomial over Q(t) whose roots are the degrees that P can have in a solution exp(int theta) P.
 
@@ -310,7 +300,7 @@ def degree_equation(problem: Problem) -> Poly | None:
     numbers = degrees_of_solutions(problem)
     if numbers is None:
         return None
-    return _signed_sums([root.square for root in numbers.roots], numbers.constant, problem.field)
+    return signed_sums([root.square for root in numbers.roots], numbers.constant, problem.field)
 
 
 def _is_ramified(problem: Problem) -> bool:
@@ -449,7 +439,7 @@ def _has_conjugate_exponents(problem: Problem) -> bool:
 def _numbers_of_zeros(multiples: Sequence[int], numbers: Numbers, field: Field) -> list[FunctionPoly]:
     """Equations for the constant + the sums of +- k times the roots."""
     chosen = [k * k * root.square for k, root in zip(multiples, numbers.roots, strict=True) if k]
-    sums = _signed_sums(chosen, numbers.constant, field)
+    sums = signed_sums(chosen, numbers.constant, field)
     return [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
 
 

@@ -28,8 +28,8 @@ from kovacic.equation import Equation
 from kovacic.exact import has_long_numbers
 from kovacic.limits import Budget
 from kovacic.numerals import as_text
+from kovacic.parametric import prose
 from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
-from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
 from kovacic.writing.formula import caret
@@ -140,36 +140,49 @@ class Signed:
 
 @dataclass(frozen=True)
 class Given:
-    """The solutions of a normal form as those of the equation of which it is one."""
+    """The solutions of a normal form as those of the equation of which it is one.
+
+    `pieces` are the equations on the pieces of a region, each with the functions that vanish on it and not on all of them.
+    """
 
     origin: Origin
-    equation: Equation
+    pieces: tuple[tuple[Equation, tuple[FunctionPoly, ...]], ...]
 
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        return tuple(map(self._given, self.origin(number)))
+        found = product(self.origin(number), self.pieces)
+        return tuple(_given(solution, *piece) for solution, piece in found)
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
         """All of them in one, with symbols for the signs; None where there is no such formula."""
         found = general(self.origin, signs)
-        return None if found is None else self._given(found)
+        if found is None or len(self.pieces) > 1:
+            return None
+        return _given(found, *self.pieces[0])
 
-    def _given(self, solution: PolynomialSolution) -> PolynomialSolution:
-        """The solution with its degree and its conditions: where t = x^m, the roots in them are those of the translated y."""
-        y = self.translated(solution.y)
-        degree = solution.degree
-        conditions = solution.conditions
-        if is_power(self.equation):
-            x = user_variable(self.equation)
-            degree = with_roots_of_factors(degree, x)
-            conditions = tuple(with_roots_of_factors(condition, x) for condition in conditions)
-        return replace(solution, y=y, degree=degree, conditions=conditions)
 
-    def translated(self, y: Any) -> Any:
-        """Times the gauge factor, and in the user's variable."""
-        equation = self.equation
-        if equation.gauge:
-            y = y * display(product_of_powers(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
-        return solution_in_x(equation, y)
+def _given(solution: PolynomialSolution, equation: Equation, zeros: tuple[FunctionPoly, ...]) -> PolynomialSolution:
+    """The solution with its degree and its conditions: where t = x^m, the roots in them are those of the translated y."""
+    y = translated(solution.y, equation)
+    degree = solution.degree
+    conditions = solution.conditions
+    where = solution.where
+    if is_power(equation):
+        x = user_variable(equation)
+        degree = with_roots_of_factors(degree, x)
+        conditions = tuple(with_roots_of_factors(condition, x) for condition in conditions)
+    if zeros:
+        x = sympy.Symbol(equation.variable)
+        conditions = (*conditions, *(zero.to_sympy(x) for zero in zeros))
+        on_piece = [prose.equation(zero).text for zero in zeros]
+        where = ", ".join([*filter(None, [where]), *on_piece])
+    return replace(solution, y=y, degree=degree, conditions=conditions, where=where)
+
+
+def translated(y: Any, equation: Equation) -> Any:
+    """A solution of the normal form times the gauge factor, and in the user's variable."""
+    if equation.gauge:
+        y = y * display(product_of_powers(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
+    return solution_in_x(equation, y)
 
 
 def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
@@ -243,7 +256,7 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
         exponent = sympy.factor(part.exponent.to_sympy(x))
         y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
     conditions = [given.to_sympy(x), *(_product(factors, x) for factors in alternatives)]
-    where = [equation_written(given), *map(_one_vanishes, dict.fromkeys(map(tuple, alternatives)))]
+    where = [prose.equation(given).text, *map(_one_vanishes, dict.fromkeys(map(tuple, alternatives)))]
     return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join(where))
 
 

@@ -7,7 +7,7 @@ for Schwarz's table, `natural` for determinants.  Nothing here is numerical.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -15,9 +15,23 @@ from random import Random
 from typing import ClassVar
 
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.formulas import equation_written, latex_of, text_of
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, Zero
 from kovacic.parametric.functions import ParameterPoint, numerator
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What a statement is printed beside.
+
+    No integer is called like one of the `names`; nothing is solved for one of the `fixed` ones, which are constants; nothing is
+    said of the zeros of the `covered` functions, which belong to earlier regions.
+    """
+
+    names: tuple[str, ...] = ()
+    fixed: tuple[str, ...] = ()
+    covered: tuple[FunctionPoly, ...] = ()
 
 
 class Statement(ABC):
@@ -35,15 +49,15 @@ class Statement(ABC):
 
     @cached_property
     @abstractmethod
-    def written(self) -> str:
-        """In words, and formulas between backquotes."""
+    def claim(self) -> Claim:
+        """What is printed."""
 
     def text(self) -> str:
-        return text_of(self.written)
+        return prose.text(self.claim)
 
     def latex(self) -> str:
         """Without dollar signs."""
-        return latex_of(self.written)
+        return prose.latex(self.claim)
 
     def merged(self, other: Statement) -> Statement | None:
         """Both statements in one (either holds), where they are about the same function; else None."""
@@ -65,8 +79,8 @@ class Statement(ABC):
         """Functions, chosen at random, at whose common zeros the statement holds."""
         return []
 
-    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
-        """The same statement, in which no integer is called like one of the names; the `fixed` ones are constants."""
+    def avoiding(self, setting: Setting) -> Statement:
+        """The same statement, printed where this is known."""
         return self
 
     def __str__(self) -> str:
@@ -92,8 +106,8 @@ class Vanishes(Statement):
         return assumptions.vanishes(self.function)
 
     @cached_property
-    def written(self) -> str:
-        return f"`{equation_written(self.function)}`"
+    def claim(self) -> Claim:
+        return Zero(self.function)
 
 
 @dataclass(frozen=True)
@@ -109,8 +123,8 @@ class _Several(Statement):
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, parts=tuple(part.rewritten(change) for part in self.parts))
 
-    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
-        return replace(self, parts=tuple(part.avoiding(names, fixed) for part in self.parts))
+    def avoiding(self, setting: Setting) -> Statement:
+        return replace(self, parts=tuple(part.avoiding(setting) for part in self.parts))
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         decisions = {part.decided(assumptions) for part in self.parts}
@@ -143,93 +157,8 @@ class Either(_Several):
         return random.choice(self.parts).sample(random)
 
     @cached_property
-    def written(self) -> str:
-        """A common start "n = " or "E = f(n), ", and a common end, from "for" on, are written once."""
-        parts = [part.written for part in self.parts]
-        if self.is_about_one_value:
-            return _values_of_one(parts)
-        together = _with_common_end(parts) or _with_common_start(parts) or _one_of(parts)
-        if together:
-            return together
-        is_long = any(" for " in part or ", " in part for part in parts)
-        separator = ", or " if is_long else " or "
-        return separator.join(parts)
-
-    @property
-    def is_about_one_value(self) -> bool:
-        """Is it "n = 0 or -1"?"""
-        heads = {part.text().partition(" = ")[0] for part in self.parts}
-        return len(heads) == 1 and all(isinstance(part, Vanishes) for part in self.parts)
-
-
-def _values_of_one(parts: Sequence[str]) -> str:
-    """`n = 0, 1` or `2` for `n = 0`, `n = 1`, `n = 2`."""
-    head = parts[0].partition(" = ")[0]
-    values = [part.partition(" = ")[2].rstrip("`") for part in parts]
-    return f"{head} = {', '.join(values[:-1])}` or `{values[-1]}`"
-
-
-def _with_common_end(parts: Sequence[str]) -> str | None:
-    """Where the last "for" is followed by the same in all of them."""
-    split = [part.rpartition(" for ") for part in parts]
-    ends = {end for _, _, end in split}
-    if len(ends) != 1 or not all(separator for _, separator, _ in split):
-        return None
-    return f"{' or '.join(head for head, _, _ in split)} for {ends.pop()}"
-
-
-def _with_common_start(parts: Sequence[str]) -> str | None:
-    """Where the same stands before the first "with" in all of them."""
-    split = [part.partition(" with ") for part in parts]
-    heads = {head for head, _, _ in split}
-    if len(heads) != 1 or not all(separator for _, separator, _ in split):
-        return None
-    return f"{heads.pop()} with {' or '.join(end for _, _, end in split)}"
-
-
-@dataclass(frozen=True)
-class _FormulasOfOneKind:
-    """Several formulas of which the same is said."""
-
-    formulas: list[str]
-    kind: str
-
-
-def _one_of(parts: Sequence[str]) -> str | None:
-    """That one of several formulas is an integer of some kind; None where another thing is said of one of them."""
-    known = _of_one_kind(parts, "` is ")
-    if known is not None:
-        return f"{_listed(known.formulas)} is {known.kind}"
-    known = _of_one_kind(parts, " in Z`")
-    if known is not None and len(parts) > 2:
-        return f"{_listed(known.formulas)} is an integer"
-    return None
-
-
-def _of_one_kind(parts: Sequence[str], separator: str) -> _FormulasOfOneKind | None:
-    """The formulas before the separator, and what follows it; None where that differs, or other formulas stand there."""
-    formulas: list[str] = []
-    kinds: set[str] = set()
-    for part in parts:
-        formula, found, kind = part.partition(separator)
-        has_others = "`" in formula[1:]
-        if not found or has_others:
-            return None
-        formulas.append(formula)
-        kinds.add(kind)
-    if len(kinds) != 1:
-        return None
-    return _FormulasOfOneKind(formulas, kinds.pop())
-
-
-def _listed(formulas: Sequence[str]) -> str:
-    """One of `a`, `b` or `c`."""
-    *first, last = (formula.strip("`") for formula in formulas)
-    listed = ", ".join(f"`{formula}`" for formula in first)
-    text = f"{listed} or `{last}`"
-    if len(first) > 1:
-        return f"one of {text}"
-    return text
+    def claim(self) -> Claim:
+        return AnyOf(tuple(part.claim for part in self.parts))
 
 
 class Both(_Several):
@@ -249,17 +178,8 @@ class Both(_Several):
         return list(chain.from_iterable(part.sample(random) for part in self.parts))
 
     @cached_property
-    def written(self) -> str:
-        if len(self.parts) == 1:
-            return self.parts[0].written
-        return ", and ".join(map(_in_conjunction, self.parts))
-
-
-def _in_conjunction(part: Statement) -> str:
-    """Alternatives are in parentheses, unless they are those of one value."""
-    if isinstance(part, Either) and not part.is_about_one_value:
-        return f"({part.written})"
-    return part.written
+    def claim(self) -> Claim:
+        return AllOf(tuple(part.claim for part in self.parts))
 
 
 def both(*statements: Statement) -> Both:

@@ -64,6 +64,7 @@ from kovacic.parametric import restriction, riemann
 from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
+from kovacic.parametric.prose import phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import NEVER, Statement, both
@@ -180,7 +181,7 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
         yield from _smaller_in_x(problem, structure, n)
         family = riemann.group(problem, structure)
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
-            family = "binary tetrahedral, or octahedral"
+            family = ("binary tetrahedral, or octahedral",)
         solutions = None
         if structure is Structure.REDUCIBLE:
             solutions = origin
@@ -197,7 +198,7 @@ def _smaller_in_x(problem: Problem, structure: Structure, n: int) -> Iterator[Pa
         yield ParameterRegion(diagonal, RegionVerdict(Structure.REDUCIBLE))
     if structure is Structure.TETRAHEDRAL and n % 3 == 0:
         threefold = _with_denominators(problem, (3, 3, 2))
-        yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group"))
+        yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family=("the quaternion group",)))
 
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
@@ -377,9 +378,9 @@ def _condition(form: Confluent) -> Statement:
 def _verdict(form: Confluent) -> RegionVerdict:
     """What holds under the condition."""
     if not form.q:
-        return RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+        return RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
     family = "the Borel group, or `G_m` where both exponential factors occur" if form.r else "`G_m`"
-    return RegionVerdict(Structure.REDUCIBLE, family=family)
+    return RegionVerdict(Structure.REDUCIBLE, family=phrase(family))
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:

@@ -18,15 +18,16 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.decision import Structure
 from kovacic.equation import PI
 from kovacic.limits import DEFAULT_LIMITS, Budget
+from kovacic.parametric import prose
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.facts import WORDS
-from kovacic.parametric.formulas import equation_written, partial_fractions, sentence_of
+from kovacic.parametric.formulas import partial_fractions
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.solutions import Given, PolynomialSolution, general, weight_by_signs
+from kovacic.parametric.solutions import Given, PolynomialSolution, general, translated, weight_by_signs
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
@@ -50,7 +51,6 @@ _ONE_BY_ONE = 2
 _TABLE = 3
 #: Characters of Delta_d above which nobody prints it.
 _LONGEST = 240
-_GROUP_NAME = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _NOUNS = ("integer", "half-integer")
 _LATEX_RELATIONS = {">=": r"\ge", "<=": r"\le", "!=": r"\ne"}
 
@@ -118,7 +118,8 @@ class _TheoremWriter:
         for name in names:
             sentence += self._assumed(name)
         for region in filter(_is_unequal, self.left_out):
-            sentence += [", ", _unequal(region.statement)]
+            assert isinstance(region.statement, Vanishes)
+            sentence += [", ", prose.unequal(region.statement.function)]
         return [*sentence, ". "]
 
     def _exceptions(self) -> Iterator[Block]:
@@ -267,7 +268,8 @@ class _TheoremWriter:
             return
         solution = weight.solution(self.signs)
         if isinstance(region.origin, Given):
-            solution = replace(solution, y=region.origin.translated(solution.y))
+            equation, _ = region.origin.pieces[0]
+            solution = replace(solution, y=translated(solution.y, equation))
         yield Formula(self._named_solution(solution))
         degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
         yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(self._signs_in(solution)), ".")
@@ -435,20 +437,17 @@ def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
 
 
 def _group(verdict: RegionVerdict) -> list[str | Math]:
-    """The name of the group; what looks like a formula in it is one."""
-    written = re.sub("^(reducible|imprimitive): ", "", verdict.group_written)
-    if "`" not in written:
-        written = _GROUP_NAME.sub(r"`\g<0>`", written)
-    return sentence_of(written)
+    """The name of the group."""
+    return [*verdict.group_in_words]
 
 
 def _theory(answer: ParametricAnswer) -> list[str | Math]:
     """The theorem that proves it; the coordinate in which it holds is a formula."""
-    return sentence_of(re.sub(r" in (.+?): ", r" in `\1`: ", answer.theory))
+    return [*prose.phrase(re.sub(r" in (.+?): ", r" in `\1`: ", answer.theory))]
 
 
 def _said(statement: Statement) -> list[str | Math]:
-    return sentence_of(statement.written)
+    return [*prose.sentence(statement.claim)]
 
 
 def _is_unequal(region: ParameterRegion) -> bool:
@@ -456,20 +455,13 @@ def _is_unequal(region: ParameterRegion) -> bool:
     return not region.defined and isinstance(region.statement, Vanishes)
 
 
-def _unequal(statement: Statement) -> Math:
-    (equation,) = (part for part in _said(statement) if isinstance(part, Math))
-    left, _, right = equation.text.partition(" = ")
-    left_latex, _, right_latex = equation.latex.partition(" = ")
-    return Math(f"{left} != {right}", rf"{left_latex} \ne {right_latex}")
-
-
 def _without(case: Case) -> list[str | Math]:
     """What must not hold in the case: `, and a != 1` where all that are equations, else `, and not: ...` for each."""
     are_equations = all(isinstance(other, Vanishes) for other in case.without)
     found: list[str | Math] = []
     for other in case.without:
-        if are_equations:
-            found += [", and ", _unequal(other)]
+        if are_equations and isinstance(other, Vanishes):
+            found += [", and ", prose.unequal(other.function)]
         else:
             found += [", and not: ", *_said(other)]
     return found
@@ -504,7 +496,7 @@ def _schwarz(statement: Statement) -> Iterator[Table]:
         heads: list[Sentence] = [Math(name, latex_text(name)) for name in names]
         if not names:
             heads = ["differences up to order, signs and integers", "sum of the integers"]
-        yield Table(["group", *heads], [[structure.value, *map(sentence_of, values)] for structure, values in rows])
+        yield Table(["group", *heads], [[structure.value, *values] for structure, values in rows])
 
 
 def _letters(statement: Statement) -> list[str]:
@@ -539,6 +531,9 @@ def _by_values(determinants: Iterable[Determinant]) -> dict[str, list[Determinan
 
 def _where_it_is(value: str, determinants: Iterable[Determinant]) -> list[Sentence]:
     """The places where Delta_d has this value, and the value."""
-    places = dict.fromkeys(f"`{equation_written(determinant.exponents)}`" for determinant in determinants)
-    said = value if value == NO_FORMULA else f"`{value}`"
-    return [sentence_of(" or ".join(places)), sentence_of(said)]
+    places = dict.fromkeys(prose.equation(determinant.exponents) for determinant in determinants)
+    said: Sentence = value if value == NO_FORMULA else prose.formula(value)
+    where: list[str | Math] = []
+    for place in places:
+        where += [" or ", place]
+    return [where[1:], said]

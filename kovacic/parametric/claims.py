@@ -1,0 +1,376 @@
+"""What is printed of a statement: claims, each true or false at a point in the way in which a reader takes it.
+
+A statement is decided by its equations, a claim by what was made of them: a parameter as a function of an integer, a sum of
+square roots, a table.  So the two can be compared at points, and each claim that leaves is.  `solving` makes claims, `prose`
+writes them.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from itertools import product
+from typing import Protocol
+
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.parametric.functions import ParameterPoint, over_parameters
+
+
+class Claim(ABC):
+    """What is said of the parameters."""
+
+    def holds(self, point: ParameterPoint) -> bool:
+        """True if a reader finds it true at the point; a formula that isn't defined there makes it false."""
+        try:
+            return self._holds(point)
+        except ZeroDivisionError:
+            return False
+
+    @abstractmethod
+    def _holds(self, point: ParameterPoint) -> bool: ...
+
+
+@dataclass(frozen=True)
+class Zero(Claim):
+    """A function vanishes."""
+
+    function: FunctionPoly
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return not point.at(self.function)
+
+
+@dataclass(frozen=True)
+class AllOf(Claim):
+    """All of the parts hold."""
+
+    parts: tuple[Claim, ...]
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return all(part.holds(point) for part in self.parts)
+
+
+@dataclass(frozen=True)
+class AnyOf(Claim):
+    """At least one of the parts holds."""
+
+    parts: tuple[Claim, ...]
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return any(part.holds(point) for part in self.parts)
+
+
+@dataclass(frozen=True)
+class ThatIs(Claim):
+    """The same said in two ways."""
+
+    first: Claim
+    second: Claim
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        found = self.first.holds(point)
+        if found is not self.second.holds(point):
+            raise AssertionError(f"two forms of one statement differ at {point}")
+        return found
+
+
+@dataclass(frozen=True)
+class Classes:
+    """The rational numbers congruent to one of the `residues` modulo a number; `least` bounds them from below, if it does."""
+
+    residues: tuple[Fraction, ...]
+    modulus: Fraction
+    least: int | None = None
+
+    @classmethod
+    def of(cls, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Classes:
+        return cls(tuple(map(Fraction, residues)), Fraction(modulus))
+
+    def contain(self, number: Fraction) -> bool:
+        if self.least is not None and number < self.least:
+            return False
+        return any((number - residue) % self.modulus == 0 for residue in self.residues)
+
+    def are_one(self, *, up_to_sign: bool) -> bool:
+        """True for a single class, or for r and -r where these say the same."""
+        first = self.residues[0]
+        if len(self.residues) == 1:
+            return True
+        return up_to_sign and {*self.residues} == {first, -first % self.modulus}
+
+
+INTEGERS = Classes.of([0], 1)
+NATURALS = Classes((Fraction(0),), Fraction(1), 0)
+
+
+@dataclass(frozen=True)
+class InClasses(Claim):
+    """The value of a form is one of the numbers."""
+
+    form: FunctionPoly
+    numbers: Classes
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        number = QQ.rational_value(lowest(point.at(self.form)))
+        return number is not None and self.numbers.contain(number)
+
+
+@dataclass(frozen=True)
+class RootSum(Claim):
+    """`mean`, +- the square roots of the `squares`, is one of the numbers for a choice of the signs."""
+
+    mean: FunctionPoly
+    squares: tuple[Poly, ...]
+    numbers: Classes
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        squares = [point.at(over_parameters(square)) for square in self.squares]
+        sums = signed_sums(squares, point.at(self.mean), point.field)
+        return any(map(self.numbers.contain, rational_roots(sums)))
+
+
+@dataclass(frozen=True)
+class Free:
+    """At n = `root` f isn't defined, and the condition is that `zero` vanishes, whatever the parameter is."""
+
+    root: FunctionPoly
+    zero: FunctionPoly
+
+
+@dataclass(frozen=True)
+class Family(Claim):
+    """`parameter = value` for a number n of which one of the `forms` in it, n itself by default, is one of the numbers.
+
+    `poles` are what is said of the n at which the value isn't defined.
+    """
+
+    parameter: str
+    value: RatFunc
+    letter: str
+    numbers: Classes
+    forms: tuple[FunctionPoly, ...] = ()
+    poles: tuple[Free, ...] = ()
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return any(True for _ in self.numbers_at(point))
+
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Poly]:
+        """The n for which it is true at the point, those of which a pole speaks among them."""
+        n = over_parameters(self.value.num).field.poly([0, 1])
+        for form in self.forms or (over_parameters(n),):
+            yield from self._with_form(form, point)
+
+    def _with_form(self, form: FunctionPoly, point: ParameterPoint) -> Iterator[Poly]:
+        """The n for which the form, linear in n, is one of the numbers m: n = (m - form(0))/slope."""
+        at_point = point.at(form)
+        m = point.field.poly([0, 1])
+        n = (m - at_point[0]) / at_point[1]
+        for zero in self.poles:
+            root = point.at(zero.root)
+            number = QQ.rational_value(lowest(at_point(root)))
+            if number is not None and self.numbers.contain(number) and not point.at(zero.zero):
+                yield root
+        above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
+        equation = (above - below * _value(point, self.parameter))(n)
+        for number in rational_roots(equation):
+            if self.numbers.contain(number) and below(n)(point.field.poly([number])):
+                yield n(point.field.poly([number]))
+
+
+@dataclass(frozen=True)
+class EquationFor(Claim):
+    """A polynomial in n over Q(t) vanishes for one of the numbers."""
+
+    equation: FunctionPoly
+    letter: str
+    numbers: Classes
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return any(True for _ in self.numbers_at(point))
+
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Poly]:
+        for number in rational_roots(point.at(self.equation)):
+            if self.numbers.contain(number):
+                yield point.field.poly([number])
+
+
+def _value(point: ParameterPoint, name: str) -> Poly:
+    return point.values[point.names.index(name)]
+
+
+def lowest(value: Poly) -> Poly:
+    """A constant over Q where it lies there; else itself."""
+    number = value.field.rational_value(value)
+    return value if number is None else QQ.poly([number])
+
+
+def rational_roots(polynomial: Poly) -> list[Fraction]:
+    """The rational roots of a polynomial over Q or Q(alpha)."""
+    common = polynomial
+    if isinstance(polynomial, ExtensionPoly):
+        common = reduce(lambda a, b: a.gcd(b), polynomial.parts)
+    if common.degree < 1:
+        return []
+    found: list[Fraction] = []
+    for factor, _ in QQ.factor(common):
+        root = QQ.rational_value(-factor[0]) if factor.degree == 1 else None
+        if root is not None:
+            found.append(root)
+    return found
+
+
+def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field) -> Poly:
+    """The squarefree polynomial over the field whose roots are the constant plus sums of +- the square roots."""
+    total = field.poly([0, 1]) - constant
+    for square in squares:
+        root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
+        total = norm(total(root.field.poly([0, 1]) + root))
+        total = total // total.gcd(total.derivative())
+    return total
+
+
+# ------------------------------------------------------------------------------- natural numbers that exponents allow
+
+
+class DegreeClaim(ABC):
+    """Which natural numbers d the exponents allow, as it is said."""
+
+    letter: str
+
+    @abstractmethod
+    def numbers_at(self, point: ParameterPoint) -> set[int]:
+        """Those that it allows at a point."""
+
+
+@dataclass(frozen=True)
+class WhereZero:
+    """What `said` allows where a function vanishes."""
+
+    said: Alternatives
+    zero: FunctionPoly
+
+
+@dataclass(frozen=True)
+class Alternatives(DegreeClaim):
+    """d belongs to one of the families, solves one of the equations, or is allowed where a function vanishes."""
+
+    letter: str
+    families: tuple[Family, ...] = ()
+    equations: tuple[EquationFor, ...] = ()
+    where: tuple[WhereZero, ...] = ()
+
+    def numbers_at(self, point: ParameterPoint) -> set[int]:
+        found: set[int] = set()
+        parts: tuple[Family | EquationFor, ...] = (*self.families, *self.equations)
+        for part in parts:
+            try:
+                found |= natural_numbers(part.numbers_at(point))
+            except ZeroDivisionError:
+                continue
+        for one in self.where:
+            if not point.at(one.zero):
+                found |= one.said.numbers_at(point)
+        return found
+
+
+@dataclass(frozen=True)
+class SignedDegree(DegreeClaim):
+    """d - constant = +- the roots, with all signs."""
+
+    letter: str
+    constant: Fraction
+    squares: tuple[Poly, ...]
+
+    def numbers_at(self, point: ParameterPoint) -> set[int]:
+        squares = [point.at(over_parameters(square)) for square in self.squares]
+        return _natural(rational_roots(signed_sums(squares, self.constant, point.field)))
+
+
+@dataclass(frozen=True)
+class DegreeBySum(DegreeClaim):
+    """d = constant + the sum of j times the root for integers j within bounds; `has_zero`: they can all be 0."""
+
+    letter: str
+    constant: Fraction
+    squares: tuple[Poly, ...]
+    names: tuple[str, ...]
+    bounds: tuple[int, ...]
+    has_zero: bool
+
+    def numbers_at(self, point: ParameterPoint) -> set[int]:
+        squares = [point.at(over_parameters(square)) for square in self.squares]
+        found: set[int] = set()
+        for chosen in product(*(range(bound + 1) for bound in self.bounds)):
+            if not any(chosen) and not self.has_zero:
+                continue
+            multiples = [j * j * square for j, square in zip(chosen, squares, strict=True) if j]
+            found |= _natural(rational_roots(signed_sums(multiples, self.constant, point.field)))
+        return found
+
+
+@dataclass(frozen=True)
+class DegreeByFamily(DegreeClaim):
+    """`parameter = value`, a function of d and j, for an integer j from 1 to `largest`; and d = `constant`, if there is one."""
+
+    letter: str
+    constant: int | None
+    parameter: str
+    value: RatFunc
+    j: str
+    largest: int
+
+    def numbers_at(self, point: ParameterPoint) -> set[int]:
+        found: set[int] = set() if self.constant is None else {self.constant}
+        for number in range(1, self.largest + 1):
+            names = (*point.names, self.j)
+            there = ParameterPoint(names, (*point.values, point.field.poly([number])), point.field)
+            found |= natural_numbers(Family(self.parameter, self.value, self.letter, NATURALS).numbers_at(there))
+        return found
+
+
+def natural_numbers(values: Iterable[Poly]) -> set[int]:
+    """Those of the constants that are natural numbers."""
+    numbers = (QQ.rational_value(lowest(value)) for value in values)
+    return _natural(number for number in numbers if number is not None)
+
+
+def _natural(numbers: Iterable[Fraction]) -> set[int]:
+    return {int(number) for number in numbers if number.denominator == 1 and number >= 0}
+
+
+class Existence(Protocol):
+    """What decides whether something with one of these numbers of zeros exists at a point: Delta_d is a determinant."""
+
+    def exists(self, point: ParameterPoint, numbers: Sequence[int]) -> bool: ...
+
+
+@dataclass(frozen=True)
+class DegreeExists(Claim):
+    """For one of the natural numbers that `degree` allows, a polynomial or an invariant of degree m exists."""
+
+    degree: DegreeClaim
+    m: int
+    statement: Existence
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        numbers = sorted(self.degree.numbers_at(point))
+        return len(numbers) > 0 and self.statement.exists(point, numbers)
+
+
+@dataclass(frozen=True)
+class SolutionWithZeros(Claim):
+    """A solution, or an invariant of degree m, with one of these numbers of zeros exists."""
+
+    zeros: tuple[Fraction, ...]
+    m: int
+    statement: Existence
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return self.statement.exists(point, sorted(map(int, self.zeros)))

@@ -1,0 +1,578 @@
+"""Claims in words and formulas: the one place where a statement about parameters becomes a sentence.
+
+A sentence is a tuple of words and formulas, `Math`, which has its LaTeX beside its text; every format is made from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.parametric.claims import (
+    INTEGERS,
+    NATURALS,
+    AllOf,
+    Alternatives,
+    AnyOf,
+    Claim,
+    Classes,
+    DegreeByFamily,
+    DegreeBySum,
+    DegreeClaim,
+    DegreeExists,
+    EquationFor,
+    Family,
+    InClasses,
+    RootSum,
+    SignedDegree,
+    SolutionWithZeros,
+    ThatIs,
+    Zero,
+)
+from kovacic.parametric.formulas import SidesOfEquation, in_product, in_sum, root_written, sides_of_equation, written
+from kovacic.parametric.functions import constant_term, degrees, irreducible_factors, numerator, over_parameters
+from kovacic.writing.formula import Math, latex_text
+
+#: Words and formulas, one after the other.
+Words = tuple[str | Math, ...]
+
+
+def formula(text: str) -> Math:
+    """A formula of functions and names alone."""
+    return Math(text, latex_text(text))
+
+
+def phrase(literal: str) -> Words:
+    """Words and formulas, written in one line: formulas stand between backquotes."""
+    pieces = enumerate(literal.split("`"))
+    return tuple(formula(piece) if k % 2 else piece for k, piece in pieces if piece)
+
+
+def marked(words: Words) -> str:
+    """The line from which `phrase` makes the same."""
+    return "".join(f"`{part.text}`" if isinstance(part, Math) else part for part in words)
+
+
+def text(claim: Claim) -> str:
+    """In one line."""
+    return text_of(sentence(claim))
+
+
+def latex(claim: Claim) -> str:
+    """In LaTeX, without dollar signs."""
+    parts = (part.latex if isinstance(part, Math) else rf"\text{{{part}}} " for part in sentence(claim))
+    return "".join(parts).strip()
+
+
+def text_of(words: Words) -> str:
+    return "".join(part.text if isinstance(part, Math) else part for part in words)
+
+
+def length_of(words: Words) -> int:
+    """What it costs to read a sentence, in characters."""
+    return len(text_of(words))
+
+
+def length(claim: Claim | DegreeClaim) -> int:
+    """The same of a claim."""
+    return length_of(sentence(claim))
+
+
+@lru_cache(maxsize=1024)
+def sentence(claim: Claim | DegreeClaim) -> Words:
+    """What is said, by the writer of its kind."""
+    found: list[str | Math] = []
+    for part in _WRITERS[type(claim)](claim):
+        if found and isinstance(part, str) and isinstance(found[-1], str):
+            found[-1] += part
+        else:
+            found.append(part)
+    return tuple(found)
+
+
+# ------------------------------------------------------------------------------- formulas with signs beside functions
+
+
+def function(value: Poly | RatFunc, letter: str = "x") -> str:
+    """The shortest form of a function of the parameters and a number."""
+    return written(value if isinstance(value, RatFunc) else over_parameters(value), letter)
+
+
+def equals(name: str, value: Poly | RatFunc, letter: str) -> Math:
+    return formula(f"{name} = {function(value, letter)}")
+
+
+def in_set(form: Math, name: str) -> Math:
+    """That a number belongs to Z or N."""
+    return Math(f"{form.text} in {name}", rf"{form.latex} \in \mathbb{{{name}}}")
+
+
+def congruent(form: Math, residues: str, modulus: Fraction) -> Math:
+    """`n = 1, 2 mod 5`."""
+    return Math(
+        f"{form.text} = {residues} mod {modulus}",
+        rf"{form.latex} \equiv {_with_signs_in_latex(residues)} \pmod{{{latex_text(str(modulus))}}}",
+    )
+
+
+def with_both_signs(pieces: Sequence[str], first: str = "") -> Math:
+    """`a +- b +- c`, behind `first`, which may end with a sign, too."""
+    joined = first + " +- ".join(pieces)
+    return Math(joined, _with_signs_in_latex(joined))
+
+
+def _with_signs_in_latex(joined: str) -> str:
+    """Each piece between signs in LaTeX, and \\pm for the signs."""
+    return r"\pm ".join(
+        latex_text(piece) if piece.strip() else piece for piece in joined.replace("+- ", "+-").split("+-")
+    )
+
+
+def delta(letter: str) -> Math:
+    """The determinant's name."""
+    return Math(f"Delta_{letter}", rf"\Delta_{{{letter}}}")
+
+
+# ------------------------------------------------------------------------------- classes of integers
+
+
+#: Classes of integers that have a name, by the modulus and the residues.
+_KINDS = {
+    INTEGERS: "an integer",
+    Classes.of([0], 2): "an even integer",
+    Classes.of([1], 2): "an odd integer",
+}
+
+
+def classes(residues: Sequence[Fraction], modulus: Fraction) -> str:
+    """Classes modulo a number: `1, 2`, or `+-1/6, 1/2` where r and -r come in pairs."""
+    if {-residue % modulus for residue in residues} != {*residues}:
+        return ", ".join(map(str, residues))
+    half = modulus / 2
+    texts = []
+    for residue in dict.fromkeys(residues):
+        if residue in (0, half):
+            texts.append(str(residue))
+        elif residue < half:
+            texts.append(f"+-{residue}")
+    return ", ".join(texts)
+
+
+def kind(numbers: Classes, letter: str = "") -> Words:
+    """What an integer of these is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
+    noun = _KINDS.get(numbers)
+    name: Words = (" ", formula(letter)) if letter else ()
+    if noun is not None:
+        return (noun, *name)
+    residues = numbers.residues
+    if len(residues) > 1 and residues == tuple(range(1, int(numbers.modulus))):
+        return ("an integer", *name, f" not divisible by {numbers.modulus}")
+    listed = classes(residues, numbers.modulus)
+    if not letter:
+        return ("an integer", congruent(Math("", ""), listed, numbers.modulus))
+    return ("an integer ", congruent(formula(letter), listed, numbers.modulus))
+
+
+def is_named(numbers: Classes) -> bool:
+    """True where `kind` has a word for the numbers."""
+    return numbers in _KINDS
+
+
+def _integral(form: FunctionPoly, letter: str) -> Math:
+    """`2*n - 1/2 in Z`: of the constant term only what it is modulo 1."""
+    constant = constant_term(form)
+    rest = function(form - constant, letter)
+    shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
+    return in_set(formula(rest + shift), "Z")
+
+
+# ------------------------------------------------------------------------------- claims
+
+
+def _zero(claim: Zero) -> Words:
+    return (equation(claim.function),)
+
+
+def equation(zero: FunctionPoly) -> Math:
+    """That a function vanishes, solved where that is simple."""
+    sides = sides_of_equation(zero)
+    return formula(f"{sides.left} = {sides.right}")
+
+
+def unequal(zero: FunctionPoly) -> Math:
+    """That it doesn't."""
+    left, right = sides_of_equation(zero)
+    return Math(f"{left} != {right}", rf"{latex_text(left)} \ne {latex_text(right)}")
+
+
+def _in_classes(claim: InClasses) -> Words:
+    numbers = claim.numbers
+    if numbers == INTEGERS:
+        return (_integral(claim.form, "x"),)
+    form = formula(function(claim.form))
+    if is_named(numbers):
+        return (form, " is ", *kind(numbers))
+    return (congruent(form, classes(numbers.residues, numbers.modulus), numbers.modulus),)
+
+
+def _root_sum(claim: RootSum) -> Words:
+    return (roots_of(claim), " is ", *kind(claim.numbers))
+
+
+def roots_of(claim: RootSum) -> Math:
+    """The sum, without what it is."""
+    terms = [*map(root_written, claim.squares)]
+    if claim.mean:
+        terms.insert(0, function(claim.mean))
+    return with_both_signs(terms)
+
+
+def _family(claim: Family) -> Words:
+    return (*head_of(claim), *numbers_of(claim))
+
+
+def head_of(family: Family) -> Words:
+    """`E = f(n)`, and what is said of poles."""
+    return (equals(family.parameter, family.value, family.letter), *_in_parentheses(poles_of([family])))
+
+
+def poles_of(families: Iterable[Family]) -> list[Words]:
+    """`Z = 0 where n = l` for each pole, each once."""
+    found: dict[Words, None] = {}
+    for family in families:
+        for pole in family.poles:
+            factors = irreducible_factors(pole.zero)
+            texts = [function(factor) for factor in factors]
+            product = texts[0] if len(texts) == 1 else "*".join(map(in_product, texts))
+            found[(formula(f"{product} = 0"), " where ", equals(family.letter, pole.root, family.letter))] = None
+    return [*found]
+
+
+def _in_parentheses(notes: Sequence[Words]) -> Words:
+    if not notes:
+        return ()
+    return (" (", *_joined(notes, ", "), ")")
+
+
+def numbers_of(family: Family) -> Words:
+    """` for an odd integer n`, ` for a number n with n + l in Z`."""
+    letter = family.letter
+    if not family.forms:
+        return (" for ", *kind(family.numbers, letter))
+    return (" for a number ", formula(letter), " with ", *_forms_of(family))
+
+
+def _forms_of(family: Family) -> Words:
+    """What is said of another number than an integer."""
+    first = family.forms[0]
+    if family.numbers == INTEGERS:
+        return (_integral(first, family.letter),)
+    if family.numbers == NATURALS:
+        plus, minus = (formula(function(form, family.letter)) for form in family.forms)
+        return (plus, " or ", in_set(minus, "N"))
+    return (formula(function(first, family.letter)), " ", *kind(family.numbers))
+
+
+def _equation_for(claim: EquationFor) -> Words:
+    return (_unsolved(claim), " for ", *kind(claim.numbers, claim.letter))
+
+
+def _unsolved(claim: EquationFor) -> Math:
+    """`d = 5` without parameters, else that the numerator vanishes."""
+    f = claim.equation
+    if not any(degrees(f)) and f.degree == 1:
+        return equals(claim.letter, -f[0] / f[1], claim.letter)
+    return formula(f"{function(numerator(f), claim.letter)} = 0")
+
+
+def _that_is(claim: ThatIs) -> Words:
+    return (*sentence(claim.first), ", that is ", *sentence(claim.second))
+
+
+# ------------------------------------------------------------------------------- several claims
+
+
+def _all_of(claim: AllOf) -> Words:
+    if len(claim.parts) == 1:
+        return sentence(claim.parts[0])
+    return _joined([_in_conjunction(part) for part in claim.parts], ", and ")
+
+
+def _in_conjunction(part: Claim) -> Words:
+    """Alternatives are in parentheses, unless they are those of one value."""
+    if isinstance(part, AnyOf) and _sides_of_one_value(part.parts) is None:
+        return ("(", *sentence(part), ")")
+    return sentence(part)
+
+
+def _any_of(claim: AnyOf) -> Words:
+    """Alternatives, what is common to all of them said once."""
+    parts = claim.parts
+    sides = _sides_of_one_value(parts)
+    if sides is not None:
+        *first, last = (right for _, right in sides)
+        return (formula(f"{sides[0].left} = {first[0]}"), *_each(", ", first[1:]), " or ", formula(last))
+    for together in (_of_common_numbers, _of_common_value, _of_one_kind):
+        found = together(parts)
+        if found is not None:
+            return found
+    separator = ", or " if any(map(_is_long, parts)) else " or "
+    return _joined([*map(sentence, parts)], separator)
+
+
+def _each(separator: str, texts: Iterable[str]) -> Iterator[str | Math]:
+    for one in texts:
+        yield separator
+        yield formula(one)
+
+
+def _is_long(claim: Claim) -> bool:
+    """True where a comma, or a "for", stands in it."""
+    if isinstance(claim, InClasses):
+        return len(claim.numbers.residues) > 1 and not is_named(claim.numbers)
+    return not isinstance(claim, Zero | RootSum)
+
+
+def _sides_of_one_value(parts: Sequence[Claim]) -> list[SidesOfEquation] | None:
+    """For "n = 0 or -1": the equations, where all have the same left side; else None."""
+    zeros = [part for part in parts if isinstance(part, Zero)]
+    sides = [sides_of_equation(zero.function) for zero in zeros]
+    is_one = len(zeros) == len(parts) and len({side.left for side in sides}) == 1
+    return sides if is_one else None
+
+
+def _of_common_numbers(parts: Sequence[Claim]) -> Words | None:
+    """`E = f or E = g for an integer n`."""
+    families = [part for part in parts if isinstance(part, Family | EquationFor)]
+    ends = {_numbers_of_any(part) for part in families}
+    if len(families) != len(parts) or len(ends) != 1:
+        return None
+    return (*_joined([*map(_head_of_any, families)], " or "), *ends.pop())
+
+
+def _numbers_of_any(part: Family | EquationFor) -> Words:
+    if isinstance(part, Family):
+        return numbers_of(part)
+    return (" for ", *kind(part.numbers, part.letter))
+
+
+def _head_of_any(part: Family | EquationFor) -> Words:
+    return head_of(part) if isinstance(part, Family) else (_unsolved(part),)
+
+
+def _of_common_value(parts: Sequence[Claim]) -> Words | None:
+    """`E = f for a number n with n + a in Z or n + b in Z`."""
+    families = [part for part in parts if isinstance(part, Family) and part.forms]
+    heads = {head_of(part) for part in families}
+    if len(families) != len(parts) or len(heads) != 1:
+        return None
+    letter = formula(families[0].letter)
+    return (*heads.pop(), " for a number ", letter, " with ", *_joined([*map(_forms_of, families)], " or "))
+
+
+def _of_one_kind(parts: Sequence[Claim]) -> Words | None:
+    """`one of a, b or c is an odd integer`."""
+    forms: list[Math] = []
+    numbers: set[Classes] = set()
+    for part in parts:
+        if isinstance(part, RootSum):
+            forms.append(roots_of(part))
+        elif isinstance(part, InClasses) and part.numbers != INTEGERS and is_named(part.numbers):
+            forms.append(formula(function(part.form)))
+        elif isinstance(part, InClasses) and part.numbers == INTEGERS and len(parts) > 2:
+            constant = constant_term(part.form) % 1
+            forms.append(
+                formula(function(part.form - constant_term(part.form)) + (f" - {1 - constant}" if constant else ""))
+            )
+        else:
+            return None
+        numbers.add(part.numbers)
+    if len(numbers) != 1:
+        return None
+    *first, last = forms
+    start: Words = ("one of ",) if len(first) > 1 else ()
+    return (*start, *_joined([(form,) for form in first], ", "), " or ", last, " is ", *kind(numbers.pop()))
+
+
+def _joined(parts: Sequence[Words], separator: str) -> Words:
+    found: list[str | Math] = []
+    for k, part in enumerate(parts):
+        if k and separator:
+            found.append(separator)
+        found += part
+    return tuple(found)
+
+
+# ------------------------------------------------------------------------------- natural numbers
+
+
+def _alternatives(claim: Alternatives) -> Words:
+    """`b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
+    by_name: dict[str, list[Family]] = {}
+    for family in claim.families:
+        by_name.setdefault(family.parameter, []).append(family)
+    said: list[Words] = [(_unsolved(one),) for one in claim.equations]
+    for name, families in by_name.items():
+        values = _one_of(name, [family.value for family in families], claim.letter)
+        said.append((*values, *_in_parentheses(poles_of(families))))
+    strata = [(", or ", *sentence(one.said), " where ", equation(one.zero)) for one in claim.where]
+    return (*_joined(said, " or "), *_joined(strata, ""))
+
+
+def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
+    """That a parameter is one of the functions; or that it or c minus it is, where these come in pairs with the sum c."""
+    left: Words = ()
+    total = _sum_in_pairs(functions)
+    if total:
+        left = (formula(name), " or ")
+        name = function(total - total.field.generator(name), letter)
+        functions = _one_of_each_pair(functions, RatFunc(total), letter)
+    first, *others = _with_signs(functions, letter)
+    found: list[str | Math] = [*left, Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
+    for k, value in enumerate(others, 1):
+        found += [" or " if k == len(others) else ", ", value]
+    return tuple(found)
+
+
+def _one_of_each_pair(functions: Sequence[RatFunc], total: RatFunc, letter: str) -> list[RatFunc]:
+    """f or total - f, each once: one that isn't negative, if there is one, or the first in the order of their texts."""
+    found: dict[RatFunc, None] = {}
+    for f in functions:
+        pair = sorted((f, total - f), key=str)
+        found[_not_negative(pair, letter)] = None
+    return [*found]
+
+
+def _not_negative(functions: Sequence[RatFunc], letter: str) -> RatFunc:
+    """The first that isn't written with a minus before it, or the first."""
+    return min(functions, key=lambda f: function(f, letter).lstrip("(").startswith("-"))
+
+
+def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
+    """A constant, not 0, of which each function has another one that makes it up; None where there isn't one, or two pairs."""
+    if len(functions) < 4:
+        return None
+    for other in functions[1:]:
+        total = functions[0] + other
+        if not total or not _is_number(total):
+            continue
+        if all(total - f in functions and 2 * f != total for f in functions):
+            return over_parameters(total.num)
+    return None
+
+
+def _is_free_of_n(f: RatFunc) -> bool:
+    return f.num.degree <= 0 and f.den.degree <= 0
+
+
+def _is_number(f: RatFunc) -> bool:
+    """True for one that doesn't depend on the parameters either."""
+    return _is_free_of_n(f) and f.field.rational_value(f.num) is not None
+
+
+def _with_signs(functions: Sequence[RatFunc], letter: str) -> list[Math]:
+    """How the functions are written, with one formula `c +- f` for c + f and c - f, c free of the integer."""
+    found: dict[RatFunc, Math] = {}
+    paired: set[RatFunc] = set()
+    for f in functions:
+        other = next((g for g in found if g not in paired and _have_a_center(f, g)), None)
+        if other is None:
+            found[f] = formula(function(f, letter))
+        else:
+            found[other] = _with_both_signs(f, other, letter)
+            paired.add(other)
+    return [*found.values()]
+
+
+def _with_both_signs(f: RatFunc, other: RatFunc, letter: str) -> Math:
+    """`c +- g`, c the mean of the two functions."""
+    center = (f + other) / 2
+    value = in_sum(function(_not_negative((other - center, f - center), letter), letter))
+    if not center:
+        return with_both_signs([value], "+-")
+    return with_both_signs([function(center, letter), value])
+
+
+def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
+    """True where their sum is 0, or a function of the parameters without the integer in it."""
+    total = f + g
+    if not total:
+        return True
+    return _is_free_of_n(total) and not _is_number(total)
+
+
+def _signed_degree(claim: SignedDegree) -> Words:
+    roots = [in_sum(root_written(square)) for square in claim.squares]
+    d = f"{claim.letter}{_shift(claim.constant)}"
+    return (with_both_signs(roots, f"{d} = +-"),)
+
+
+def _shift(constant: Fraction) -> str:
+    """` + 1` for the constant -1."""
+    if not constant:
+        return ""
+    return f" - {constant}" if constant > 0 else f" + {-constant}"
+
+
+def _degree_by_sum(claim: DegreeBySum) -> Words:
+    terms = [str(claim.constant)]
+    bounds: list[Words] = []
+    for name, square, bound in zip(claim.names, claim.squares, claim.bounds, strict=True):
+        terms.append(in_sum(root_written(square, name)))
+        bounds.append((formula(name), f" from -{bound} to {bound}"))
+    said = (formula(f"{claim.letter} = {' + '.join(terms)}"), " for integers ", *_joined(bounds, ", "))
+    if claim.has_zero:
+        return said
+    return (*said, ", not 0" if len(claim.names) == 1 else ", not all 0")
+
+
+def _degree_by_family(claim: DegreeByFamily) -> Words:
+    start: Words = ()
+    if claim.constant is not None:
+        start = (formula(f"{claim.letter} = {claim.constant}"), ", or ")
+    j = formula(claim.j)
+    value = equals(claim.parameter, claim.value, claim.letter)
+    return (*start, value, " for an integer ", j, f" from 1 to {claim.largest}")
+
+
+def _degree_exists(claim: DegreeExists) -> Words:
+    d = formula(claim.degree.letter)
+    zero = delta(d.text).equals(Math("0", "0"))
+    said = (*sentence(claim.degree), ", ", in_set(d, "N"), ", and ", zero)
+    return said if claim.m == 1 else (*said, f" for an invariant of degree {claim.m}")
+
+
+def _solution_with_zeros(claim: SolutionWithZeros) -> Words:
+    numbers = _joined([(formula(str(number)),) for number in claim.zeros], " or ")
+    what = "a solution" if claim.m == 1 else f"an invariant of degree {claim.m}"
+    noun = "zero" if claim.zeros == (Fraction(1),) else "zeros"
+    return (f"{what} with ", *numbers, f" {noun} exists")
+
+
+#: How each kind of claim is written; `riemann` adds its own.
+_WRITERS: dict[type, Callable[[Any], Words]] = {
+    Zero: _zero,
+    AllOf: _all_of,
+    AnyOf: _any_of,
+    InClasses: _in_classes,
+    RootSum: _root_sum,
+    Family: _family,
+    EquationFor: _equation_for,
+    ThatIs: _that_is,
+    Alternatives: _alternatives,
+    SignedDegree: _signed_degree,
+    DegreeBySum: _degree_by_sum,
+    DegreeByFamily: _degree_by_family,
+    DegreeExists: _degree_exists,
+    SolutionWithZeros: _solution_with_zeros,
+}
+
+
+def writes(kinds: Mapping[type, Callable[[Any], Words]]) -> None:
+    """Further kinds of claims."""
+    _WRITERS.update(kinds)

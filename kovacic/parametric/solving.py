@@ -1,0 +1,390 @@
+"""A condition solved for a parameter: f(n; t) = 0 with an integer n becomes t = value(n), and what is said elsewhere.
+
+With f = slope t + rest, the slope and the rest without a common factor, there are three strata [section 23 of the theory]:
+
+- slope != 0, and t = -rest/slope;
+- slope = rest = 0, where t is free;
+- slope = 0 and rest != 0: never.
+
+`solve_for` is the only maker, and returns the second with the first.  A factor of the slope vanishes at one n, which is a pole
+of the value, or on a hypersurface of the other parameters, whatever n is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from math import floor
+from typing import NamedTuple
+
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import ENERGY
+from kovacic.parametric import prose
+from kovacic.parametric.claims import (
+    INTEGERS,
+    NATURALS,
+    Alternatives,
+    Claim,
+    Classes,
+    EquationFor,
+    Family,
+    Free,
+    RootSum,
+    ThatIs,
+    WhereZero,
+)
+from kovacic.parametric.formulas import shortest_length
+from kovacic.parametric.functions import (
+    constant_term,
+    degrees,
+    element,
+    irreducible_factors,
+    numerator,
+    over_parameters,
+    powers_of,
+)
+
+#: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
+_BESIDE = 120
+_LONGER = 40
+#: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
+_WEIGHT = 3
+_LATER = 10
+#: What it costs that n is another number than an integer, and each stratum of which something has to be said.
+_NO_INTEGER = 25
+_STRATUM = 20
+
+
+class Stratum(NamedTuple):
+    """Where `zero`, a function of the parameters, vanishes, the condition is `rest`(n) = 0, and one parameter is free."""
+
+    zero: FunctionPoly
+    rest: FunctionPoly
+
+
+@dataclass(frozen=True)
+class Solved:
+    """f(n; t) = 0 for `parameter` t: it is `value`, or free at one of the `poles` or on one of the `strata`."""
+
+    parameter: str
+    value: RatFunc
+    poles: tuple[Free, ...]
+    strata: tuple[Stratum, ...]
+
+    def family(self, letter: str, numbers: Classes) -> Family:
+        """The first stratum and the poles, for n among these numbers."""
+        return Family(self.parameter, self.value, letter, numbers, (), possible(self.poles, numbers))
+
+
+def solve_for(name: str, equation: FunctionPoly) -> Solved | None:
+    """All solutions of a polynomial equation in n over Q(t) by values of one parameter.
+
+    None where the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
+    """
+    i = equation.field.names.index(name)
+    if degrees(equation)[i] != 1:
+        return None
+    parts = powers_of(equation, i)
+    slope = parts[1]
+    rest = parts.get(0, 0 * slope)
+    if not slope.num.gcd(rest.num).is_constant():
+        return None
+    undefined = irreducible_factors(element(equation.field, equation.den))
+    poles: list[Free] = []
+    strata: list[Stratum] = []
+    for factor in irreducible_factors(slope):
+        if factor.degree > 1:
+            return None
+        if factor.degree == 1:
+            root = over_parameters(-factor[0] / factor[1])
+            poles += [Free(root, zero) for zero in [_product_of_zeros(rest(root))] if zero is not None]
+        elif factor not in undefined:
+            strata.append(Stratum(factor, on_zeros(rest, factor)))
+    poles.sort(key=lambda pole: str(pole.root))
+    return Solved(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
+
+
+def _product_of_zeros(value: Poly) -> FunctionPoly | None:
+    """The product of the irreducible factors of a function of the parameters; None for a number other than 0."""
+    factors = irreducible_factors(value)
+    if not factors:
+        return None if value else over_parameters(value)
+    total = factors[0]
+    for factor in factors[1:]:
+        total = over_parameters(total * factor)
+    return total
+
+
+def on_zeros(function: FunctionPoly, zero: FunctionPoly) -> FunctionPoly:
+    """The function where another one vanishes, without the parameter that follows there if one does, over the same field."""
+    field = function.field
+    for i, power in enumerate(degrees(zero)):
+        parts = powers_of(zero, i)
+        if power != 1 or not parts[1].num.is_constant():
+            continue
+        values = [field.generator(name) for name in field.names]
+        values[i] = -parts.get(0, 0 * parts[1]) / parts[1]
+        return over_parameters(numerator(function).value_at(values, field))
+    return function
+
+
+def possible(poles: Sequence[Free], numbers: Classes) -> tuple[Free, ...]:
+    """The poles at which n can be one of the numbers."""
+    found = []
+    for pole in poles:
+        number = pole.root.field.rational_value(pole.root)
+        if number is None or numbers.contain(number):
+            found.append(pole)
+    return tuple(found)
+
+
+def all_solved(equation: FunctionPoly, fixed: Collection[str] = ()) -> list[Solved]:
+    """The equation solved for each parameter for which that is possible, but for the `fixed` ones."""
+    names = [name for name in equation.field.names if name not in fixed]
+    return [solved for solved in (solve_for(name, equation) for name in names) if solved is not None]
+
+
+# ------------------------------------------------------------------------------- an equation for an integer
+
+
+class IntegerCondition(NamedTuple):
+    """A claim, and the strata on which the same has to be said of another equation."""
+
+    claim: Claim
+    strata: tuple[Stratum, ...] = ()
+
+
+def integer_condition(
+    equation: FunctionPoly,
+    numbers: Classes,
+    letter: str,
+    fixed: Collection[str] = (),
+    covered: Collection[FunctionPoly] = (),
+) -> IntegerCondition:
+    """That a polynomial in N over Q(t) has one of the numbers for a root, as a spectrum or by square roots, or both.
+
+    Of the zeros of `covered` functions nothing is said.
+    """
+    spectrum = _spectrum(equation, numbers, letter, fixed, covered)
+    roots = _roots(equation, numbers)
+    if roots is None:
+        return spectrum or IntegerCondition(EquationFor(equation, letter, numbers))
+    if spectrum is None:
+        return IntegerCondition(roots)
+    length = prose.length(spectrum.claim)
+    if len(roots.squares) > 1:
+        if length > _BESIDE or spectrum.strata:
+            return IntegerCondition(roots)
+        return IntegerCondition(ThatIs(roots, spectrum.claim))
+    return spectrum if length <= prose.length(roots) + _LONGER else IntegerCondition(roots)
+
+
+def _spectrum(
+    equation: FunctionPoly, numbers: Classes, letter: str, fixed: Collection[str], covered: Collection[FunctionPoly]
+) -> IntegerCondition | None:
+    """A parameter as a function of n, by the cheapest way to choose n; None where no parameter is linear."""
+    known = all_solved(equation, fixed)
+    energies = [solved for solved in known if solved.parameter == ENERGY]
+    best: IntegerCondition | None = None
+    least = 0
+    for k, solved in enumerate(energies or known):
+        strata = tuple(one for one in solved.strata if one.zero not in covered)
+        for family in _choices(equation, solved, numbers, letter):
+            cost = _LATER * k + _STRATUM * len(strata) + _cost(family)
+            if best is None or cost < least:
+                best = IntegerCondition(family, strata)
+                least = cost
+    return best
+
+
+def _cost(family: Family) -> int:
+    """Of reading it, in characters."""
+    length = _WEIGHT * shortest_length(family.value, family.letter) + prose.length_of(prose.numbers_of(family))
+    if family.forms:
+        length += _NO_INTEGER
+    return length
+
+
+def _choices(equation: FunctionPoly, solved: Solved, numbers: Classes, letter: str) -> Iterator[Family]:
+    """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters."""
+    N = equation.field.poly([0, 1])
+    is_mirrored = equation(-N) == (-1) ** equation.degree * equation
+    is_single = numbers.are_one(up_to_sign=is_mirrored)
+    if equation.degree > 1 or not is_single:
+        yield solved.family(letter, numbers)
+    if is_single and (numbers.modulus < 3 or not is_mirrored):
+        for line in _lines(numbers, N):
+            yield _moved(solved, line, letter, INTEGERS)
+    center = _center(equation, solved.value)
+    if center is not None:
+        yield from _about_center(solved, center, numbers, letter, is_single=is_single)
+
+
+def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
+    """s n + r for an integer n, with the residue and its neighbours for r, and with both signs for the modulus 1."""
+    modulus = numbers.modulus
+    pairs = [(1, 0), (1, -1)]
+    if modulus == 1:
+        pairs = list(product((1, -1), (0, -1, 1)))
+    for sign, shift in pairs:
+        yield N * (sign * modulus) + numbers.residues[0] + modulus * shift
+
+
+def _moved(solved: Solved, line: Poly, letter: str, numbers: Classes, forms: tuple[FunctionPoly, ...] = ()) -> Family:
+    """The family with N = `line`, slope n + shift, for n among the numbers, or of which one of the forms is."""
+    value = solved.value(RatFunc(line))
+    poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
+    if not forms:
+        poles = possible(poles, numbers)
+    return Family(solved.parameter, value, letter, numbers, forms, poles)
+
+
+def _about_center(solved: Solved, c: Poly, numbers: Classes, letter: str, *, is_single: bool) -> Iterator[Family]:
+    """f(s n + c), where n + (c - r)/s is an integer; and f(n + c), where n + c is one of the numbers."""
+    N = solved.value.field.poly([0, 1])
+    u = over_parameters((c - numbers.residues[0]) / numbers.modulus)
+    if is_single:
+        line = N * numbers.modulus + c
+        yield _moved(solved, line, letter, *_about(solved.value(RatFunc(line)), u, N))
+    has_fraction = constant_term(c).denominator > 1 or int(u.den.content()) > 1
+    if has_fraction or not is_single:
+        yield _moved(solved, N + c, letter, numbers, (over_parameters(N + c),))
+
+
+def _about(f: RatFunc, u: FunctionPoly, N: Poly) -> tuple[Classes, tuple[FunctionPoly, ...]]:
+    """n + u is an integer; where only n^2 matters: n + u or n - u - 1 is a natural number."""
+    constant = constant_term(u)
+    if constant.denominator == 1 and f(RatFunc(-N)) == f:
+        return NATURALS, (over_parameters(N + u - constant), over_parameters(N - u + constant - 1))
+    return INTEGERS, (over_parameters(N + u),)
+
+
+def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:
+    """Where f has its only pole, or the mean of the equation's roots; None where that is a number."""
+    if equation.degree < 2:
+        return None
+    center = _only_pole(f)
+    if center is None:
+        center = _mean_of_roots(equation)
+    return center if equation.field.rational_value(center) is None else None
+
+
+def _only_pole(f: RatFunc) -> Poly | None:
+    """The root of the denominator where there is one, in the field of f."""
+    if not f.den.degree:
+        return None
+    factors = [factor for factor, _ in f.field.factor(f.den)]
+    if len(factors) > 1 or factors[0].degree > 1:
+        return None
+    return -factors[0][0]
+
+
+def _mean_of_roots(equation: Poly) -> Poly:
+    k = equation.degree
+    return -equation[k - 1] / (equation.lc * k)
+
+
+def _roots(equation: FunctionPoly, numbers: Classes) -> RootSum | None:
+    """The roots as a mean +- the square roots of one, two or three squares, for an equation of degree 2, 4 or 8."""
+    if equation.degree not in (2, 4, 8):
+        return None
+    mean = over_parameters(_mean_of_roots(equation))
+    shifted = equation(equation.field.poly([0, 1]) + mean) / equation.lc
+    squares = _squares(shifted)
+    if squares is None:
+        return None
+    constant = floor(constant_term(mean) / numbers.modulus) * numbers.modulus
+    return RootSum(over_parameters(mean - constant), tuple(squares), numbers)
+
+
+def _squares(shifted: Poly) -> list[Poly] | None:
+    """Those of which the roots of a monic even polynomial are sums, with all signs, of square roots."""
+    k = shifted.degree
+    if any(shifted[i] for i in range(1, k, 2)):
+        return None
+    if k == 2:
+        return [-shifted[0]]
+    return _two_squares(shifted) if k == 4 else _three_squares(shifted)
+
+
+def _two_squares(shifted: Poly) -> list[Poly] | None:
+    """Of roots whose sums, with all signs, are the roots of a polynomial N^4 + ..."""
+    difference = shifted.field.sqrt(shifted[0])
+    if difference is None:
+        return None
+    total = -shifted[2] / 2
+    return [(total + difference) / 2, (total - difference) / 2]
+
+
+def _three_squares(shifted: Poly) -> list[Poly] | None:
+    """By ((z - s1)^2 - 4 s2)^2 - 64 s3 z with z = N^2, s_i the symmetric functions of the three squares."""
+    s1 = -shifted[6] / 4
+    s2 = (6 * s1 * s1 - shifted[4]) / 8
+    s3 = (16 * s1 * s2 - 4 * s1**3 - shifted[2]) / 64
+    if shifted[0] != (s1 * s1 - 4 * s2) ** 2:
+        return None
+    squares: list[Poly] = []
+    for factor, multiplicity in shifted.field.factor(shifted.field.poly([-s3, s2, -s1, 1])):
+        if factor.degree == 1:
+            squares += [-factor[0]] * multiplicity
+    return squares if len(squares) == 3 else None
+
+
+# ------------------------------------------------------------------------------- equations for a natural number
+
+
+def alternatives(
+    equations: Sequence[FunctionPoly], letter: str, fixed: Collection[str] = (), covered: Collection[FunctionPoly] = ()
+) -> Alternatives:
+    """That a natural number d solves one of the equations, each solved for a parameter if it can be."""
+    families: list[Family] = []
+    unsolved: list[EquationFor] = []
+    where: dict[FunctionPoly, list[FunctionPoly]] = {}
+    for equation in equations:
+        known = all_solved(equation, fixed)
+        if not known:
+            unsolved.append(EquationFor(equation, letter, NATURALS))
+            continue
+        solved = min(known, key=lambda one: sum(stratum.zero not in covered for stratum in one.strata))
+        families.append(solved.family(letter, NATURALS))
+        for stratum in solved.strata:
+            if stratum.zero not in covered:
+                where.setdefault(stratum.zero, []).extend(_that_can_be_natural(stratum.rest))
+    strata = [WhereZero(alternatives(rests, letter, fixed, covered), zero) for zero, rests in where.items() if rests]
+    return Alternatives(letter, tuple(families), tuple(unsolved), tuple(strata))
+
+
+def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
+    """The irreducible factors that have a natural root for some values of the parameters."""
+    found = []
+    for factor in irreducible_factors(equation):
+        is_number = factor.degree == 1 and not any(degrees(factor))
+        root = factor.field.rational_value(-factor[0] / factor[1]) if is_number else None
+        is_possible = any(degrees(factor)) if root is None else NATURALS.contain(root)
+        if factor.degree > 0 and is_possible:
+            found.append(factor)
+    return found
+
+
+def solved_with_another_integer(
+    square: FunctionPoly, constant: Fraction, letter: str, j: str, fixed: Collection[str]
+) -> Solved | None:
+    """(d - constant)^2 = j^2 square for an integer j > 0, solved for a parameter; None where more would have to be said."""
+    names = square.field.names
+    field = FunctionField((*names, j))
+    moved = over_parameters(square).value_at([field.generator(name) for name in names], field)
+    d = field.poly([0, 1])
+    equation = over_parameters((d - constant) ** 2 - field.generator(j) ** 2 * moved)
+    for solved in all_solved(equation, (*fixed, j)):
+        others = {name for part in solved.value.cleared() for name in _parameters_in(over_parameters(part))}
+        if others <= {j} and not solved.poles:
+            return solved
+    return None
+
+
+def _parameters_in(function: FunctionPoly) -> list[str]:
+    return [name for name, k in zip(function.field.names, degrees(function), strict=True) if k]
