@@ -16,6 +16,6 @@ module:
 6. `regions`: statement, case and group, without those that earlier ones cover;
 7. `claims`: what is printed of a statement, true or false at a point as a reader takes it; `solving` makes them, with every
    stratum of a condition that was solved for a parameter; `prose` alone writes them, and `formulas` the functions in them;
-8. `parametric_answer`: what is returned; statements as data by `record`; `check` compares with the engine at exact points, `map`
-   draws.
+8. `parametric_answer`: what is returned; statements as data by `record`; `check` compares with the engine at exact points,
+   `map` draws.
 """
