@@ -27,12 +27,12 @@ from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
 from kovacic.general_solution.constants import Outcome, ParameterCase, can_be, condition_of
 from kovacic.general_solution.determined import constants_of
+from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
 from kovacic.general_solution.question import Question, apart, has_floats, read_question
-from kovacic.general_solution.riccati_equation import RiccatiEquation, read_riccati
-from kovacic.general_solution.riccati_equation import solved as riccati_solution
+from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -211,10 +211,14 @@ def _answered(
         try:
             question = read_question(eq, func, ics, var, budget.limits)
         except InputError as reason:
-            riccati = _riccati_equation(eq, func, ics, var, budget.limits)
-            if riccati is None:
+            first_order = _first_order(eq, func, ics, var, budget.limits)
+            if first_order is None:
                 raise reason from None
-            found, notices = riccati_solution(*riccati, partial(_answered, limits=limits))
+            equation, conditions = first_order
+            if equation.is_linear:
+                found, notices = solved_linear(equation, conditions)
+            else:
+                found, notices = solved_riccati(equation, conditions, partial(_answered, limits=limits))
             if has_floats(eq, as_mapping(ics)):
                 found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
             return found, notices
@@ -224,13 +228,13 @@ def _answered(
             raise NotImplementedError(f"undecided: {limit}") from None
 
 
-def _riccati_equation(
+def _first_order(
     eq: Any, func: Any, ics: Any, var: str | None, limits: Limits
-) -> tuple[RiccatiEquation, tuple[Condition, ...]] | None:
-    """The Riccati equation and its conditions; None where it isn't one, or can't be read."""
+) -> tuple[FirstOrderEquation, tuple[Condition, ...]] | None:
+    """The equation of first order and its conditions; None if it isn't one, or can't be read."""
     eq, ics = apart(eq, ics)
     try:
-        found = read_riccati(eq, func, var, limits)
+        found = read_first_order(eq, func, var, limits)
     except InputError:
         return None
     if found is None:

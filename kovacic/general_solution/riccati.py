@@ -12,7 +12,7 @@ import sympy
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.riccati_equation import read_riccati
+from kovacic.general_solution.first_order import read_first_order
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited, watched_seconds
 from kovacic.numerals import as_latex, plain_text
 from kovacic.process import last_of
@@ -132,8 +132,8 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
     from kovacic.reading.read import read_coefficients
 
     if q is None and r is None:
-        equation = read_riccati(p, None, var, limits)
-        if equation is None:
+        equation = read_first_order(p, None, var, limits)
+        if equation is None or equation.is_linear:
             raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
         p = equation.p
         q = equation.q

@@ -1,0 +1,322 @@
+"""Equations of first order, w' = p + q w + r w^2: linear ones where r = 0, Riccati's elsewhere.
+
+A linear equation has the solutions
+
+    w = h (C1 + int p/h dx),    h = exp(int q dx),                                                                    (1)
+
+and one of Riccati's is made linear in `riccati_equation`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import islice, pairwise
+from typing import Any, NamedTuple
+
+import sympy
+from flint import acb, arb, ctx, fmpq
+from sympy.core.function import AppliedUndef
+
+from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.product import product
+from kovacic.errors import InputError, VerificationFailed
+from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.check import is_finite
+from kovacic.general_solution.conditions import Condition, exact
+from kovacic.general_solution.integrands import NUMBERS, ratfunc
+from kovacic.general_solution.jumps import break_points, in_steps, on_piece
+from kovacic.general_solution.steps import JUMPING, taken_apart
+from kovacic.general_solution.substitution import size
+from kovacic.general_solution.values import value_at
+from kovacic.general_solution.zero import ball, is_zero, samples
+from kovacic.limits import Limits
+from kovacic.reading.quotients import expression_of
+from kovacic.reading.source import source_of
+from kovacic.reading.symbolic import function_of
+
+Expr = Any  # SymPy publishes no types
+_ZERO = sympy.Integer(0)
+_ONE = sympy.Integer(1)
+#: Points at which a solution is put into the equation, and how small a residual is, relative to the size of its terms.
+_POINTS = (acb(fmpq(23, 71), fmpq(41, 89)), acb(fmpq(-83, 97), fmpq(11, 59)))
+_SMALL = arb(10) ** (-DIGITS // 2)
+_NO_VALUE = "a part of it can't be evaluated"
+
+
+@dataclass(frozen=True)
+class FirstOrderEquation:
+    """w' = p + q w + r w^2; `function` is w(x)."""
+
+    function: Expr
+    p: Expr
+    q: Expr
+    r: Expr
+
+    @property
+    def x(self) -> Expr:
+        return self.function.args[0]
+
+    @property
+    def is_linear(self) -> bool:
+        return bool(self.r == 0)
+
+    def constant(self) -> Expr:
+        """C1, or the next of these names that isn't in the equation."""
+        own = self.p.free_symbols | self.q.free_symbols | self.r.free_symbols
+        return next(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(symbol.name) for symbol in own]))
+
+    def is_regular_at(self, point: Expr) -> bool:
+        """True if the coefficients are finite at the point, so that a value there determines one solution."""
+        return all(is_finite(e.subs(self.x, point)) for e in (self.p, self.q, self.r))
+
+
+class GivenValue(NamedTuple):
+    """w(point) = v."""
+
+    point: Expr
+    v: Expr
+
+
+def value_of(conditions: Sequence[Condition]) -> GivenValue | None:
+    """The given value, None without one.  Raises `InputError` for other conditions, and for more than one."""
+    if not conditions:
+        return None
+    condition = conditions[0]
+    is_one = len(conditions) == 1 and condition.is_value
+    if not is_one or condition.terms[0].order:
+        raise InputError("an equation of first order has one value, at one point", hint='write "w(0)=1"')
+    assert condition.value is not None
+    if condition.points[0] in (sympy.oo, -sympy.oo):
+        raise InputError(f"{condition.text}: a value determines a solution at a finite point")
+    return GivenValue(condition.points[0], condition.value)
+
+
+# ------------------------------------------------------------------------------------------------------------ reading
+
+
+def read_first_order(eq: Any, func: Any, var: str | None, limits: Limits) -> FirstOrderEquation | None:
+    """The equation, None if it isn't of this kind.  Raises `InputError` for what can't be read."""
+    if isinstance(eq, str):
+        eq = expression_of(source_of(eq, var, limits, equation=True), limits)
+    if not isinstance(eq, sympy.Basic):
+        return None
+    if isinstance(eq, sympy.Equality):
+        eq = eq.lhs - eq.rhs
+    whole = exact(eq)
+    function = func if isinstance(func, AppliedUndef) else function_of(whole)
+    if len(function.args) != 1 or not function.args[0].is_Symbol:
+        return None
+    return _in_powers(whole, function)
+
+
+def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
+    """From an expression that is zero: its numerator is a polynomial of degree 2 in w, and linear in w'."""
+    slope = sympy.Dummy()
+    value = sympy.Dummy()
+    plain = whole.subs(function.diff(function.args[0]), slope).subs(function, value)
+    if plain.atoms(sympy.Derivative) or any(f.has(value) or f.has(slope) for f in plain.atoms(AppliedUndef)):
+        return None
+    numerator = sympy.numer(sympy.together(plain))
+    if not numerator.is_polynomial(slope, value):
+        return None
+    terms = dict(sympy.Poly(numerator, value, slope).terms())
+    leading = terms.pop((0, 1), _ZERO)
+    coefficients = [-terms.pop((power, 0), _ZERO) for power in range(3)]
+    if terms or leading == 0:
+        return None
+    return FirstOrderEquation(function, *(_quotient(part, leading) for part in coefficients))
+
+
+def _quotient(numerator: Expr, denominator: Expr) -> Expr:
+    """Term by term where functions that jump stand in it, which SymPy can't cancel."""
+    if numerator.has(*JUMPING):
+        return sympy.Add(*(term / denominator for term in sympy.Add.make_args(numerator)))
+    return sympy.cancel(numerator / denominator)
+
+
+# ------------------------------------------------------------------------------------------------------------ solving
+
+
+def solved_linear(equation: FirstOrderEquation, conditions: Sequence[Condition]) -> tuple[Expr, list[str]]:
+    """w(x) = ... by (1), checked, and what is to be said beside.
+
+    Raises `InputError` for a value that no solution has, and `NotImplementedError` where a question isn't decided.
+    """
+    value = value_of(conditions)
+    x = equation.x
+    h = _exponential_of_integral(equation.q, x)
+    start = None if value is None else value.point
+    particular = _particular(equation, h, start)
+    constant = equation.constant()
+    if value is not None:
+        constant = _constant_through(equation, h, particular, value, constant)
+    forms = [
+        constant * h + particular,
+        sympy.expand(constant * h + particular),
+        _gathered(constant * h + particular, h),
+    ]
+    w = min(map(sympy.powsimp, forms), key=size)
+    return sympy.Eq(equation.function, w, evaluate=False), check_first_order(equation, w, conditions)
+
+
+def _gathered(w: Expr, h: Expr) -> Expr:
+    """With the multiples of h in one product."""
+    w = sympy.expand(w)
+    return sympy.collect(w, h) if h != 1 else w
+
+
+def _exponential_of_integral(q: Expr, x: Expr) -> Expr:
+    """h with h'/h = q: a product of powers and an exponential where q is rational."""
+    rate = ratfunc(q, x)
+    if rate is not None:
+        return display(product(rate), Atoms(x)).xreplace(NUMBERS)
+    integral = _integral_with_steps(q, x) if q.has(*JUMPING) else antiderivative(q, x)
+    return sympy.exp(sympy.Integral(q, x) if integral is None else integral)
+
+
+def _integral_with_steps(q: Expr, x: Expr) -> Expr | None:
+    """A continuous integral: int g H(x - a) dx = H(x - a) (G(x) - G(a)).  None if a part isn't known."""
+    apart = taken_apart(in_steps(q, x), x)
+    if apart is None or apart.impulses:
+        return None
+    total = antiderivative(apart.plain, x)
+    for step in apart.steps:
+        integral = antiderivative(step.g, x)
+        if total is None or integral is None:
+            return None
+        total += sympy.Heaviside(x - step.a) * (integral - value_at(integral, x, step.a))
+    return total
+
+
+def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
+    """h int p/h dx, where an integral that isn't known begins at `start`; steps and impulses in p are taken one by one.
+
+    g H(x - a) gives H(x - a) h int_a^x g/h, and s delta(x - a) gives H(x - a) s h(x)/h(a).
+    """
+    x = equation.x
+    p = equation.p
+    if not p.has(*JUMPING):
+        return _integrated(p, h, x, start)
+    apart = taken_apart(in_steps(p, x), x)
+    if apart is None or any(impulse.order for impulse in apart.impulses):
+        raise NotImplementedError(
+            "undecided: the right-hand side jumps at points that aren't constant, or too strongly"
+        )
+    total = _integrated(apart.plain, h, x, start)
+    for step in apart.steps:
+        response = _integrated(step.g, h, x, step.a)
+        total += sympy.Heaviside(x - step.a) * (response - h * value_at(response / h, x, step.a))
+    for impulse in apart.impulses:
+        total += sympy.Heaviside(x - impulse.a) * impulse.strength * h / value_at(h, x, impulse.a)
+    return total
+
+
+def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
+    """h int p/h dx."""
+    if p == 0:
+        return _ZERO
+    integrand = sympy.powsimp(sympy.expand(p / h))
+    integral = antiderivative(integrand, x)
+    if integral is not None:
+        return sympy.powsimp(sympy.expand(h * integral))
+    if start is None:
+        return h * sympy.Integral(integrand, x)
+    letter = next(sympy.numbered_symbols("s", start=0, exclude=integrand.free_symbols))
+    return h * sympy.Integral(integrand.xreplace({x: letter}), (letter, start, x))
+
+
+def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, value: GivenValue, free: Expr) -> Expr:
+    """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a."""
+    x = equation.x
+    rest = value.v - value_at(particular, x, value.point)
+    if not equation.is_regular_at(value.point):
+        if not is_finite(h.subs(x, value.point)):
+            raise InputError(f"only one solution is finite at {value.point}, a singular point of the equation")
+        there = value_at(h, x, value.point)
+        if is_zero(there):
+            if not is_zero(rest):
+                raise InputError(
+                    f"there is no solution with this value at {value.point}, a singular point of the equation"
+                )
+            return free
+    return sympy.powsimp(rest / value_at(h, x, value.point))
+
+
+# ------------------------------------------------------------------------------------------------------------- check
+
+
+def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
+    """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong."""
+    value = value_of(conditions)
+    known = [w, equation.p, equation.q, equation.r, *(value or ())]
+    symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
+    sample = next(islice(samples(symbols), 1, None))
+    is_missed: bool | None = False
+    with ctx.workdps(2 * DIGITS):
+        is_wrong = _is_wrong(equation, w, sample)
+        if value is not None:
+            is_missed = _is_missed(equation, w, sample, value)
+    if is_wrong or is_missed:
+        raise VerificationFailed(f"{w} isn't a solution of an equation of first order; please report {equation}")
+    unchecked = []
+    if is_wrong is None:
+        unchecked.append(f"the answer could not be verified numerically: {_NO_VALUE}")
+    if is_missed is None:
+        unchecked.append(f"{conditions[0].text} could not be verified numerically: {_NO_VALUE}")
+    return unchecked
+
+
+def _is_missed(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], wanted: GivenValue) -> bool | None:
+    """True if w(a) differs from the wanted value; None if it can't be evaluated.
+
+    Raises `InputError` where a is a singular point of the equation, so that no solution needs to have the value.
+    """
+    try:
+        reached = value_at(w, equation.x, wanted.point)
+    except NotImplementedError:
+        return None
+    left = ball(reached.xreplace(sample))
+    right = ball(wanted.v.xreplace(sample))
+    if left is None or right is None or not left.is_finite():
+        return None
+    is_missed = bool(abs(left - right) > _SMALL)
+    if is_missed and not equation.is_regular_at(wanted.point):
+        raise InputError(f"there is no solution with this value at {wanted.point}, a singular point of the equation")
+    return is_missed
+
+
+def _is_wrong(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr]) -> bool | None:
+    """True if the residual is seen not to vanish at a point; None if it can't be evaluated at any."""
+    x = equation.x
+    jumping = equation.p + equation.q
+    if jumping.has(*JUMPING):
+        breaks = sorted(point.xreplace(sample) for point in break_points(jumping, x))
+        middles = [(a + b) / 2 for a, b in pairwise(breaks)]
+        places = [breaks[0] - _ONE / 3, *middles, breaks[-1] + _ONE / 3] if breaks else []
+        found = [_is_wrong_near(equation, w, sample, sympy.Rational(place)) for place in places if place.is_Rational]
+    else:
+        found = [_is_wrong_at(equation, w.xreplace(sample), sample, point) for point in _POINTS]
+    if True in found:
+        return True
+    return False if False in found else None
+
+
+def _is_wrong_near(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], place: Expr) -> bool | None:
+    """The same beside steps, from what the functions are near a real point."""
+    x = equation.x
+    coefficients = (on_piece(e.xreplace(sample), x, place) for e in (equation.p, equation.q, equation.r))
+    here = FirstOrderEquation(equation.function, *coefficients)
+    return _is_wrong_at(here, on_piece(w.xreplace(sample), x, place), sample, acb(fmpq(place.p, place.q)))
+
+
+def _is_wrong_at(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
+    with suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
+        value, slope, _ = jet(w, equation.x, point)
+        p, q, r = (jet(e.xreplace(sample), equation.x, point)[0] for e in (equation.p, equation.q, equation.r))
+        terms = [slope, -p, -q * value, -r * value**2]
+        return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
+    return None
