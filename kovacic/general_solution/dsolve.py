@@ -33,6 +33,7 @@ from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
 from kovacic.general_solution.question import Question, apart, has_floats, read_question
 from kovacic.general_solution.riccati_equation import solved_riccati
+from kovacic.general_solution.systems import read_system, solved_system
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -157,10 +158,25 @@ def dsolve(
     Eq(y(x), exp(-x))
     """
     _check_method(hint, xi, eta)
-    found, notices = _answered(_single(eq, "equation"), _single(func, "function"), ics=ics, var=var, limits=limits)
+    is_list = isinstance(eq, list | tuple)
+    if is_list and len(eq) > 1:
+        found, notices = _system(eq, func, ics, limits)
+    else:
+        found, notices = _answered(_single(eq, "equation"), _single(func, "function"), ics=ics, var=var, limits=limits)
+        found = [found] if is_list else found
     for notice in notices:
         warn_user(notice)
-    return [found] if isinstance(eq, list | tuple) else found
+    return found
+
+
+def _system(equations: Sequence[Any], functions: Any, ics: Any, limits: Limits) -> tuple[list[Expr], list[str]]:
+    """The answers for the unknowns of a system, and what is to be said beside."""
+    budget = Budget(limits)
+    with budget.watched():
+        try:
+            return solved_system(read_system(equations, functions), as_mapping(ics), partial(_answered, limits=limits))
+        except LimitExceeded as limit:
+            raise NotImplementedError(f"undecided: {limit}") from None
 
 
 def _check_method(hint: str, xi: Any, eta: Any) -> None:
@@ -177,7 +193,9 @@ def _single(given: Any, what: str) -> Any:
     if not isinstance(given, list | tuple):
         return given
     if len(given) != 1:
-        raise InputError(f"one {what} is expected, and there are {len(given)}", hint="for systems call sympy.dsolve")
+        raise InputError(
+            f"one {what} is expected, and there are {len(given)}", hint="for larger systems call sympy.dsolve"
+        )
     return given[0]
 
 

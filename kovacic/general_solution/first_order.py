@@ -9,7 +9,8 @@ and one of Riccati's is made linear in `riccati_equation`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice, pairwise
@@ -34,6 +35,7 @@ from kovacic.general_solution.substitution import size
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, is_zero, samples
 from kovacic.limits import Limits
+from kovacic.numerals import as_text
 from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import function_of
@@ -64,9 +66,9 @@ class FirstOrderEquation:
     def is_linear(self) -> bool:
         return bool(self.r == 0)
 
-    def constant(self) -> Expr:
-        """C1, or the next of these names that isn't in the equation."""
-        own = self.p.free_symbols | self.q.free_symbols | self.r.free_symbols
+    def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
+        """C1, or the next of these names that is neither in the equation nor taken."""
+        own = self.p.free_symbols | self.q.free_symbols | self.r.free_symbols | taken
         return next(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(symbol.name) for symbol in own]))
 
     def is_regular_at(self, point: Expr) -> bool:
@@ -141,8 +143,10 @@ def _quotient(numerator: Expr, denominator: Expr) -> Expr:
 # ------------------------------------------------------------------------------------------------------------ solving
 
 
-def solved_linear(equation: FirstOrderEquation, conditions: Sequence[Condition]) -> tuple[Expr, list[str]]:
-    """w(x) = ... by (1), checked, and what is to be said beside.
+def solved_linear(
+    equation: FirstOrderEquation, conditions: Sequence[Condition], taken: Set[Expr] = frozenset()
+) -> tuple[Expr, list[str]]:
+    """w(x) = ... by (1), checked, and what is to be said beside; the constant isn't one of the symbols `taken`.
 
     Raises `InputError` for a value that no solution has, and `NotImplementedError` where a question isn't decided.
     """
@@ -151,31 +155,66 @@ def solved_linear(equation: FirstOrderEquation, conditions: Sequence[Condition])
     h = _exponential_of_integral(equation.q, x)
     start = None if value is None else value.point
     particular = _particular(equation, h, start)
-    constant = equation.constant()
+    constant = equation.constant(taken)
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
-    forms = [
-        constant * h + particular,
-        sympy.expand(constant * h + particular),
-        _gathered(constant * h + particular, h),
-    ]
-    w = min(map(sympy.powsimp, forms), key=size)
-    return sympy.Eq(equation.function, w, evaluate=False), check_first_order(equation, w, conditions)
+    w = in_short(constant * h + particular, x)
+    notices = exceptions_of(w, x, (equation.p, equation.q))
+    return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
 
 
-def _gathered(w: Expr, h: Expr) -> Expr:
-    """With the multiples of h in one product."""
-    w = sympy.expand(w)
-    return sympy.collect(w, h) if h != 1 else w
+def in_short(w: Expr, x: Expr) -> Expr:
+    """The shortest of a few forms: with powers joined, multiplied out, and with one coefficient for each function of x."""
+    w = sympy.powsimp(w)
+    expanded = sympy.powsimp(sympy.expand(w))
+    coefficients: dict[Expr, list[Expr]] = defaultdict(list)
+    for term in sympy.Add.make_args(expanded):
+        coefficient, function = term.as_independent(x, as_Add=False)
+        coefficients[function].append(coefficient)
+    by_function = sympy.Add(*(sympy.factor(sympy.cancel(sympy.Add(*parts))) * f for f, parts in coefficients.items()))
+    forms = [w, expanded, by_function, sympy.factor_terms(by_function)]
+    if w.is_rational_function(x):
+        forms.append(sympy.cancel(w))
+    return min(forms, key=size)
+
+
+def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr]) -> list[str]:
+    """One sentence if denominators without x may vanish for values of parameters at which the equation has no pole."""
+    given = _constant_denominators(sympy.Tuple(*coefficients), x)
+    others = [factor for factor in _constant_denominators(w, x) if factor not in given and -factor not in given]
+    if not others:
+        return []
+    zeros = " or ".join(f"{as_text(factor)} = 0" for factor in others)
+    return [f"this holds unless {zeros}: give such values for the solutions there"]
+
+
+def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:
+    """The denominators without x that may be zero, by their irreducible factors."""
+    powers = (p for p in e.atoms(sympy.Pow) if p.exp.could_extract_minus_sign() and not p.base.has_free(x))
+    bases = dict.fromkeys(b for p in powers for b, _ in sympy.factor_list(p.base)[1])
+    bases = {b: None for b in bases if b.free_symbols and b.free_symbols <= e.free_symbols}  # no letter of integration
+    return [base for base in sorted(bases, key=str) if base.is_zero is not False]
 
 
 def _exponential_of_integral(q: Expr, x: Expr) -> Expr:
     """h with h'/h = q: a product of powers and an exponential where q is rational."""
     rate = ratfunc(q, x)
     if rate is not None:
-        return display(product(rate), Atoms(x)).xreplace(NUMBERS)
-    integral = _integral_with_steps(q, x) if q.has(*JUMPING) else antiderivative(q, x)
+        return _in_own_symbols(display(product(rate), Atoms(x)).xreplace(NUMBERS), q)
+    integral = _integral_with_steps(q, x) if q.has(*JUMPING) else _integral(q, x)
     return sympy.exp(sympy.Integral(q, x) if integral is None else integral)
+
+
+def _integral(g: Expr, x: Expr) -> Expr | None:
+    """The integral in the symbols of g, which the rules know as plain ones; None if it isn't known."""
+    plain = {symbol: sympy.Symbol(symbol.name) for symbol in g.free_symbols | {x}}
+    found = antiderivative(g.xreplace(plain), plain[x])
+    return None if found is None else _in_own_symbols(found, g + x)
+
+
+def _in_own_symbols(found: Expr, given: Expr) -> Expr:
+    """With the symbols of `given` in the place of plain ones."""
+    return found.xreplace({sympy.Symbol(symbol.name): symbol for symbol in given.free_symbols})
 
 
 def _integral_with_steps(q: Expr, x: Expr) -> Expr | None:
@@ -183,9 +222,9 @@ def _integral_with_steps(q: Expr, x: Expr) -> Expr | None:
     apart = taken_apart(in_steps(q, x), x)
     if apart is None or apart.impulses:
         return None
-    total = antiderivative(apart.plain, x)
+    total = _integral(apart.plain, x)
     for step in apart.steps:
-        integral = antiderivative(step.g, x)
+        integral = _integral(step.g, x)
         if total is None or integral is None:
             return None
         total += sympy.Heaviside(x - step.a) * (integral - value_at(integral, x, step.a))
@@ -220,7 +259,7 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     if p == 0:
         return _ZERO
     integrand = sympy.powsimp(sympy.expand(p / h))
-    integral = antiderivative(integrand, x)
+    integral = _integral(integrand, x)
     if integral is not None:
         return sympy.powsimp(sympy.expand(h * integral))
     if start is None:
@@ -252,6 +291,7 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, v
 def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong."""
     value = value_of(conditions)
+    w, equation = _concrete(w), _concrete_equation(equation)
     known = [w, equation.p, equation.q, equation.r, *(value or ())]
     symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
@@ -268,6 +308,15 @@ def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequenc
     if is_missed is None:
         unchecked.append(f"{conditions[0].text} could not be verified numerically: {_NO_VALUE}")
     return unchecked
+
+
+def _concrete(e: Expr) -> Expr:
+    """With waves in the place of functions that aren't given."""
+    return e.replace(lambda f: isinstance(f, AppliedUndef), lambda f: sympy.cos(f.args[0] + len(str(f.func))))
+
+
+def _concrete_equation(equation: FirstOrderEquation) -> FirstOrderEquation:
+    return FirstOrderEquation(equation.function, *map(_concrete, (equation.p, equation.q, equation.r)))
 
 
 def _is_missed(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], wanted: GivenValue) -> bool | None:

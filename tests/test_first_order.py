@@ -1,0 +1,209 @@
+"""Linear equations of first order and systems of two, built from their solutions, and integrated independently."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mpmath
+import pytest
+import sympy
+from build import parametrize
+from sympy import Heaviside, Rational, atan, cos, exp, log, pi, sin, sqrt, tan
+
+import kovacic
+
+t, x, k, n = sympy.Symbol("t"), sympy.Symbol("x"), sympy.Symbol("k", positive=True), sympy.Symbol("n", positive=True)
+y, u, v = map(sympy.Function, "yuv")
+VALUES = {k: Rational(7, 5), n: Rational(9, 4)}
+
+
+def integrated(right: list[Any], unknowns: list[Any], start: Any, values: list[Any], end: Any) -> list[Any]:
+    """The solution of unknowns' = right at `end`, by mpmath's Taylor series."""
+    variable = unknowns[0].args[0]
+    letters = [sympy.Dummy() for _ in unknowns]
+    replaced = [e.xreplace(VALUES).xreplace(dict(zip(unknowns, letters, strict=True))) for e in right]
+    slopes = sympy.lambdify((variable, letters), replaced, "mpmath")
+    with mpmath.workdps(20):
+        found = mpmath.odefun(
+            slopes, mpmath.mpf(start), [mpmath.mpf(sympy.N(e.xreplace(VALUES), 25)) for e in map(sympy.S, values)]
+        )
+        return [*found(mpmath.mpf(end))]
+
+
+def number(e: Any, at: float, variable: Any = x) -> Any:
+    return mpmath.mpmathify(sympy.N(e.xreplace(VALUES).subs(variable, Rational(at)), 20))
+
+
+#: a, b, the point and the value of y' = a y + b: constant and variable coefficients, from textbooks.
+LINEAR: list[tuple[Any, Any, int, Any]] = [
+    (sympy.S(3), sympy.S(0), 0, 2),
+    (-k, x, 0, 1),
+    (-k, sin(n * x), 0, 0),
+    (-2 * x, sympy.S(1), 0, 1),
+    (-1 / x, x**2, 1, 3),
+    (n / x, x**2, 1, 1),
+    (tan(x), cos(x), 0, 1),
+    (-cos(x) / sin(x), 2 * cos(x), 1, 1),
+    (-2 * x / (1 + x**2), 1 / (1 + x**2), 0, 1),
+    (-1 / x, exp(x) / x, 1, 2),
+    (sympy.S(1), exp(x), 0, 0),
+    (sympy.S(1), exp(x**2), 0, 1),
+    (-sin(x), sin(x), 0, 3),
+    (2 / x, x**2 * cos(x), 2, 0),
+    (-3 / x, sin(x) / x**3, 1, 0),
+    (1 / (x + 1), (x + 1) ** 2, 0, 1),
+    (-4 * x / (x**2 + 1), x, 0, 0),
+    (-Rational(1, 2) / x, sqrt(x), 1, 1),
+    (x, x**3, 0, 2),
+    (-exp(x), exp(x), 0, 0),
+    (-1 / (x * log(x)), 1 / x, 2, 1),
+    (-k, exp(-k * x), 0, 1),
+    (-k, cos(k * x), 0, 0),
+    (cos(x), cos(x), 0, 1),
+    (-2 * tan(x), sin(x), 0, 1),
+    (1 / (1 + x**2), sympy.S(0), 0, 2),
+    (-1 / (1 + x**2), atan(x) / (1 + x**2), 0, 0),
+    (sympy.S(0), log(x), 1, 0),
+    (-1, 1 / (2 + cos(x)), 0, 0),
+    (-1, 1 / x, 1, 0),
+]
+
+
+@parametrize("problem", LINEAR, ids=str, ordinary=8, long=30)
+@pytest.mark.filterwarnings("ignore:this holds unless n - 3")
+def test_linear_equations_with_values(problem: tuple[Any, Any, int, Any]) -> None:
+    a, b, point, value = problem
+    found = kovacic.dsolve(sympy.Eq(y(x).diff(x), a * y(x) + b), ics={y(point): value})
+    assert found.lhs == y(x)
+    assert found.rhs.free_symbols <= {x, k, n}
+    wanted = integrated([a * y(x) + b], [y(x)], point, [value], point + 0.75)[0]
+    assert abs(number(found.rhs, point + 0.75) - wanted) < 1e-12 * (1 + abs(wanted))
+
+
+@parametrize("problem", LINEAR, ids=str, ordinary=4, long=30)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_general_solutions_of_linear_equations(problem: tuple[Any, Any, int, Any]) -> None:
+    a, b, point, _ = problem
+    found = kovacic.dsolve(sympy.Eq(y(x).diff(x), a * y(x) + b)).rhs
+    C1 = sympy.Symbol("C1")
+    residual = found.diff(x) - a * found - b
+    assert found.has(C1)
+    assert abs(number(residual.subs(C1, 2).doit(), point + 0.5)) < 1e-12
+
+
+def test_text_of_first_order() -> None:
+    assert kovacic.dsolve("y' = a*y").rhs == sympy.Symbol("C1") * exp(sympy.Symbol("a") * x)
+    assert kovacic.dsolve("y' + y = Heaviside(t - 1), y(0) = 0").rhs == (1 - exp(1 - t)) * Heaviside(t - 1)
+    assert kovacic.dsolve("y' = y*tan(x)").rhs == sympy.Symbol("C1") / cos(x)
+
+
+def test_the_general_form_of_coefficients_is_kept() -> None:
+    g = sympy.Function("g")
+    found = kovacic.dsolve(sympy.Eq(y(x).diff(x), g(x)), y(x), ics={y(0): 1}).rhs
+    assert found.diff(x) == g(x)
+    assert found.subs(x, 0).doit() == 1
+
+
+def test_values_at_a_singular_point() -> None:
+    assert kovacic.dsolve("x*y' = 2*y, y(0) = 0").rhs == sympy.Symbol("C1") * x**2
+    with pytest.raises(kovacic.InputError, match="no solution with this value at 0, a singular point"):
+        kovacic.dsolve("x*y' = 2*y, y(0) = 1")
+
+
+def test_letters_in_denominators_are_named() -> None:
+    with pytest.warns(UserWarning, match="unless n - 3 = 0"):
+        kovacic.dsolve(sympy.Eq(y(x).diff(x), n * y(x) / x + x**2))
+
+
+#: The right-hand sides of u' and v', the point and the values: constant, triangular, diagonal, variable matrices.
+SYSTEMS: list[tuple[Any, Any, int, Any, Any]] = [
+    (v(t), -u(t), 0, 1, 0),
+    (u(t) + 2 * v(t), 3 * u(t) + 2 * v(t), 0, 0, -4),
+    (2 * u(t), 3 * v(t), 0, 1, 2),
+    (2 * u(t) + v(t), 2 * v(t), 0, 1, 1),
+    (2 * u(t), u(t) + 2 * v(t), 0, 1, 2),
+    (-k * u(t), k * u(t) - n * v(t), 0, 1, 0),
+    (u(t) + v(t) + t, u(t) - v(t), 0, 0, 1),
+    (v(t) / t, -t * u(t), 1, 1, 0),
+    (u(t) - v(t) + exp(t), u(t) + v(t), 0, 1, 1),
+    (t * v(t), u(t), 0, 1, 2),
+    (3 * u(t) - 18 * v(t), 2 * u(t) - 9 * v(t), 0, 2, 1),
+    (v(t) + sin(t), cos(t) - u(t), 0, 0, 1),
+    (-2 * u(t) + v(t) + 2 * exp(-t), u(t) - 2 * v(t) + 3 * t, 0, 1, 0),
+    (v(t) * cos(t), -u(t) * cos(t), 0, 1, 0),
+    (k * u(t) + n * v(t), n * u(t) + k * v(t), 0, 1, 0),
+    (v(t), t * u(t), 0, 1, 0),
+    (4 * u(t) - 2 * v(t), u(t) + v(t), 0, 1, 1),
+    (-u(t) + v(t), -u(t) - v(t), 0, 1, 0),
+    (u(t) - 5 * v(t), u(t) - 3 * v(t), 0, 1, 1),
+    (5 * u(t) - v(t), 3 * u(t) + v(t), 0, 2, -1),
+    (u(t) - 4 * v(t), 4 * u(t) - 7 * v(t), 0, 3, 2),
+    (2 * u(t) - v(t), 3 * u(t) - 2 * v(t) + t, 0, 0, 0),
+    (v(t), -2 * u(t) - 3 * v(t) + 1, 0, 0, 0),
+    (-v(t) / (1 + t), u(t) / (1 + t), 0, 1, 0),
+    (u(t) / t + v(t), v(t) / t, 1, 1, 1),
+    (2 * u(t) / t, u(t) + v(t), 1, 1, 0),
+    (v(t), u(t) - v(t) / t, 1, 1, 0),
+    (-n * v(t), n * u(t), 0, 1, 0),
+    (v(t), -sin(t) - u(t), 0, 0, 0),
+    (u(t) * tan(t) + v(t), sympy.S(0), 0, 1, 1),
+]
+
+
+@parametrize("problem", SYSTEMS, ids=str, ordinary=8, long=30)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
+    first, second, start, u0, v0 = problem
+    equations = [sympy.Eq(u(t).diff(t), first), sympy.Eq(v(t).diff(t), second)]
+    found = kovacic.dsolve(equations, [u(t), v(t)], ics={u(start): u0, v(start): v0})
+    assert [e.lhs for e in found] == [u(t), v(t)]
+    wanted = integrated([first, second], [u(t), v(t)], start, [u0, v0], start + 0.75)
+    for answer, value in zip(found, wanted, strict=True):
+        assert answer.rhs.free_symbols <= {t, k, n}
+        assert abs(number(answer.rhs, start + 0.75, t) - value) < 1e-12 * (1 + abs(value))
+
+
+@parametrize("problem", SYSTEMS, ids=str, ordinary=4, long=30)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_general_solutions_of_systems(problem: tuple[Any, Any, int, Any, Any]) -> None:
+    first, second, start, *_ = problem
+    equations = [sympy.Eq(u(t).diff(t), first), sympy.Eq(v(t).diff(t), second)]
+    found = [e.rhs for e in kovacic.dsolve(equations)]
+    constants = sorted((found[0].free_symbols | found[1].free_symbols) - {t, k, n}, key=str)
+    assert list(map(str, constants)) == ["C1", "C2"]
+    values = dict(zip(constants, (2, -3), strict=True))
+    solution = {u(t): found[0].subs(values), v(t): found[1].subs(values)}
+    for f, right in ((u(t), first), (v(t), second)):
+        residual = solution[f].diff(t) - right.xreplace(solution)
+        assert abs(number(residual, start + 0.5, t)) < 1e-12
+    fundamental = sympy.Matrix(2, 2, lambda i, j: found[i].diff(constants[j]))
+    assert abs(number(fundamental.det(), start + 0.5, t)) > 1e-6
+
+
+def test_derivatives_may_be_mixed() -> None:
+    equations = [sympy.Eq(u(t).diff(t) + v(t).diff(t), u(t)), sympy.Eq(u(t).diff(t) - v(t).diff(t), v(t))]
+    found = {e.lhs: e.rhs for e in kovacic.dsolve(equations, ics={u(0): 1, v(0): 0})}
+    for equation in equations:
+        residual = (equation.lhs - equation.rhs).subs(found).doit()
+        assert abs(number(residual, 0.5, t)) < 1e-15
+
+
+def test_values_at_two_points() -> None:
+    equations = [sympy.Eq(u(t).diff(t), v(t)), sympy.Eq(v(t).diff(t), -u(t))]
+    found = kovacic.dsolve(equations, ics={u(0): 1, v(pi): 2})
+    assert found[0].rhs.subs(t, 0) == 1
+    assert found[1].rhs.subs(t, pi) == 2
+    with pytest.raises(kovacic.InputError, match="contradict"):
+        kovacic.dsolve(equations, ics={u(0): 1, u(pi): 3})
+
+
+def test_what_is_no_such_system_is_refused() -> None:
+    first = sympy.Eq(u(t).diff(t), v(t))
+    with pytest.raises(kovacic.InputError, match="3 equations"):
+        kovacic.dsolve([first, first, first])
+    with pytest.raises(kovacic.InputError, match="isn't linear"):
+        kovacic.dsolve([first, sympy.Eq(v(t).diff(t), v(t) ** 2)])
+    with pytest.raises(kovacic.InputError, match="of first order is expected"):
+        kovacic.dsolve([sympy.Eq(u(t).diff(t, 2), v(t)), sympy.Eq(v(t).diff(t), u(t))])
+    with pytest.raises(kovacic.InputError, match="don't determine both derivatives"):
+        kovacic.dsolve([first, sympy.Eq(u(t).diff(t), v(t) + u(t))], [u(t), v(t)])
