@@ -17,11 +17,11 @@ from kovacic.parametric.claims import (
     Claim,
     DegreeClaim,
     EquationFor,
-    Family,
     InClasses,
-    RootSum,
+    IntegerFamily,
+    IsZero,
+    SumOfRoots,
     ThatIs,
-    Zero,
 )
 from kovacic.parametric.prose import marked, sentence
 
@@ -45,12 +45,12 @@ def says(claim: Claim, values: Values) -> bool:
         return all(says(part, values) for part in claim.parts)
     if isinstance(claim, AnyOf):
         return any(says(part, values) for part in claim.parts)
-    if isinstance(claim, Zero):
+    if isinstance(claim, IsZero):
         (equation,) = written(claim).strip("`").split("`")
         return _is_true(equation, values)
-    if isinstance(claim, Family | EquationFor | RootSum | InClasses | ThatIs):
+    if isinstance(claim, IntegerFamily | EquationFor | SumOfRoots | InClasses | ThatIs):
         family = claim.second if isinstance(claim, ThatIs) else claim
-        letter = family.letter if isinstance(family, Family | EquationFor) else ""
+        letter = family.letter if isinstance(family, IntegerFamily | EquationFor) else ""
         return _integer(written(claim), letter, values)
     raise NotReadError(type(claim).__name__)
 
@@ -76,7 +76,7 @@ def _alternative_numbers(degree: Alternatives, values: Values) -> set[int]:
     letter = degree.letter
     found: set[int] = set()
     for one in degree.where:
-        if says(Zero(one.zero), values):
+        if says(IsZero(one.zero), values):
             found |= numbers_said(one.said, values)
     text = written(replace(degree, where=()))
     notes = re.findall(r"`([^`]*) = 0` where `\w+ = ([^`]*)`", text)

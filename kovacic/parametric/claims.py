@@ -38,7 +38,7 @@ class Claim(ABC):
 
 
 @dataclass(frozen=True)
-class Zero(Claim):
+class IsZero(Claim):
     """A function vanishes."""
 
     function: FunctionPoly
@@ -123,7 +123,7 @@ class InClasses(Claim):
 
 
 @dataclass(frozen=True)
-class RootSum(Claim):
+class SumOfRoots(Claim):
     """`mean`, +- the square roots of the `squares`, is one of the numbers for a choice of the signs."""
 
     mean: FunctionPoly
@@ -145,7 +145,7 @@ class Free:
 
 
 @dataclass(frozen=True)
-class Family(Claim):
+class IntegerFamily(Claim):
     """`parameter = value` for a number n of which one of the `forms` in it, n itself by default, is one of the numbers.
 
     `poles` are what is said of the n at which the value isn't defined.
@@ -262,13 +262,13 @@ class Alternatives(DegreeClaim):
     """d belongs to one of the families, solves one of the equations, or is allowed where a function vanishes."""
 
     letter: str
-    families: tuple[Family, ...] = ()
+    families: tuple[IntegerFamily, ...] = ()
     equations: tuple[EquationFor, ...] = ()
     where: tuple[WhereZero, ...] = ()
 
     def numbers_at(self, point: ParameterPoint) -> set[int]:
         found: set[int] = set()
-        parts: tuple[Family | EquationFor, ...] = (*self.families, *self.equations)
+        parts: tuple[IntegerFamily | EquationFor, ...] = (*self.families, *self.equations)
         for part in parts:
             try:
                 found |= natural_numbers(part.numbers_at(point))
@@ -331,7 +331,7 @@ class DegreeByFamily(DegreeClaim):
         for number in range(1, self.largest + 1):
             names = (*point.names, self.j)
             there = ParameterPoint(names, (*point.values, point.field.poly([number])), point.field)
-            found |= natural_numbers(Family(self.parameter, self.value, self.letter, NATURALS).numbers_at(there))
+            found |= natural_numbers(IntegerFamily(self.parameter, self.value, self.letter, NATURALS).numbers_at(there))
         return found
 
 

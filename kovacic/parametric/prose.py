@@ -26,13 +26,13 @@ from kovacic.parametric.claims import (
     DegreeClaim,
     DegreeExists,
     EquationFor,
-    Family,
     InClasses,
-    RootSum,
+    IntegerFamily,
+    IsZero,
     SignedDegree,
     SolutionWithZeros,
+    SumOfRoots,
     ThatIs,
-    Zero,
 )
 from kovacic.parametric.formulas import SidesOfEquation, in_product, in_sum, root_written, sides_of_equation, written
 from kovacic.parametric.functions import constant_term, degrees, irreducible_factors, numerator, over_parameters
@@ -194,7 +194,7 @@ def _integral(form: FunctionPoly, letter: str) -> Math:
 # ------------------------------------------------------------------------------- claims
 
 
-def _zero(claim: Zero) -> Words:
+def _zero(claim: IsZero) -> Words:
     return (equation(claim.function),)
 
 
@@ -220,11 +220,11 @@ def _in_classes(claim: InClasses) -> Words:
     return (congruent(form, classes(numbers.residues, numbers.modulus), numbers.modulus),)
 
 
-def _root_sum(claim: RootSum) -> Words:
+def _root_sum(claim: SumOfRoots) -> Words:
     return (roots_of(claim), " is ", *kind(claim.numbers))
 
 
-def roots_of(claim: RootSum) -> Math:
+def roots_of(claim: SumOfRoots) -> Math:
     """The sum, without what it is."""
     terms = [*map(root_written, claim.squares)]
     if claim.mean:
@@ -232,16 +232,16 @@ def roots_of(claim: RootSum) -> Math:
     return with_both_signs(terms)
 
 
-def _family(claim: Family) -> Words:
+def _family(claim: IntegerFamily) -> Words:
     return (*head_of(claim), *numbers_of(claim))
 
 
-def head_of(family: Family) -> Words:
+def head_of(family: IntegerFamily) -> Words:
     """`E = f(n)`, and what is said of poles."""
     return (equals(family.parameter, family.value, family.letter), *_in_parentheses(poles_of([family])))
 
 
-def poles_of(families: Iterable[Family]) -> list[Words]:
+def poles_of(families: Iterable[IntegerFamily]) -> list[Words]:
     """`Z = 0 where n = l` for each pole, each once."""
     found: dict[Words, None] = {}
     for family in families:
@@ -259,7 +259,7 @@ def _in_parentheses(notes: Sequence[Words]) -> Words:
     return (" (", *_joined(notes, ", "), ")")
 
 
-def numbers_of(family: Family) -> Words:
+def numbers_of(family: IntegerFamily) -> Words:
     """` for an odd integer n`, ` for a number n with n + l in Z`."""
     letter = family.letter
     if not family.forms:
@@ -267,7 +267,7 @@ def numbers_of(family: Family) -> Words:
     return (" for a number ", formula(letter), " with ", *_forms_of(family))
 
 
-def _forms_of(family: Family) -> Words:
+def _forms_of(family: IntegerFamily) -> Words:
     """What is said of another number than an integer."""
     first = family.forms[0]
     if family.numbers == INTEGERS:
@@ -335,12 +335,12 @@ def _is_long(claim: Claim) -> bool:
     """True where a comma, or a "for", stands in it."""
     if isinstance(claim, InClasses):
         return len(claim.numbers.residues) > 1 and not is_named(claim.numbers)
-    return not isinstance(claim, Zero | RootSum)
+    return not isinstance(claim, IsZero | SumOfRoots)
 
 
 def _sides_of_one_value(parts: Sequence[Claim]) -> list[SidesOfEquation] | None:
     """For "n = 0 or -1": the equations, where all have the same left side; else None."""
-    zeros = [part for part in parts if isinstance(part, Zero)]
+    zeros = [part for part in parts if isinstance(part, IsZero)]
     sides = [sides_of_equation(zero.function) for zero in zeros]
     is_one = len(zeros) == len(parts) and len({side.left for side in sides}) == 1
     return sides if is_one else None
@@ -348,26 +348,26 @@ def _sides_of_one_value(parts: Sequence[Claim]) -> list[SidesOfEquation] | None:
 
 def _of_common_numbers(parts: Sequence[Claim]) -> Words | None:
     """`E = f or E = g for an integer n`."""
-    families = [part for part in parts if isinstance(part, Family | EquationFor)]
+    families = [part for part in parts if isinstance(part, IntegerFamily | EquationFor)]
     ends = {_numbers_of_any(part) for part in families}
     if len(families) != len(parts) or len(ends) != 1:
         return None
     return (*_joined([*map(_head_of_any, families)], " or "), *ends.pop())
 
 
-def _numbers_of_any(part: Family | EquationFor) -> Words:
-    if isinstance(part, Family):
+def _numbers_of_any(part: IntegerFamily | EquationFor) -> Words:
+    if isinstance(part, IntegerFamily):
         return numbers_of(part)
     return (" for ", *kind(part.numbers, part.letter))
 
 
-def _head_of_any(part: Family | EquationFor) -> Words:
-    return head_of(part) if isinstance(part, Family) else (_unsolved(part),)
+def _head_of_any(part: IntegerFamily | EquationFor) -> Words:
+    return head_of(part) if isinstance(part, IntegerFamily) else (_unsolved(part),)
 
 
 def _of_common_value(parts: Sequence[Claim]) -> Words | None:
     """`E = f for a number n with n + a in Z or n + b in Z`."""
-    families = [part for part in parts if isinstance(part, Family) and part.forms]
+    families = [part for part in parts if isinstance(part, IntegerFamily) and part.forms]
     heads = {head_of(part) for part in families}
     if len(families) != len(parts) or len(heads) != 1:
         return None
@@ -380,7 +380,7 @@ def _of_one_kind(parts: Sequence[Claim]) -> Words | None:
     forms: list[Math] = []
     numbers: set[Classes] = set()
     for part in parts:
-        if isinstance(part, RootSum):
+        if isinstance(part, SumOfRoots):
             forms.append(roots_of(part))
         elif isinstance(part, InClasses) and part.numbers != INTEGERS and is_named(part.numbers):
             forms.append(formula(function(part.form)))
@@ -413,7 +413,7 @@ def _joined(parts: Sequence[Words], separator: str) -> Words:
 
 def _alternatives(claim: Alternatives) -> Words:
     """`b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
-    by_name: dict[str, list[Family]] = {}
+    by_name: dict[str, list[IntegerFamily]] = {}
     for family in claim.families:
         by_name.setdefault(family.parameter, []).append(family)
     said: list[Words] = [(_unsolved(one),) for one in claim.equations]
@@ -556,12 +556,12 @@ def _solution_with_zeros(claim: SolutionWithZeros) -> Words:
 
 #: How each kind of claim is written; `riemann` adds its own.
 _WRITERS: dict[type, Callable[[Any], Words]] = {
-    Zero: _zero,
+    IsZero: _zero,
     AllOf: _all_of,
     AnyOf: _any_of,
     InClasses: _in_classes,
-    RootSum: _root_sum,
-    Family: _family,
+    SumOfRoots: _root_sum,
+    IntegerFamily: _family,
     EquationFor: _equation_for,
     ThatIs: _that_is,
     Alternatives: _alternatives,

@@ -26,7 +26,7 @@ from kovacic.parametric.prose import Words
 from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import hypersurface, with_free_constant
 from kovacic.parametric.solutions import Origin, PolynomialSolution
-from kovacic.parametric.solving import Solved, all_solved, possible
+from kovacic.parametric.solving import SolvedCondition, all_solved, possible
 from kovacic.parametric.statements import (
     ALWAYS,
     Both,
@@ -503,7 +503,7 @@ def _charts(statement: Statement) -> list[_Chart]:
     return charts
 
 
-def _spectrum(statement: Congruence) -> Solved | None:
+def _spectrum(statement: Congruence) -> SolvedCondition | None:
     """An equation for an integer, not a form, solved for a parameter that is nowhere free; None for any other."""
     if statement.form is not None:
         return None
@@ -514,7 +514,7 @@ def _spectrum(statement: Congruence) -> Solved | None:
     return None
 
 
-def _of_integers(statement: Congruence, solved: Solved) -> list[_Chart]:
+def _of_integers(statement: Congruence, solved: SolvedCondition) -> list[_Chart]:
     """One parameter as a function of an integer k, which is a new parameter, for each of the classes."""
     f = solved.value
     names = statement.equation.field.names

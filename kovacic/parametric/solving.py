@@ -31,9 +31,9 @@ from kovacic.parametric.claims import (
     Claim,
     Classes,
     EquationFor,
-    Family,
     Free,
-    RootSum,
+    IntegerFamily,
+    SumOfRoots,
     ThatIs,
     WhereZero,
 )
@@ -67,7 +67,7 @@ class Stratum(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Solved:
+class SolvedCondition:
     """f(n; t) = 0 for `parameter` t: it is `value`, or free at one of the `poles` or on one of the `strata`."""
 
     parameter: str
@@ -75,12 +75,12 @@ class Solved:
     poles: tuple[Free, ...]
     strata: tuple[Stratum, ...]
 
-    def family(self, letter: str, numbers: Classes) -> Family:
+    def family(self, letter: str, numbers: Classes) -> IntegerFamily:
         """The first stratum and the poles, for n among these numbers."""
-        return Family(self.parameter, self.value, letter, numbers, (), possible(self.poles, numbers))
+        return IntegerFamily(self.parameter, self.value, letter, numbers, (), possible(self.poles, numbers))
 
 
-def solve_for(name: str, equation: FunctionPoly) -> Solved | None:
+def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
     """All solutions of a polynomial equation in n over Q(t) by values of one parameter.
 
     None where the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
@@ -105,7 +105,7 @@ def solve_for(name: str, equation: FunctionPoly) -> Solved | None:
         elif factor not in undefined:
             strata.append(Stratum(factor, on_zeros(rest, factor)))
     poles.sort(key=lambda pole: str(pole.root))
-    return Solved(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
+    return SolvedCondition(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
 
 
 def _product_of_zeros(value: Poly) -> FunctionPoly | None:
@@ -142,7 +142,7 @@ def possible(poles: Sequence[Free], numbers: Classes) -> tuple[Free, ...]:
     return tuple(found)
 
 
-def all_solved(equation: FunctionPoly, fixed: Collection[str] = ()) -> list[Solved]:
+def all_solved(equation: FunctionPoly, fixed: Collection[str] = ()) -> list[SolvedCondition]:
     """The equation solved for each parameter for which that is possible, but for the `fixed` ones."""
     names = [name for name in equation.field.names if name not in fixed]
     return [solved for solved in (solve_for(name, equation) for name in names) if solved is not None]
@@ -201,7 +201,7 @@ def _spectrum(
     return best
 
 
-def _cost(family: Family) -> int:
+def _cost(family: IntegerFamily) -> int:
     """Of reading it, in characters."""
     length = _WEIGHT * shortest_length(family.value, family.letter) + prose.length_of(prose.numbers_of(family))
     if family.forms:
@@ -209,7 +209,7 @@ def _cost(family: Family) -> int:
     return length
 
 
-def _choices(equation: FunctionPoly, solved: Solved, numbers: Classes, letter: str) -> Iterator[Family]:
+def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str) -> Iterator[IntegerFamily]:
     """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters."""
     N = equation.field.poly([0, 1])
     is_mirrored = equation(-N) == (-1) ** equation.degree * equation
@@ -234,16 +234,20 @@ def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
         yield N * (sign * modulus) + numbers.residues[0] + modulus * shift
 
 
-def _moved(solved: Solved, line: Poly, letter: str, numbers: Classes, forms: tuple[FunctionPoly, ...] = ()) -> Family:
+def _moved(
+    solved: SolvedCondition, line: Poly, letter: str, numbers: Classes, forms: tuple[FunctionPoly, ...] = ()
+) -> IntegerFamily:
     """The family with N = `line`, slope n + shift, for n among the numbers, or of which one of the forms is."""
     value = solved.value(RatFunc(line))
     poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
     if not forms:
         poles = possible(poles, numbers)
-    return Family(solved.parameter, value, letter, numbers, forms, poles)
+    return IntegerFamily(solved.parameter, value, letter, numbers, forms, poles)
 
 
-def _about_center(solved: Solved, c: Poly, numbers: Classes, letter: str, *, is_single: bool) -> Iterator[Family]:
+def _about_center(
+    solved: SolvedCondition, c: Poly, numbers: Classes, letter: str, *, is_single: bool
+) -> Iterator[IntegerFamily]:
     """f(s n + c), where n + (c - r)/s is an integer; and f(n + c), where n + c is one of the numbers."""
     N = solved.value.field.poly([0, 1])
     u = over_parameters((c - numbers.residues[0]) / numbers.modulus)
@@ -288,7 +292,7 @@ def _mean_of_roots(equation: Poly) -> Poly:
     return -equation[k - 1] / (equation.lc * k)
 
 
-def _roots(equation: FunctionPoly, numbers: Classes) -> RootSum | None:
+def _roots(equation: FunctionPoly, numbers: Classes) -> SumOfRoots | None:
     """The roots as a mean +- the square roots of one, two or three squares, for an equation of degree 2, 4 or 8."""
     if equation.degree not in (2, 4, 8):
         return None
@@ -298,7 +302,7 @@ def _roots(equation: FunctionPoly, numbers: Classes) -> RootSum | None:
     if squares is None:
         return None
     constant = floor(constant_term(mean) / numbers.modulus) * numbers.modulus
-    return RootSum(over_parameters(mean - constant), tuple(squares), numbers)
+    return SumOfRoots(over_parameters(mean - constant), tuple(squares), numbers)
 
 
 def _squares(shifted: Poly) -> list[Poly] | None:
@@ -341,7 +345,7 @@ def alternatives(
     equations: Sequence[FunctionPoly], letter: str, fixed: Collection[str] = (), covered: Collection[FunctionPoly] = ()
 ) -> Alternatives:
     """That a natural number d solves one of the equations, each solved for a parameter if it can be."""
-    families: list[Family] = []
+    families: list[IntegerFamily] = []
     unsolved: list[EquationFor] = []
     where: dict[FunctionPoly, list[FunctionPoly]] = {}
     for equation in equations:
@@ -372,7 +376,7 @@ def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
 
 def solved_with_another_integer(
     square: FunctionPoly, constant: Fraction, letter: str, j: str, fixed: Collection[str]
-) -> Solved | None:
+) -> SolvedCondition | None:
     """(d - constant)^2 = j^2 square for an integer j > 0, solved for a parameter; None where more would have to be said."""
     names = square.field.names
     field = FunctionField((*names, j))

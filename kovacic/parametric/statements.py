@@ -17,7 +17,7 @@ from typing import ClassVar
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, Zero
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero
 from kovacic.parametric.functions import ParameterPoint, numerator
 
 
@@ -107,7 +107,7 @@ class Vanishes(Statement):
 
     @cached_property
     def claim(self) -> Claim:
-        return Zero(self.function)
+        return IsZero(self.function)
 
 
 @dataclass(frozen=True)
