@@ -122,7 +122,7 @@ def conditions(
     var : str or sympy.Symbol
         The variable; by default x, or the only symbol.  Every other symbol is a parameter.
     assume : mapping
-        Leaves out what then can't happen: {"n": "positive integer"}.  The words are integer, even, odd, half-integer, rational,
+        Leaves out what then can't happen: {"n": "positive integer"}.  The words are natural (0, 1, 2, ...), integer, even, odd, half-integer, rational,
         irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and inequalities such as ">=1/2", for a
         real number.  A number, {"n": 3}, is put in for the parameter.  Assumptions of SymPy symbols are used in the same way.
     max_degree : int

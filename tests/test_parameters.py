@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from fractions import Fraction
+from itertools import combinations
 from typing import Any
 
 import pytest
@@ -12,6 +14,7 @@ from build import FunctionField, RatFunc, parametrize, run
 
 import kovacic
 from kovacic import Status
+from kovacic.parametric.assumptions import read_assumptions
 from tests.parametric_cases import BALL
 
 K = FunctionField(("s", "t"))
@@ -151,3 +154,62 @@ def test_an_answer_for_all_values_with_assumptions_says_its_case(S: str, assume:
     assert "undecided" not in str(answer).lower()
     assert kovacic.decide(S, var="x", assume={"n": assume}).case == case
     assert run(["solve", "--no-solutions", "--assume", f"n={assume}", S]) == 0
+
+
+# ------------------------------------------------------------------------------- assumptions that contradict one another
+
+#: Assumptions, with admitted numbers of a sample; two that have none in common contradict one another.
+SAMPLE = [Fraction(k, 6) for k in range(-18, 19)]
+ASSUMED = {
+    "positive": lambda a: a > 0,
+    "negative": lambda a: a < 0,
+    "nonnegative": lambda a: a >= 0,
+    "nonpositive": lambda a: a <= 0,
+    "nonzero": lambda a: a != 0,
+    "integer": lambda a: a.denominator == 1,
+    "natural": lambda a: a.denominator == 1 and a >= 0,
+    "even": lambda a: a.denominator == 1 and a % 2 == 0,
+    "odd": lambda a: a % 2 == 1,
+    "half-integer": lambda a: a.denominator == 2,
+    "noninteger": lambda a: a.denominator > 1,
+    ">=1/2": lambda a: a >= Fraction(1, 2),
+    "<1/2": lambda a: a < Fraction(1, 2),
+    "<=0": lambda a: a <= 0,
+    ">sqrt(2)": lambda a: a * abs(a) > 2,
+    "<sqrt(2)": lambda a: a * abs(a) < 2,
+}
+
+
+def test_contradicting_assumptions_are_refused_with_both() -> None:
+    refused = 0
+    for first, second in combinations(ASSUMED, 2):
+        is_possible = any(ASSUMED[first](a) and ASSUMED[second](a) for a in SAMPLE)
+        assume = {"a": f"{first} {second}"}
+        if is_possible:
+            assert read_assumptions(assume, None, ("a",))
+            continue
+        refused += 1
+        with pytest.raises(kovacic.InputError, match=r"contradict one another: .* and "):
+            read_assumptions(assume, None, ("a",))
+    assert refused == 23
+
+
+@pytest.mark.parametrize("door", [kovacic.conditions, kovacic.solve])
+def test_a_contradiction_is_refused_before_anything_is_answered(door: Callable[..., object]) -> None:
+    with pytest.raises(kovacic.InputError, match="the assumptions on a contradict one another: positive and negative"):
+        door("a*x^2+1", assume={"a": "positive negative"})
+    with pytest.raises(kovacic.InputError, match="positive and even"):
+        door(sympy.Symbol("a", positive=True) * sympy.Symbol("x") ** 2 + 1, assume={"a": "even <2"})
+
+
+def test_the_command_refuses_contradicting_assumptions(capsys: pytest.CaptureFixture[str]) -> None:
+    for command in ("conditions", "solve"):
+        assert run([command, "a*x^2+1", "--assume", "a=positive", "--assume", "a=negative"]) == 2
+        captured = capsys.readouterr()
+        assert not captured.out
+        assert "positive and negative" in captured.err
+
+
+def test_natural_numbers_are_known() -> None:
+    answer = kovacic.conditions("x^2 + n", assume={"n": "natural"})
+    assert str(answer.assumptions) == "n nonnegative integer"

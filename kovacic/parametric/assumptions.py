@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
 from math import ceil
 from random import Random
 from typing import Any
@@ -21,7 +21,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.facts import INTEGERS, WORDS, Bound, Facts, check_words, is_relation, read_facts
+from kovacic.parametric.facts import INTEGERS, WORDS, Bound, Facts, check_words, contradict, is_relation, read_facts
 from kovacic.parametric.functions import Coset, element, numerator, over_parameters
 from kovacic.parametric.linear_forms import line_of, linear_of, parameters_of
 from kovacic.parametric.sympy_words import sympy_properties, words_of
@@ -29,6 +29,8 @@ from kovacic.parametric.sympy_words import sympy_properties, words_of
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 #: Words that are taken, and not used.
 _SAY_NOTHING = ("real", "complex")
+#: Words for others.  A natural number can be 0: what holds then holds for those who begin with 1, too.
+_ABBREVIATIONS = {"natural": ("nonnegative", "integer")}
 _NO_BOUND = Bound(1, Fraction(0), False)
 
 
@@ -276,8 +278,20 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
             words[symbol.name] = words_of(symbol)
     for key, what in (assume or {}).items():
         words[_parameter(key, names)] += _read_words(what)
+    for name, said in words.items():
+        _check_that_agree(name, said)
     known = [(name, Known(_useful(said))) for name, said in words.items()]
     return Assumptions(tuple((name, facts) for name, facts in known if facts.words))
+
+
+def _check_that_agree(name: str, words: Sequence[str]) -> None:
+    """Raises `InputError` for assumptions on one parameter that exclude one another, with the two that do."""
+    said = _useful(words)
+    if not contradict(said):
+        return
+    pairs = (pair for pair in combinations(said, 2) if contradict(pair))
+    both = " and ".join(next(pairs, said))
+    raise InputError(f"the assumptions on {name} contradict one another: {both}", hint="leave one of them out")
 
 
 def check_mapping(assume: object) -> None:
@@ -303,13 +317,15 @@ def _read_words(what: object) -> list[str]:
     """The words of an assumption.  Raises `InputError` for others, and for bounds that aren't real numbers."""
     text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what))
     text = re.sub(r"!=0(?![\d/])", "nonzero", text)
-    words = text.replace(",", " ").split()
+    words: list[str] = []
+    for word in text.replace(",", " ").split():
+        words += _ABBREVIATIONS.get(word, (word,))
     known = {*WORDS, *_SAY_NOTHING}
     unknown = [word for word in words if word not in known and not is_relation(word)]
     if unknown or not words:
         raise InputError(
             f"{' '.join(unknown) or what!r} isn't an assumption that is known",
-            hint=f"known are {', '.join(WORDS)}, >=1/2, !=1, a value",
+            hint=f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value",
         )
     check_words(words)
     return words

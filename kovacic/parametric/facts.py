@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import combinations
 from math import ceil, floor
 from typing import Any
 
@@ -155,6 +156,39 @@ class Facts:
             return False
         ends = [RealBound(bound.sign, ball_of(bound.end)) for bound in self.bounds]
         return not any(end.excludes(ball.real) for end in (*ends, *self.ends))
+
+
+#: Numbers of a class between two bounds that are tried one by one.
+_TRIED = 1000
+
+
+def contradict(words: tuple[str, ...]) -> bool:
+    """True if no number is provably left: two kinds of numbers, or bounds, that exclude one another."""
+    facts = read_facts(words)
+    if "irrational" in words and facts.rational is True:
+        return True
+    if facts.noninteger and any(coset.is_covered_by([INTEGERS]) for coset in facts.classes):
+        return True
+    if not all(first.meets(second) for first, second in combinations(facts.classes, 2)):
+        return True
+    by_sign = {bound.sign: bound.end for bound in facts.bounds}
+    if len(by_sign) < 2:
+        return False
+    return _is_nothing_between(facts, by_sign[1], by_sign[-1], words)
+
+
+def _is_nothing_between(facts: Facts, low: Fraction, high: Fraction, words: tuple[str, ...]) -> bool:
+    """True if no number between two bounds is admitted: none at all, the only one isn't, or none of a class."""
+    if low >= high:
+        return low > high or not facts.admit(low)
+    lower, upper = ({word[1:] for word in words if word.startswith(sign)} for sign in "><")
+    if lower & upper - {word for word in lower if word.startswith("=")}:
+        return True
+    coset = facts.coset
+    steps = 0 if coset is None else (high - low) / coset.step
+    if coset is None or steps > _TRIED:
+        return False
+    return not any(facts.admit(low + k * coset.step) for k in range(int(steps) + 1))
 
 
 @lru_cache(maxsize=256)
