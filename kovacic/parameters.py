@@ -122,9 +122,10 @@ def conditions(
     var : str or sympy.Symbol
         The variable; by default x, or the only symbol.  Every other symbol is a parameter.
     assume : mapping
-        Leaves out what then can't happen: {"n": "positive integer"}.  The words are natural (0, 1, 2, ...), integer, even, odd, half-integer, rational,
-        irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and inequalities such as ">=1/2", for a
-        real number.  A number, {"n": 3}, is put in for the parameter.  Assumptions of SymPy symbols are used in the same way.
+        Leaves out what then can't happen: {"n": "positive integer"}.  The words are natural (0, 1, 2, ...), integer, even, odd,
+        half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and inequalities
+        such as ">=1/2", for a real number.  A number, {"n": 3}, is put in for the parameter.  Assumptions of SymPy symbols are
+        used in the same way; those that contradict one another are refused.
     max_degree : int
         Where a condition has a natural number d in it, its determinants are shown up to d = `max_degree`, 2 by default;
         `determinant` of the condition computes others.

@@ -7,7 +7,7 @@ on such a stratum, or on the values that the printed functions of an integer giv
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import product
 from random import Random
@@ -19,7 +19,7 @@ import sympy
 from build import Conditions, parametrize
 
 import kovacic
-from kovacic.parametric.claims import DegreeExists
+from kovacic.parametric.claims import Classes, DegreeExists
 from kovacic.parametric.natural import Natural
 from tests.parametric_formulas import as_sympy, numbers_in, residual, vanishes
 from tests.printed import printed_verdict, wrongly_printed
@@ -65,6 +65,34 @@ def test_a_parameter_is_free_where_its_coefficient_vanishes() -> None:
     verdict = printed_verdict(answer, answer.point({"k": 4, "g": 0}))
     assert verdict is not None
     assert verdict.case == kovacic.solve("4").case == 1
+
+
+PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
+    "a stratum isn't said": ("k*(1+g/x)", "kovacic.parametric.solving.on_zeros", lambda rest, zero: rest * 0 + 1),
+    "a class is wrong": (
+        "k*(1+g/x)",
+        "kovacic.parametric.integers.Classes",
+        lambda residues, modulus: Classes(residues, 2 * modulus),
+    ),
+    "a gauge is the generic one": (
+        "(1+L*x)*y''+b*y'+c*y=0",
+        "kovacic.parametric.regions._restricted",
+        lambda equation, zeros: equation,
+    ),
+    "a formula is another function": (
+        "(1+L*x)*y''+b*y'+c*y=0",
+        "kovacic.parametric.solutions.translated",
+        lambda y, equation: y + x**7,
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", PLANTED)
+def test_conditions_that_are_false_never_leave(fault: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    S, where, wrong = PLANTED[fault]
+    monkeypatch.setattr(where, wrong)
+    with pytest.raises(kovacic.VerificationFailed, match="failed their own check"):
+        kovacic.conditions(S, var="x", max_degree=0)
 
 
 @pytest.mark.long

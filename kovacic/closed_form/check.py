@@ -116,6 +116,19 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
     return abs(sum(terms)) / scale
 
 
+def residual_in(expression: Any, x: Any, t: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:
+    """y'' - 2 g y' + (g^2 - g' - S) y in t = t(x), for an expression y in x, at a value of x: a ball."""
+    from kovacic.closed_form.jets import jet
+
+    y, first, second = jet(expression, x, point)
+    value, slope, curvature = jet(t, x, point)
+    by_t = first / slope
+    twice_by_t = (second - by_t * curvature) / slope**2
+    g = value_at(gauge, value) if gauge else acb(0)
+    g1 = value_at(gauge.derivative(), value) if gauge else acb(0)
+    return twice_by_t - 2 * g * by_t + (g * g - g1 - value_at(S, value)) * y
+
+
 def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
     """True if the Wronskian of the expressions is proven not to vanish at the point of `is_numerical_solution`."""
     from kovacic.closed_form.jets import jet

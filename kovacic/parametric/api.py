@@ -19,6 +19,7 @@ from kovacic.exact import whole
 from kovacic.limits import Budget, Limits, bounded_work
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.cases import without_redundant
+from kovacic.parametric.check import check_each_region
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
@@ -95,7 +96,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
     regions = settled(result.regions, parsed.variable, field.names, constant.names)
     regions = [_finished(region, parsed.equation, max_degree, budget) for region in regions]
-    return ParametricAnswer(
+    answer = ParametricAnswer(
         S=shown,
         variable=parsed.variable,
         parameters=parameters_of(parsed.S.field),
@@ -109,6 +110,9 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         constant=constant,
         equation=parsed.equation,
     )
+    with budget.watched(), suppress(LimitExceeded):  # as far as time allows
+        check_each_region(answer)
+    return answer
 
 
 def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:

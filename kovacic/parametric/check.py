@@ -1,19 +1,50 @@
-"""Conditions against the engine, at exact points inside and outside of them."""
+"""Conditions as printed, against the engine and its kernel, at exact points inside and outside of the regions.
+
+A claim is evaluated at the point, and has to agree with the statement it was made of; the verdict with what the engine finds
+and the kernel verifies there; each formula has to solve the equation that was given.  One point in each region is compared
+before conditions leave, more by `check`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import count
+from itertools import chain, count
 from random import Random
+from typing import TYPE_CHECKING, Any
+
+import sympy
+from flint import acb, ctx, fmpq
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.decision import Status
+from kovacic.equation import Equation
+from kovacic.errors import VerificationFailed
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import ParameterPoint, coefficients_in, degrees
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.claims import (
+    AllOf,
+    Alternatives,
+    AnyOf,
+    Claim,
+    DegreeClaim,
+    DegreeExists,
+    IntegerFamily,
+    ThatIs,
+)
+from kovacic.parametric.functions import (
+    ParameterPoint,
+    coefficients_in,
+    degrees,
+    irreducible_factors,
+    over_parameters,
+)
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at
+from kovacic.parametric.statements import Statement, Vanishes
+from kovacic.reading.change_of_variable import function_of_x, user_variable
 
 
 @dataclass(frozen=True)
@@ -48,6 +79,118 @@ class CheckReport:
         return not self.disagreements
 
 
+#: Samples of a region, one of which has to lie in no region before it.
+_ATTEMPTS = 6
+#: Bits with which formulas are compared.
+_PRECISION = 192
+#: Degrees of P up to which formulas are compared whose coefficients depend on the parameters.
+_LARGEST = 1
+
+if TYPE_CHECKING:
+    from kovacic.parametric.parametric_answer import ParametricAnswer
+
+
+def check_each_region(found: ParametricAnswer) -> None:
+    """Compare what is printed at a point in each region, on each stratum and outside: `VerificationFailed` if it is false."""
+    sampler = Sampler(found.constant, found.parameters, found.assumptions, Random(1))
+    points = [_point_in(found, sampler, region) for region in (*found.regions, None)]
+    strata = chain.from_iterable(_strata(region.statement.claim) for region in found.regions)
+    points += [sampler.point(Vanishes(zero)) for zero in dict.fromkeys(strata)]
+    for point in filter(None, points):
+        wrong = next(contradictions(found, point), None)
+        if wrong is not None:
+            raise VerificationFailed(f"conditions failed their own check at {point}: {wrong}; please report it")
+
+
+def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
+    """The functions of the parameters that are denominators in what is printed: it isn't defined at their zeros."""
+    if isinstance(claim, AllOf | AnyOf):
+        for part in claim.parts:
+            yield from _strata(part)
+    elif isinstance(claim, ThatIs):
+        yield from _strata(claim.second)
+    elif isinstance(claim, DegreeExists):
+        yield from _strata(claim.degree)
+    elif isinstance(claim, Alternatives):
+        for family in claim.families:
+            yield from _strata(family)
+    elif isinstance(claim, IntegerFamily):
+        below = over_parameters(claim.value.cleared()[1])
+        yield from (factor for factor in irreducible_factors(below) if not factor.degree)
+
+
+def _point_in(found: ParametricAnswer, sampler: Sampler, region: ParameterRegion | None) -> ParameterPoint | None:
+    """One that belongs to no region before; None if a few attempts find none."""
+    for _ in range(_ATTEMPTS):
+        point = sampler.point(None if region is None else region.statement)
+        if point is not None and first_region(found.regions, point) is region:
+            return point
+    return None
+
+
+def first_region(regions: Sequence[ParameterRegion], point: ParameterPoint) -> ParameterRegion | None:
+    """The first whose statement holds at the point."""
+    return next((region for region in regions if region.statement.holds(point)), None)
+
+
+def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:
+    """What is printed falsely at a point, in a sentence each."""
+    for region in found.regions:
+        holds = region.statement.holds(point)
+        if region.statement.claim.holds(point) is not holds:
+            yield f"{region.statement} is printed, and {'holds' if holds else 'does not hold'} there"
+        if holds:
+            break
+    predicted = found.predicted(point)
+    if predicted is None or not predicted.known:
+        return
+    answer = found.answer_of(point)
+    if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
+        yield f"{predicted} is printed, {RegionVerdict.of(answer.decision)} is found"
+    inside = first_region(found.regions, point)
+    if inside is not None and inside.case == 1:
+        yield from _false_formulas(found, inside, point, answer.S)
+
+
+def _false_formulas(
+    found: ParametricAnswer, region: ParameterRegion, point: ParameterPoint, S: RatFunc
+) -> Iterator[str]:
+    """The solutions of a region that provably don't solve the equation at a rational point."""
+    if point.field != QQ:
+        return
+    x = sympy.Symbol("x")
+    values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
+    equation = None if found.equation is None else equation_at(found.equation, point)
+    numbers = [number for number in region.numbers_at(point) if number is None or number <= _LARGEST]
+    for number in numbers:
+        for solution in region.solution(number):
+            y = solution.at(values)
+            if y is not None and (_is_undefined(y) or _is_false(y, S, equation, found.variable)):
+                yield f"{solution} is no solution"
+
+
+def _is_undefined(y: Any) -> bool:
+    return bool(y.has(sympy.nan, sympy.zoo, sympy.oo))
+
+
+def _is_false(y: Any, S: RatFunc, equation: Equation | None, variable: str) -> bool:
+    """True if y provably doesn't solve the equation with this normal form at a point."""
+    from kovacic.closed_form.check import residual_in
+
+    x = sympy.Symbol(variable)
+    t: Any = x
+    gauge = 0 * S
+    if equation is not None:
+        x = user_variable(equation)
+        t = function_of_x(equation) if equation.change is not None else x
+        gauge = equation.gauge
+    try:
+        with ctx.workprec(_PRECISION):
+            return not residual_in(y, x, t, S, gauge, acb(fmpq(13, 7))).contains(0)
+    except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
+        return False
+
+
 @dataclass(frozen=True)
 class Sampler:
     """Points with small coordinates: values of the `names` that the assumptions admit, beside the `start`, which is fixed."""
@@ -63,10 +206,14 @@ class Sampler:
             chosen = None
             if statements and attempt % 2:
                 chosen = statements[attempt // 2 % len(statements)]
-            point = self._point(chosen)
-            if point is not None and not self.assumptions.admits(zip(point.names, point.values, strict=True)):
-                point = None
-            yield point
+            yield self.point(chosen)
+
+    def point(self, statement: Statement | None) -> ParameterPoint | None:
+        """An admitted one at which the statement holds, if there is one; None where an attempt failed."""
+        point = self._point(statement)
+        if point is not None and not self.assumptions.admits(zip(point.names, point.values, strict=True)):
+            return None
+        return point
 
     def _point(self, statement: Statement | None) -> ParameterPoint | None:
         """A point at which the statement holds, any one without a statement; None if none was found."""

@@ -20,6 +20,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.errors import VerificationFailed
 from kovacic.parametric.functions import ParameterPoint, over_parameters
 
 
@@ -77,7 +78,7 @@ class ThatIs(Claim):
     def _holds(self, point: ParameterPoint) -> bool:
         found = self.first.holds(point)
         if found is not self.second.holds(point):
-            raise AssertionError(f"two forms of one statement differ at {point}")
+            raise VerificationFailed(f"two forms of one statement differ at {point}; please report it")
         return found
 
 
@@ -118,7 +119,7 @@ class InClasses(Claim):
     numbers: Classes
 
     def _holds(self, point: ParameterPoint) -> bool:
-        number = QQ.rational_value(lowest(point.at(self.form)))
+        number = rational(point.at(self.form))
         return number is not None and self.numbers.contain(number)
 
 
@@ -174,7 +175,7 @@ class IntegerFamily(Claim):
         n = (m - at_point[0]) / at_point[1]
         for zero in self.poles:
             root = point.at(zero.root)
-            number = QQ.rational_value(lowest(at_point(root)))
+            number = rational(at_point(root))
             if number is not None and self.numbers.contain(number) and not point.at(zero.zero):
                 yield root
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
@@ -205,10 +206,9 @@ def _value(point: ParameterPoint, name: str) -> Poly:
     return point.values[point.names.index(name)]
 
 
-def lowest(value: Poly) -> Poly:
-    """A constant over Q where it lies there; else itself."""
-    number = value.field.rational_value(value)
-    return value if number is None else QQ.poly([number])
+def rational(constant: Poly) -> Fraction | None:
+    """The number, where it is rational."""
+    return constant.field.rational_value(constant)
 
 
 def rational_roots(polynomial: Poly) -> list[Fraction]:
@@ -337,7 +337,7 @@ class DegreeByFamily(DegreeClaim):
 
 def natural_numbers(values: Iterable[Poly]) -> set[int]:
     """Those of the constants that are natural numbers."""
-    numbers = (QQ.rational_value(lowest(value)) for value in values)
+    numbers = map(rational, values)
     return _natural(number for number in numbers if number is not None)
 
 

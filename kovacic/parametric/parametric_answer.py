@@ -23,7 +23,7 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
-from kovacic.parametric.check import CheckReport, Disagreement, Sampler
+from kovacic.parametric.check import CheckReport, Disagreement, Sampler, first_region
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
@@ -151,7 +151,7 @@ class ParametricAnswer:
         >>> print(bessel.region_of(bessel.point({"n": "3/2"})))
         n - 1/2 in Z: case 1
         """
-        return next((region for region in self.regions if region.statement.holds(point)), None)
+        return first_region(self.regions, point)
 
     def determinant(self, number: int) -> tuple[Determinant, ...]:
         """Delta_d of the conditions with a natural number d, for one d and each way in which the exponents give it.
@@ -257,7 +257,21 @@ class ParametricAnswer:
         >>> bessel.answer_at({"n": "1/2"}).case
         1
         """
-        point = self.point(values)
+        return self.answer_of(self.point(values))
+
+    def answer_of(self, point: ParameterPoint) -> Answer:
+        """The same for a point of `self.point`.
+
+        Parameters
+        ----------
+        point : ParameterPoint
+            What `point` returned.
+
+        Returns
+        -------
+        Answer
+            Its `verified` is True, unless it is undecided.
+        """
         try:
             S = point.restricted(self.S)
         except ZeroDivisionError:
@@ -288,11 +302,14 @@ class ParametricAnswer:
         >>> print(bessel.predicted(bessel.point({"n": "3/2"})))
         case 1
         """
+        return self._verdict_in(self.region_of(point), point)
+
+    def _verdict_in(self, region: ParameterRegion | None, point: ParameterPoint) -> RegionVerdict | None:
+        """What is claimed in a region, None for no region, at a point; None where S isn't defined."""
         try:
             point.restricted(self.S)
         except ZeroDivisionError:
             return None
-        region = self.region_of(point)
         if region is not None:
             return region.verdict if region.defined else None
         if self.complete is True:
@@ -333,7 +350,10 @@ class ParametricAnswer:
         return point
 
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
-        """Solve the equation without parameters at exact points inside and outside of the regions, and compare.
+        """Solve the equation at exact points inside and outside of the regions, and compare with what is printed.
+
+        The printed conditions themselves are evaluated: a parameter as a function of an integer, a sum of square roots.  One
+        point in each region, with its formulas, is compared whenever conditions are found.
 
         Parameters
         ----------
@@ -361,10 +381,12 @@ class ParametricAnswer:
         disagreements = list[Disagreement]()
         with budget.watched(), suppress(LimitExceeded):
             for point in self._sampled(20 * samples, Random(seed)):
-                predicted = self.predicted(point)
+                region = next((region for region in self.regions if region.statement.claim.holds(point)), None)
+                predicted = self._verdict_in(region, point)
                 if predicted is None:
                     continue
-                counts[self._where(point, predicted)] += 1
+                inside = "outside" if region is None else "inside"
+                counts[inside if predicted.known else "open"] += 1
                 if predicted.known:
                     disagreements += self._disagreements(point, predicted, budget)
                 if counts.total() == samples:
@@ -377,12 +399,6 @@ class ParametricAnswer:
         for point in islice(sampler.points([region.statement for region in self.regions]), attempts):
             if point is not None:
                 yield point
-
-    def _where(self, point: ParameterPoint, predicted: RegionVerdict) -> str:
-        """Inside of a region, outside of them, or open where nothing is claimed."""
-        if not predicted.known:
-            return "open"
-        return "outside" if self.region_of(point) is None else "inside"
 
     def _disagreements(self, point: ParameterPoint, predicted: RegionVerdict, budget: Budget) -> list[Disagreement]:
         """None where the engine finds the case that is predicted, or can't decide."""

@@ -235,6 +235,24 @@ class ParameterRegion:
         """
         return () if self.origin is None else self.origin(number)
 
+    def numbers_at(self, point: ParameterPoint) -> list[int | None]:
+        """For `solution`: the degrees that the exponents allow at a point; None where there is none to choose.
+
+        Parameters
+        ----------
+        point : ParameterPoint
+            What `Conditions.point` returned.
+
+        Returns
+        -------
+        list
+            Natural numbers, or None alone.
+        """
+        natural = [part for part in both(self.statement).parts if isinstance(part, Natural) and part.m == 1]
+        if not natural:
+            return [None]
+        return [number for part in natural for number in part.numbers_at(point)]
+
     @property
     def why_no_solution(self) -> str:
         """A sentence where `solution()` is empty: why there is no formula in all of the parameters; "" where there is one."""
@@ -590,10 +608,13 @@ def _restricted(equation: Equation, zeros: tuple[FunctionPoly, ...]) -> Equation
     if not zeros:
         return equation
     chart = _common_zeros(zeros)
-    if chart is None:
-        return None
+    return None if chart is None else equation_at(equation, chart)
+
+
+def equation_at(equation: Equation, point: ParameterPoint) -> Equation | None:
+    """y'' + p y' + q y = 0 with these values of the parameters; None where p or q isn't defined."""
     try:
-        p, q = (chart.restricted(with_free_constant(part / equation.a).S) for part in (equation.b, equation.c))
+        p, q = (point.restricted(with_free_constant(part / equation.a).S) for part in (equation.b, equation.c))
     except ZeroDivisionError:
         return None
     return replace(equation, a=q * 0 + 1, b=p, c=q, f=q * 0, h=None)

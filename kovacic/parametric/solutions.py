@@ -7,7 +7,7 @@ the conditions say for which of the two signs y is a solution.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import product
@@ -105,6 +105,15 @@ class PolynomialSolution:
     degree: Any
     conditions: tuple[Any, ...] = ()
     where: str = ""
+
+    def at(self, values: Mapping[Any, Any]) -> Any:
+        """y at values of the parameters, by symbol; None where it isn't one of the solutions there, or vanishes identically."""
+        degree = sympy.sympify(self.degree).xreplace(values)
+        is_natural = degree.is_Integer and degree >= 0
+        if not is_natural or any(condition.xreplace(values) != 0 for condition in self.conditions):
+            return None
+        y = self.y.xreplace(values)
+        return None if y == 0 else y
 
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
