@@ -27,7 +27,7 @@ from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_e
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
 from kovacic.parametric.solving import alternatives
-from kovacic.parametric.statements import Statement, Vanishes, both
+from kovacic.parametric.statements import Setting, Statement, Vanishes, both
 
 F = Fraction
 
@@ -197,7 +197,7 @@ def values(text: str, n: Fraction, largest: int = 40) -> bool:
 def test_symmetric_families_are_written_once(functions: list, total: int, expected: str) -> None:  # type: ignore[type-arg]
     families = [*functions, *(total - f for f in functions)]
     equations = [over_parameters((d * 0 + n - f).monic()) for f in families]
-    text = prose.text_of(prose.sentence(alternatives(equations, "d")))
+    text = prose.text_of(prose.sentence(alternatives(equations, "d", Setting())))
     assert text.startswith(expected)
     assert text.count("d") == (2 if len(functions) == 1 else len(functions))
     constants = [[Fraction(int(v.numerator), int(v.denominator)) for v in f.rational_coefficients()] for f in families]
@@ -209,4 +209,4 @@ def test_symmetric_families_are_written_once(functions: list, total: int, expect
 
 def test_a_family_without_its_mirror_image_is_not_merged() -> None:
     equations = [over_parameters((n - f).monic()) for f in (2 * d, -2 * d - 1, 2 * d + 2, 3 * d + 5)]
-    assert prose.text_of(prose.sentence(alternatives(equations, "d"))).startswith("n = ")
+    assert prose.text_of(prose.sentence(alternatives(equations, "d", Setting()))).startswith("n = ")

@@ -7,7 +7,7 @@ before conditions leave, more by `check`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, count
 from random import Random
@@ -42,7 +42,7 @@ from kovacic.parametric.functions import (
     irreducible_factors,
     over_parameters,
 )
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at, normal_form
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 
@@ -158,14 +158,16 @@ def _false_formulas(
     """The solutions of a region that provably don't solve the equation at a rational point."""
     if point.field != QQ:
         return
-    x = sympy.Symbol("x")
+    x = sympy.Dummy()
     values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
-    equation = None if found.equation is None else equation_at(found.equation, point)
+    equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
+    if equation is None:
+        return
     numbers = [number for number in region.numbers_at(point) if number is None or number <= _LARGEST]
     for number in numbers:
         for solution in region.solution(number):
             y = solution.at(values)
-            if y is not None and (_is_undefined(y) or _is_false(y, S, equation, found.variable)):
+            if y is not None and (_is_undefined(y) or _is_false(y, S, equation, values)):
                 yield f"{solution} is no solution"
 
 
@@ -173,20 +175,17 @@ def _is_undefined(y: Any) -> bool:
     return bool(y.has(sympy.nan, sympy.zoo, sympy.oo))
 
 
-def _is_false(y: Any, S: RatFunc, equation: Equation | None, variable: str) -> bool:
-    """True if y provably doesn't solve the equation with this normal form at a point."""
+def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any]) -> bool:
+    """True if y provably doesn't solve the equation with this normal form at values of the parameters."""
     from kovacic.closed_form.check import residual_in
 
-    x = sympy.Symbol(variable)
-    t: Any = x
-    gauge = 0 * S
-    if equation is not None:
+    x = t = sympy.Symbol(equation.variable)
+    if equation.change is not None:
         x = user_variable(equation)
-        t = function_of_x(equation) if equation.change is not None else x
-        gauge = equation.gauge
+        t = function_of_x(equation).xreplace(values)
     try:
         with ctx.workprec(_PRECISION):
-            return not residual_in(y, x, t, S, gauge, acb(fmpq(13, 7))).contains(0)
+            return not residual_in(y, x, t, S, equation.gauge, acb(fmpq(13, 7))).contains(0)
     except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
         return False
 

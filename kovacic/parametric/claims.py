@@ -49,6 +49,16 @@ class IsZero(Claim):
 
 
 @dataclass(frozen=True)
+class IsNonzero(Claim):
+    """A function doesn't vanish."""
+
+    function: FunctionPoly
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return bool(point.at(self.function))
+
+
+@dataclass(frozen=True)
 class AllOf(Claim):
     """All of the parts hold."""
 

@@ -19,17 +19,20 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import INTEGERS as INTEGER_CLASS
-from kovacic.parametric.claims import AnyOf, Claim, Classes, InClasses, rational_roots
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, Classes, InClasses, IsNonzero, rational_roots
 from kovacic.parametric.functions import (
     Coset,
     ParameterPoint,
     common_multiple,
     degrees,
+    element,
+    irreducible_factors,
     normal_form,
+    numerator,
     over_parameters,
     values_at_integers,
 )
-from kovacic.parametric.solving import all_solved, integer_condition
+from kovacic.parametric.solving import all_solved, integer_condition, on_zeros
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
 
 #: What integers are called, the first that isn't a parameter.
@@ -207,14 +210,24 @@ class Congruence(Statement):
 
     def _solved(self, equation: FunctionPoly, numbers: Classes) -> Claim:
         """An equation for an integer, with what holds where the parameter for which it was solved is free."""
-        known = self.setting
-        found = integer_condition(equation, numbers, self.letter, known.fixed, known.covered)
+        found = integer_condition(equation, numbers, self.letter, self.setting)
         claims = [found.claim]
         for zero, rest in found.strata:
             there = integer_roots(rest, [*map(int, numbers.residues)], int(numbers.modulus)) if rest else ALWAYS
             if there != NEVER:
-                claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(known).claim)
-        return claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
+                claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(self.setting).claim)
+        said = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
+        return self._where_defined(said, equation) if found.is_solved else said
+
+    def _where_defined(self, said: Claim, equation: FunctionPoly) -> Claim:
+        """With the denominators of the equation, which solving it cleared, where no earlier region has their zeros."""
+        above = numerator(equation)
+        guards = []
+        for factor in irreducible_factors(element(equation.field, equation.den)):
+            there = irreducible_factors(on_zeros(above, factor))
+            if not all(self.setting.covers(factor, zero) for zero in there):
+                guards.append(IsNonzero(factor))
+        return AllOf((said, *guards)) if guards else said
 
     def _one_class(self, form: FunctionPoly) -> Claim:
         """That a form is congruent to one number."""

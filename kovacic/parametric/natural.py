@@ -297,7 +297,7 @@ class Natural(Statement):
         """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
         found: list[DegreeClaim] = []
         if self.factors is not None:
-            listed = alternatives(self.factors, self.letter, self.setting.fixed, self.setting.covered)
+            listed = alternatives(self.factors, self.letter, self.setting)
             longest = _WRITTEN_OUT if self.m == 1 else _EQUATIONS
             if not listed.equations and prose.length(listed) <= longest:
                 return listed

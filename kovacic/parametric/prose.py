@@ -28,6 +28,7 @@ from kovacic.parametric.claims import (
     EquationFor,
     InClasses,
     IntegerFamily,
+    IsNonzero,
     IsZero,
     SignedDegree,
     SolutionWithZeros,
@@ -557,6 +558,7 @@ def _solution_with_zeros(claim: SolutionWithZeros) -> Words:
 #: How each kind of claim is written; `riemann` adds its own.
 _WRITERS: dict[type, Callable[[Any], Words]] = {
     IsZero: _zero,
+    IsNonzero: lambda claim: (unequal(claim.function),),
     AllOf: _all_of,
     AnyOf: _any_of,
     InClasses: _in_classes,

@@ -13,6 +13,7 @@ from itertools import count, groupby
 from typing import Any, NamedTuple
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status, Structure
 from kovacic.equation import PI, Equation
 from kovacic.limits import check_time
@@ -351,13 +352,15 @@ def settled(
     `names` are the parameters, among them the `constants`, for which nothing is solved, nor for pi.
     """
     fixed = (*constants, *(name for name in names if name == PI))
-    covered: list[FunctionPoly] = []
+    covered: list[frozenset[FunctionPoly]] = []
     found = []
     for region in regions:
         setting = Setting((variable, *names), fixed, tuple(covered))
         found.append(replace(region, statement=region.statement.avoiding(setting)))
-        alternatives = alternatives_of(all_of(both(region.statement).parts))
-        covered += [one.function for one in alternatives if isinstance(one, Vanishes)]
+        for one in alternatives_of(all_of(both(region.statement).parts)):
+            zeros = _vanishing(both(one).parts)
+            if len(zeros) == len(both(one).parts):
+                covered.append(frozenset(zeros))
     return found
 
 
@@ -609,6 +612,11 @@ def _restricted(equation: Equation, zeros: tuple[FunctionPoly, ...]) -> Equation
         return equation
     chart = _common_zeros(zeros)
     return None if chart is None else equation_at(equation, chart)
+
+
+def normal_form(S: RatFunc, variable: str) -> Equation:
+    """y'' - S y = 0."""
+    return Equation(a=S * 0 + 1, b=S * 0, c=-S, f=S * 0, variable=variable)
 
 
 def equation_at(equation: Equation, point: ParameterPoint) -> Equation | None:

@@ -47,6 +47,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     powers_of,
 )
+from kovacic.parametric.statements import Setting
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
 _BESIDE = 120
@@ -156,20 +157,18 @@ class IntegerCondition(NamedTuple):
 
     claim: Claim
     strata: tuple[Stratum, ...] = ()
+    #: True if a parameter was solved for, and the denominators of the equation are gone.
+    is_solved: bool = False
 
 
 def integer_condition(
     equation: FunctionPoly,
     numbers: Classes,
     letter: str,
-    fixed: Collection[str] = (),
-    covered: Collection[FunctionPoly] = (),
+    setting: Setting,
 ) -> IntegerCondition:
-    """That a polynomial in N over Q(t) has one of the numbers for a root, as a spectrum or by square roots, or both.
-
-    Of the zeros of `covered` functions nothing is said.
-    """
-    spectrum = _spectrum(equation, numbers, letter, fixed, covered)
+    """That a polynomial in N over Q(t) has one of the numbers for a root, as a spectrum or by square roots, or both."""
+    spectrum = _spectrum(equation, numbers, letter, setting)
     roots = _roots(equation, numbers)
     if roots is None:
         return spectrum or IntegerCondition(EquationFor(equation, letter, numbers))
@@ -183,20 +182,18 @@ def integer_condition(
     return spectrum if length <= prose.length(roots) + _LONGER else IntegerCondition(roots)
 
 
-def _spectrum(
-    equation: FunctionPoly, numbers: Classes, letter: str, fixed: Collection[str], covered: Collection[FunctionPoly]
-) -> IntegerCondition | None:
+def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:
     """A parameter as a function of n, by the cheapest way to choose n; None where no parameter is linear."""
-    known = all_solved(equation, fixed)
+    known = all_solved(equation, setting.fixed)
     energies = [solved for solved in known if solved.parameter == ENERGY]
     best: IntegerCondition | None = None
     least = 0
     for k, solved in enumerate(energies or known):
-        strata = tuple(one for one in solved.strata if one.zero not in covered)
+        strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _choices(equation, solved, numbers, letter):
             cost = _LATER * k + _STRATUM * len(strata) + _cost(family)
             if best is None or cost < least:
-                best = IntegerCondition(family, strata)
+                best = IntegerCondition(family, strata, is_solved=True)
                 least = cost
     return best
 
@@ -341,24 +338,22 @@ def _three_squares(shifted: Poly) -> list[Poly] | None:
 # ------------------------------------------------------------------------------- equations for a natural number
 
 
-def alternatives(
-    equations: Sequence[FunctionPoly], letter: str, fixed: Collection[str] = (), covered: Collection[FunctionPoly] = ()
-) -> Alternatives:
+def alternatives(equations: Sequence[FunctionPoly], letter: str, setting: Setting) -> Alternatives:
     """That a natural number d solves one of the equations, each solved for a parameter if it can be."""
     families: list[IntegerFamily] = []
     unsolved: list[EquationFor] = []
     where: dict[FunctionPoly, list[FunctionPoly]] = {}
     for equation in equations:
-        known = all_solved(equation, fixed)
+        known = all_solved(equation, setting.fixed)
         if not known:
             unsolved.append(EquationFor(equation, letter, NATURALS))
             continue
-        solved = min(known, key=lambda one: sum(stratum.zero not in covered for stratum in one.strata))
+        solved = min(known, key=lambda one: sum(not setting.covers(stratum.zero) for stratum in one.strata))
         families.append(solved.family(letter, NATURALS))
         for stratum in solved.strata:
-            if stratum.zero not in covered:
+            if not setting.covers(stratum.zero):
                 where.setdefault(stratum.zero, []).extend(_that_can_be_natural(stratum.rest))
-    strata = [WhereZero(alternatives(rests, letter, fixed, covered), zero) for zero, rests in where.items() if rests]
+    strata = [WhereZero(alternatives(rests, letter, setting), zero) for zero, rests in where.items() if rests]
     return Alternatives(letter, tuple(families), tuple(unsolved), tuple(strata))
 
 

@@ -26,12 +26,16 @@ class Setting:
     """What a statement is printed beside.
 
     No integer is called like one of the `names`; nothing is solved for one of the `fixed` ones, which are constants; nothing is
-    said of the zeros of the `covered` functions, which belong to earlier regions.
+    said of the common zeros of functions that are `covered`, because they belong to earlier regions.
     """
 
     names: tuple[str, ...] = ()
     fixed: tuple[str, ...] = ()
-    covered: tuple[FunctionPoly, ...] = ()
+    covered: tuple[frozenset[FunctionPoly], ...] = ()
+
+    def covers(self, *zeros: FunctionPoly) -> bool:
+        """True if an earlier region contains the common zeros of the functions."""
+        return any(known <= {*zeros} for known in self.covered)
 
 
 class Statement(ABC):
