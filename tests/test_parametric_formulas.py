@@ -114,8 +114,13 @@ def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
 
 @parametrize("name", SOME, ordinary=2)
 def test_answers_are_read_back(name: str) -> None:
+    """With everything that is printed of them."""
     answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
-    assert Conditions.from_json(answer.to_json()) == answer
+    read = Conditions.from_json(answer.to_json())
+    assert read == answer
+    assert read.text(all=True) == answer.text(all=True)
+    assert read.theorem(format="latex") == answer.theorem(format="latex")
+    assert [r.why_no_solution for r in read.regions] == [r.why_no_solution for r in answer.regions]
 
 
 @pytest.mark.parametrize("name", EACH)

@@ -3,44 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import replace
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status
-from kovacic.engine.decide import decide
-from kovacic.equation import PI, Equation, Parsed, parameters_of
+from kovacic.equation import PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
-from kovacic.limits import Budget, Limits, bounded_work
+from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.cases import without_redundant
 from kovacic.parametric.check import check_each_region
+from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import ParameterPoint
-from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
-from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
-from kovacic.parametric.powers import in_powers
-from kovacic.parametric.regions import (
-    ParameterRegion,
-    RegionVerdict,
-    equations_on,
-    settled,
-    without_empty,
-    without_implied,
-)
-from kovacic.parametric.restriction import reduced, with_free_constant
-from kovacic.parametric.solutions import Given
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.restriction import with_free_constant
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
 
-#: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
-_STRATA = 4000
 #: The largest d for which the determinants of conditions with a natural number d are computed.
 DEFAULT_DEGREE = 2
 
@@ -78,32 +59,17 @@ def _without_parameters(parsed: Parsed, given: Parsed, *, is_guessed: bool) -> I
 
 def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> ParametricAnswer:
     """The conditions for an input that was read; `max_degree` None: by theorems only."""
-    lifted, shown, constant = with_free_constant(parsed.S)
-    assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     budget = Budget(limits)
-    settings = Settings(budget, parsed.variable, only_theorems=max_degree is None)
-    with budget.watched():
-        with bounded_work(_STRATA):
-            found = partition(lifted, settings)
-        if found.complete is not True:
-            found = _in_powers(lifted, settings, found)
-    field = lifted.field.ground
-    assert isinstance(field, FunctionField)
-    regions = _distinct(found.regions, constant, budget)
-    result = _under(assumptions, replace(found, regions=tuple(regions)), parsed.S, budget)
-    with budget.watched(), suppress(LimitExceeded):
-        generic = result.generic if result.complete is True else None
-        result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
-    regions = settled(result.regions, parsed.variable, field.names, constant.names)
-    regions = [_finished(region, parsed.equation, max_degree, budget) for region in regions]
+    _, shown, constant = with_free_constant(parsed.S)
+    found = derived(parsed.S, parsed.variable, parsed.equation, known, budget, max_degree)
     answer = ParametricAnswer(
         S=shown,
         variable=parsed.variable,
         parameters=parameters_of(parsed.S.field),
-        generic=result.generic,
-        regions=tuple(regions),
-        complete=result.complete,
-        theory=result.theory,
+        generic=found.generic,
+        regions=found.regions,
+        complete=found.complete,
+        theory=found.theory,
         limits=limits,
         notices=_notices(parsed, constant),
         assumptions=known,
@@ -113,70 +79,6 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     with budget.watched(), suppress(LimitExceeded):  # as far as time allows
         check_each_region(answer)
     return answer
-
-
-def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
-    """The partition by powers of the parameters, where it is complete; else the direct one."""
-    try:
-        powers = in_powers(S)
-        if powers is None:
-            return direct
-        with bounded_work(_STRATA):
-            found = partition(powers.S, settings)
-    except LimitExceeded as limit:
-        return replace(direct, complete=as_far_as(limit))
-    if found.complete is True:
-        return replace(found, regions=tuple(map(powers.back, found.regions)))
-    is_limited = str(found.complete).startswith(LIMITED)
-    return replace(direct, complete=found.complete) if is_limited else direct
-
-
-def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:
-    """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
-    different: dict[Statement, ParameterRegion] = {}
-    for region in regions:
-        statement = without_implied(reduced(region.statement, constant))
-        different.setdefault(statement, replace(region, statement=statement))
-    distinct = [*different.values()]
-    with budget.watched(), suppress(LimitExceeded):
-        distinct = without_empty(distinct)
-    return distinct
-
-
-def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:
-    """What is left to say where the assumptions hold."""
-    generic = found.generic
-    complete = found.complete
-    regions: list[ParameterRegion] = []
-    for region in found.regions:
-        decided = region.statement.decided(assumptions)
-        if decided is True:
-            generic = region.verdict
-            if not generic.known:
-                generic = RegionVerdict.of(decide(S, budget, certify=False))
-            complete = together([*regions, region])
-            break
-        statement = region.statement.narrowed(assumptions)
-        if decided is None and statement.decided(assumptions) is not False:
-            regions.append(replace(region, statement=statement))
-    return Partition(generic, complete, found.theory, tuple(regions))
-
-
-def _finished(
-    region: ParameterRegion, equation: Equation | None, max_degree: int | None, budget: Budget
-) -> ParameterRegion:
-    """With its first determinants, and solutions of the equation that was given."""
-    if region.origin is not None and equation is not None:
-        there = equations_on(region.statement, equation)
-        origin = Given(region.origin, tuple((one.equation, one.zeros) for one in there)) if there else None
-        region = replace(region, origin=origin)
-    statement = region.statement
-    if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
-        return region
-    determinants: list[str] = []
-    with budget.watched(), suppress(LimitExceeded):  # as far as time allows
-        determinants.extend(map(statement.shown_determinant, range(max_degree + 1)))
-    return replace(region, determinants=tuple(determinants))
 
 
 def _notices(parsed: Parsed, constant: ParameterPoint) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import lru_cache, partial
 from itertools import islice
 from random import Random
 from typing import Any
@@ -24,13 +25,15 @@ from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler, first_region
+from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line, said_of, settled
 from kovacic.parametric.restriction import NO_CONSTANT
-from kovacic.parametric.statements import both
+from kovacic.parametric.solutions import Later, Origin
+from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
@@ -456,7 +459,7 @@ class ParametricAnswer:
 
     @classmethod
     def from_json(cls, text: str | Mapping[str, Any]) -> ParametricAnswer:
-        """The conditions that `to_json` wrote, but for `ParameterRegion.solution`.
+        """The conditions that `to_json` wrote; solutions of regions are found anew when they are asked for.
 
         Parameters
         ----------
@@ -491,11 +494,12 @@ class ParametricAnswer:
                 raise ValueError("a parameter or the variable isn't a name")
             field = FunctionField((*names, *constant.names))
             reader = StatementReader(field)
-            regions = [_region_from(region, reader) for region in data["regions"]]
-            return cls(
+            read = [_region_from(region, reader) for region in data["regions"]]
+            regions = settled(read, variable, field.names, constant.names)
+            answer = cls(
                 variable=variable,
                 parameters=names,
-                regions=tuple(settled(regions, variable, field.names, constant.names)),
+                regions=tuple(regions),
                 generic=RegionVerdict.from_dict(data["generic"]["verdict"]),
                 complete=data["complete"],
                 theory=data["theory"],
@@ -507,6 +511,8 @@ class ParametricAnswer:
             )
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None
+        regions = [replace(region, origin=Later(partial(_origin_of, answer, region.statement))) for region in regions]
+        return replace(answer, regions=tuple(regions))
 
     def latex(self) -> str:
         r"""The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values.
@@ -703,8 +709,21 @@ def _region_from(data: Mapping[str, Any], reader: StatementReader) -> ParameterR
         RegionVerdict.from_dict(data["verdict"]),
         complete=data["complete"],
         defined=data["defined"],
-        determinants=tuple(data.get("determinants", ())),
+        shown_degree=len(data["determinants"]) - 1 if "determinants" in data else None,
     )
+
+
+@lru_cache(maxsize=16)
+def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
+    """The solutions of the regions, by their statements, found from S; none for an equation with an algebraic constant."""
+    if answer.constant.names:
+        return {}
+    found = derived(answer.S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0)
+    return {region.statement: region.origin for region in found.regions}
+
+
+def _origin_of(answer: ParametricAnswer, statement: Statement) -> Origin | None:
+    return _origins(answer).get(statement)
 
 
 def _check_names(given: Collection[str], parameters: Collection[str]) -> None:

@@ -7,8 +7,9 @@ earlier regions state is decided for these functions.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import count, groupby
 from typing import Any, NamedTuple
 
@@ -16,7 +17,8 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status, Structure
 from kovacic.equation import PI, Equation
-from kovacic.limits import check_time
+from kovacic.errors import LimitExceeded
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
 from kovacic.parametric.claims import Classes
@@ -26,7 +28,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import hypersurface, with_free_constant
-from kovacic.parametric.solutions import Origin, PolynomialSolution
+from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
 from kovacic.parametric.solving import SolvedCondition, all_solved, possible
 from kovacic.parametric.statements import (
     ALWAYS,
@@ -188,8 +190,10 @@ class ParameterRegion:
         True where it is proven that the statement describes all such values and nothing else, else what isn't proven.
     defined : bool
         False where S isn't defined.
-    determinants : tuple of str
-        The first ones of a statement with a natural number in it.
+    shown_degree : int or None
+        For a statement with a natural number d: `determinants` has those up to this d.
+    limits : Limits
+        For these.
     origin : callable or None
         What `solution` asks; None where no formula is known.
 
@@ -205,7 +209,8 @@ class ParameterRegion:
     verdict: RegionVerdict
     complete: bool | str = True
     defined: bool = True
-    determinants: tuple[str, ...] = ()
+    shown_degree: int | None = None
+    limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     origin: Origin | None = field(default=None, compare=False)
 
     def solution(self, number: int | None = None) -> tuple[PolynomialSolution, ...]:
@@ -234,7 +239,23 @@ class ParameterRegion:
         >>> print(sextic.solution(0)[0])
         y = exp(-x^4/4) where a = -3, b = 0
         """
-        return () if self.origin is None else self.origin(number)
+        return () if self.formulas is None else self.formulas(number)
+
+    @property
+    def formulas(self) -> Origin | None:
+        """What `solution` asks, found now where conditions were read from JSON."""
+        return self.origin.find() if isinstance(self.origin, Later) else self.origin
+
+    @cached_property
+    def determinants(self) -> tuple[str, ...]:
+        """The first Delta_d of a statement with a natural number in it, a line each, as far as the limits allow."""
+        statement = self.statement
+        if self.shown_degree is None or not isinstance(statement, Natural):
+            return ()
+        found: list[str] = []
+        with Budget(self.limits).watched(), suppress(LimitExceeded):
+            found.extend(map(statement.shown_determinant, range(self.shown_degree + 1)))
+        return tuple(found)
 
     def numbers_at(self, point: ParameterPoint) -> list[int | None]:
         """For `solution`: the degrees that the exponents allow at a point; None where there is none to choose.
@@ -266,7 +287,7 @@ class ParameterRegion:
             return (
                 f"omega is algebraic of degree {degree}, and depends on the values of the parameters: solve_at gives it"
             )
-        if self.origin is None:
+        if self.formulas is None:
             return "omega follows from the equation on this part: solve_at, or assume the values"
         if _has_natural_number(self.statement):
             return "P has another degree for each natural number: solution(d), () where the exponents need two square roots"
@@ -288,7 +309,7 @@ class ParameterRegion:
     def plain(self) -> bool:
         """Is there nothing to say beside the statement and the case?"""
         is_proven = self.complete is True and self.verdict.known
-        return self.defined and is_proven and not self.determinants
+        return self.defined and is_proven and self.shown_degree is None
 
     def to_dict(self) -> dict[str, Any]:
         """The region's part of the JSON object.
@@ -314,7 +335,7 @@ class ParameterRegion:
             "statement": statement_data(self.statement),
             "verdict": self.verdict.to_dict(),
         }
-        if self.determinants:
+        if self.shown_degree is not None:
             data["determinants"] = list(self.determinants)
         return data
 

@@ -123,6 +123,19 @@ class PolynomialSolution:
 
 #: From the degree d, if there is one to be chosen.
 Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
+
+
+@dataclass(frozen=True)
+class Later:
+    """An origin that is found when it is asked for, None where there is none."""
+
+    find: Callable[[], Origin | None]
+
+    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        origin = self.find()
+        return () if origin is None else origin(number)
+
+
 #: The solution for signs, numbers +-1 or symbols for them.
 BySigns = Callable[[Sequence[Any]], PolynomialSolution]
 

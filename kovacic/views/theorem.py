@@ -238,7 +238,7 @@ class _TheoremWriter:
             return
         solutions = [*region.solution()]
         if len(solutions) > _ONE_BY_ONE:
-            together = general(region.origin, self.signs)
+            together = general(region.formulas, self.signs)
             if together is not None:
                 solutions = [together]
         for solution in solutions:
@@ -267,8 +267,8 @@ class _TheoremWriter:
         if weight is None or weight.signs > len(self.signs):
             return
         solution = weight.solution(self.signs)
-        if isinstance(region.origin, Given):
-            equation, _ = region.origin.pieces[0]
+        if isinstance(region.formulas, Given):
+            equation, _ = region.formulas.pieces[0]
             solution = replace(solution, y=translated(solution.y, equation))
         yield Formula(self._named_solution(solution))
         degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
