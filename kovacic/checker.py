@@ -4,7 +4,7 @@
 
 For each line one of
 
-    checked: y'' = S y from a, b, c; gauge; case; omega; group; not checked: input, notices, seconds, solutions, ...
+    checked: y'' = S y from a, b, c; gauge; case; omega; group; solutions; not checked: input, notices, seconds, ...
     refuted: why
     not checked: why                         (parameters, algebraic numbers in S, too large, more than a minute)
     unreadable: why                          (no JSON, or a key twice in one object)
@@ -22,6 +22,9 @@ What "checked" means, for an S over Q(x):
   Q) and, if reducible, of a single rational omega (its expansion, modulo a prime, isn't that of a rational function with few
   poles).
 - group: its family, n, order and name follow from the above, and from the evidence that is given for it.
+- solutions: both satisfy the equation, by exact differentiation, and their Wronskian isn't zero.  A function that isn't known
+  here is named ("solutions[1] (RootSum)"), and so is what differentiation alone doesn't prove, as relations between roots that
+  depend on their branches ("solutions[1]"); what is nonzero at several points is refuted.
 Every key is either looked at, or named after "not checked", or refused.  What the keys that aren't looked at say is for the
 reader to compare: `input` and `equation.text` with a, b and c, or with S.
 
@@ -41,7 +44,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain, islice
 from math import inf, isqrt, lcm, prod
 from operator import add, mul, sub, truediv
@@ -49,6 +52,7 @@ from typing import Any, NamedTuple
 
 from flint import (
     Ordering,
+    acb,
     acb_poly,
     acb_series,
     arb,
@@ -186,35 +190,59 @@ OPERATIONS: dict[str, tuple[int, Callable[[Any, Any], Value]]] = {
 }
 
 
-def read(text: str, names: dict[str, Value]) -> Value:
-    """The value of an expression with + - * / ** and parentheses, as the program prints them."""
-    tokens = [*re.findall(r"[0-9]+|\w+|\*\*|\S", text), ""][::-1]
+class Reader:
+    """Expressions with + - * / ** and parentheses, as the program prints them."""
 
-    def operand() -> Value:
-        token = tokens.pop()
-        if token == "-":
-            return Value(0) - expression(3)
-        if token == "(":
-            value = expression(0)
-            demand(tokens.pop() == ")", "each ( has its )")
-            return value
-        return Value(fmpq(fmpz(token))) if token.isdecimal() else names[token]
+    def __init__(self, text: str, names: dict[str, Any]) -> None:
+        self.text = text
+        self.names = names
+        self.tokens = [*re.findall(r"[0-9]+|\w+|\*\*|\S", text), ""][::-1]
 
-    def expression(least: int) -> Value:
-        """As far as operators bind at least so strongly."""
-        value = operand()
-        while tokens[-1] in OPERATIONS and OPERATIONS[tokens[-1]][0] >= least:
-            operator = tokens.pop()
-            strength, apply = OPERATIONS[operator]
-            if operator == "**":
-                value = value ** int(tokens.pop())
-                demand(tokens[-1] != "**", "a power isn't an exponent")
-            else:
-                value = apply(value, expression(strength + 1))
+    def value(self) -> Any:
+        """The value of the whole text."""
+        value = self.expression(0)
+        demand(self.tokens == [""], f"{self.text[:60]!r} can be read")
         return value
 
-    value = expression(0)
-    demand(tokens == [""], f"{text[:60]!r} can be read")
+    def expression(self, least: int) -> Any:
+        """As far as operators bind at least so strongly."""
+        value = self.operand()
+        while self.tokens[-1] in OPERATIONS and OPERATIONS[self.tokens[-1]][0] >= least:
+            operator = self.tokens.pop()
+            strength, apply = OPERATIONS[operator]
+            if operator == "**":
+                value = self.power(value)
+                demand(self.tokens[-1] != "**", "a power isn't an exponent")
+            else:
+                value = apply(value, self.expression(strength + 1))
+        return value
+
+    def operand(self) -> Any:
+        token = self.tokens.pop()
+        if token == "-":
+            return self.number(0) - self.expression(3)
+        if token == "(":
+            return self.enclosed()
+        return self.number(fmpq(fmpz(token))) if token.isdecimal() else self.named(token)
+
+    def enclosed(self) -> Any:
+        value = self.expression(0)
+        demand(self.tokens.pop() == ")", "each ( has its )")
+        return value
+
+    def number(self, value: Any) -> Any:
+        return Value(value)
+
+    def named(self, name: str) -> Any:
+        return self.names[name]
+
+    def power(self, base: Any) -> Any:
+        return base ** int(self.tokens.pop())
+
+
+def read(text: str, names: dict[str, Value]) -> Value:
+    """The rational function that this is."""
+    value: Value = Reader(text, names).value()
     return value
 
 
@@ -1163,12 +1191,530 @@ def class_of_poles(q: int, eta: Differential) -> tuple[ClassGroup, Points]:
     return group, D
 
 
+# ------------------------------------------------------------------------------------------- solutions
+
+#: A ring for formulas.  Its last generator is x; a function in a formula gets one that is larger than those of its argument.
+TOWER = fmpq_mpoly_ctx.get(tuple(f"t{i}" for i in range(48)), Ordering.lex)
+#: The most products of terms in one multiplication.
+MOST_PRODUCTS = 10**5
+#: Points at which a formula that isn't proven is tried, one beside each half axis; exact ones, with few binary digits.
+POINTS = [
+    acb(re, im) for re, im in ((1.375, 0.1875), (-0.8125, 0.3125), (0.1875, 1.125), (-0.25, -1.4375), (3.6875, -0.375))
+]
+
+
+class Refined(Exception):
+    """A function occurs with a root of a higher order than was known: the formulas are read again."""
+
+
+class Function:
+    """num/den in the generators of a tower, reduced by their algebraic relations."""
+
+    def __init__(self, tower: Tower, num: Any, den: Any = 1) -> None:
+        num = tower.normal(TOWER.constant(1) * num)
+        den = tower.normal(TOWER.constant(1) * den)
+        demand(den != 0, "there is no division by zero")
+        if not den.is_constant():
+            common = num.gcd(den)
+            num = num // common
+            den = den // common
+        self.tower = tower
+        self.num = num / den.leading_coefficient()
+        self.den = den / den.leading_coefficient()
+
+    @property
+    def key(self) -> str:
+        return f"({self.num})/({self.den})"
+
+    @property
+    def rational(self) -> Any:
+        """The rational number that this is, else None."""
+        if self.num.is_constant() and self.den.is_constant():
+            return fmpq(self.num.leading_coefficient()) / fmpq(self.den.leading_coefficient()) if self.num else fmpq(0)
+        return None
+
+    def product(self, f: Any, g: Any) -> Any:
+        if len(f) * len(g) > MOST_PRODUCTS:
+            raise NotImplementedError("too long")
+        return f * g
+
+    def __mul__(self, other: Function) -> Function:
+        return Function(self.tower, self.product(self.num, other.num), self.product(self.den, other.den))
+
+    def __truediv__(self, other: Function) -> Function:
+        return Function(self.tower, self.product(self.num, other.den), self.product(self.den, other.num))
+
+    def __add__(self, other: Function) -> Function:
+        if self.den == other.den:
+            return Function(self.tower, self.num + other.num, self.den)
+        num = self.product(self.num, other.den) + self.product(other.num, self.den)
+        return Function(self.tower, num, self.product(self.den, other.den))
+
+    def __sub__(self, other: Function) -> Function:
+        return self + other * self.tower.number(-1)
+
+    def to_the(self, n: int) -> Function:
+        """The n-th power."""
+        base = self if n >= 0 else self.tower.number(1) / self
+        power = self.tower.number(1)
+        for digit in f"{affordable(abs(n), 'a power'):b}":
+            power = power * power
+            if digit == "1":
+                power = power * base
+        return power
+
+    def derivative(self) -> Function:
+        above, below = self.tower.slope(self.num), self.tower.slope(self.den)
+        den = Function(self.tower, self.den)
+        return (above - Function(self.tower, self.num) / den * below) / den
+
+
+@dataclass(frozen=True)
+class Generator:
+    """A function of x: its derivative, by which alone it is known to a proof, and its value at x, for a refutation."""
+
+    slope: Function
+    ball: Callable[[Callable[[Function], Any]], Any]
+
+
+class Tower:
+    """Functions of x, each a polynomial over Q in those before it, or known by its derivative, a rational function of all.
+
+    What is 0 by these rules is the zero function, whichever branches are meant.  Between functions there may be relations
+    that aren't known here, so that something else may be zero as well.
+    """
+
+    def __init__(self, variable: str, orders: dict[str, int]) -> None:
+        self.free = list(TOWER.gens())
+        self.generators: list[Generator] = []
+        self.relations: list[Any] = []
+        self.made: dict[str, Any] = {}
+        self.orders = orders  # the roots of a function that occur, as their least common multiple
+        self.x = self.new(lambda _: self.number(1), lambda at: None)
+        self.names = {variable: self.x}
+
+    def number(self, value: Any) -> Function:
+        return Function(self, TOWER.constant(value))
+
+    def normal(self, f: Any) -> Any:
+        """f, reduced by the relations; their leading terms are powers of different generators."""
+        for relation in self.relations:
+            f = divmod(f, relation)[1]
+        return f
+
+    def new(
+        self,
+        slope: Callable[[Function], Function],
+        ball: Callable[[Callable[[Function], Any]], Any],
+        relation: Callable[[Any], Any] | None = None,
+    ) -> Function:
+        """A new generator t; its derivative is slope(t), and a monic relation(t) is zero."""
+        if not self.free:
+            raise NotImplementedError("too long")
+        t = self.free.pop()
+        if relation is not None:
+            self.relations.insert(0, relation(t))  # the largest generator is reduced first
+        function = Function(self, t)
+        self.generators.append(Generator(self.number(0), ball))
+        self.generators[-1] = Generator(slope(function), ball)
+        return function
+
+    def once(self, key: str, make: Callable[[], Any]) -> Any:
+        """What was made under this key."""
+        if key not in self.made:
+            self.made[key] = make()
+        return self.made[key]
+
+    def slope(self, f: Any) -> Function:
+        """The derivative of a polynomial in the generators."""
+        total = self.number(0)
+        last = TOWER.nvars() - 1
+        for i, generator in enumerate(self.generators):
+            part = f.derivative(last - i)
+            if part != 0:
+                total = total + Function(self, part) * generator.slope
+        return total
+
+    def balls(self, f: Function) -> list[Any]:
+        """Around the values at some points, where the function has one."""
+        return [value for value in (self.at(point, f) for point in POINTS) if value.is_finite()]
+
+    def is_refuted(self, f: Function) -> bool:
+        """The function is nonzero at two points, and at none does it seem to be zero: a formula may hold on one side only."""
+        balls = self.balls(f)
+        seem_zero = [ball for ball in balls if ball.contains(0) and abs(ball).upper() < 1e-9]
+        return not seem_zero and sum(not ball.contains(0) for ball in balls) > 1
+
+    def at(self, x: Any, function: Function) -> Any:
+        """A ball around the value at x."""
+        values: list[Any] = []
+
+        def value(f: Function) -> Any:
+            return inside(f.num) / inside(f.den)
+
+        def inside(f: Any) -> Any:
+            total = acb(0)
+            for powers, coefficient in f.to_dict().items():
+                term = acb(coefficient)
+                for known, power in zip(values, reversed(powers), strict=False):
+                    if power:
+                        term *= known ** int(power)
+                total += term
+            return total
+
+        for generator in self.generators:
+            values.append(generator.ball(value) if values else x)
+        return value(function)
+
+    # --------------------------------------------------------------------------------- what formulas are made of
+
+    def order(self, key: str, q: int) -> int:
+        """The order of the root of a function from which all of its roots in the formulas are powers."""
+        known = self.orders.get(key, 1)
+        if known % q:
+            self.orders[key] = affordable(lcm(known, q), "a root")
+            raise Refined
+        return known
+
+    def power(self, base: Function, exponent: Function) -> Function:
+        e = exponent.rational
+        if e is None:
+            return self.exp(exponent * self.called("log", [base]))
+        if e.q == 1:
+            return base.to_the(int(e.p))
+        # a positive factor has roots of its own: (c f)^e = c^e f^e on all branches
+        constant = fmpq(base.num.leading_coefficient())
+        found = self.number(1)
+        if base.rational is None:
+            constant = abs(constant)
+            found = self.root(base / self.number(constant), int(e.q)).to_the(int(e.p))
+        factors = [(int(p), k) for p, k in fmpz(constant.p).factor()] + [(int(p), -k) for p, k in constant.q.factor()]
+        for prime, k in [*factors, (-1, int(constant < 0))]:
+            if k:
+                found = found * self.root(self.number(prime), int(e.q)).to_the(int(e.p) * int(k))
+        return found
+
+    def root(self, base: Function, q: int) -> Function:
+        """base^(1/q) for base = n/d: t/d for the root t of n d^(Q-1), an integral one, or a power of that."""
+        Q = self.order(base.key, q)
+        radicand = self.normal(base.num * base.den ** (Q - 1))
+        slope = self.slope(radicand) / Function(self, radicand) / self.number(Q)
+        den = Function(self, base.den)
+
+        def make() -> Function:
+            return self.new(
+                lambda t: t * slope,
+                lambda at: at(base) ** (acb(1) / Q) * at(den),
+                lambda t: t**Q - radicand,
+            )
+
+        root: Function = self.once(f"{Q}-th root of {base.key}", make)
+        return (root / den).to_the(Q // q)
+
+    def exp(self, u: Function) -> Function:
+        """The product over the terms c m of u, m a quotient of products of generators."""
+        found = self.number(1)
+        for powers, c in u.num.to_dict().items():
+            term = Function(self, TOWER.from_dict({powers: fmpq(1)}), u.den)
+            Q = self.order(f"exp {term.key}", int(c.q))
+            part = term / self.number(Q)
+            slope = part.derivative()
+            make = partial(self.new, partial(mul, slope), partial(exp_at, part))
+            found = found * self.once(f"exp {part.key}", make).to_the(int(c * Q))
+        return found
+
+    def pair(self, key: str, z: Function, second: tuple[Function, Function], balls: tuple[Any, Any]) -> Function:
+        """F(z), where F'' = p F' + q F for second = (p, q); F'(z) is a generator before it."""
+        found: Function = self.once(key, lambda: self.new_pair(z, second, balls))
+        return found
+
+    def new_pair(self, z: Function, second: tuple[Function, Function], balls: tuple[Any, Any]) -> Function:
+        slope = z.derivative()
+        p, q = second
+        F = self.new(lambda t: t, lambda at: balls[0](at(z)))
+        G = self.new(lambda t: (p * t + q * F) * slope, lambda at: balls[1](at(z)))
+        self.generators[-2] = Generator(G * slope, self.generators[-2].ball)
+        self.made[f"derivative of {F.key}"] = G
+        return F
+
+    def called(self, name: str, arguments: list[Any]) -> Function:
+        """The function of this name."""
+        make = CALLS.get(name)
+        if make is None:
+            raise NotImplementedError(name)
+        return make(self, *arguments)
+
+
+def exp_at(u: Function, at: Callable[[Function], Any]) -> Any:
+    return at(u).exp()
+
+
+def by_derivative(name: str, derivative: Callable[[Tower, Function], Function], ball: Any) -> Callable[..., Function]:
+    """A function with this derivative by its argument."""
+
+    def make(tower: Tower, u: Function) -> Function:
+        def new() -> Function:
+            slope = derivative(tower, u) * u.derivative()
+            return tower.new(lambda _: slope, lambda at: ball(at(u)))
+
+        return tower.once(f"{name} {u.key}", new)  # type: ignore[no-any-return]
+
+    return make
+
+
+def circular(sine: bool) -> Callable[..., Function]:
+    def make(tower: Tower, u: Function) -> Function:
+        def new() -> tuple[Function, Function]:
+            slope = u.derivative()
+            c = tower.new(lambda _: tower.number(0), lambda at: at(u).cos())
+            s = tower.new(lambda _: c * slope, lambda at: at(u).sin(), lambda t: t**2 + c.num**2 - 1)
+            tower.generators[-2] = Generator(tower.number(-1) * s * slope, tower.generators[-2].ball)
+            return c, s
+
+        return tower.once(f"cos {u.key}", new)[sine]  # type: ignore[no-any-return]
+
+    return make
+
+
+def integral(tower: Tower, f: Function, variable: Function) -> Function:
+    """An antiderivative: any one, so that its value at a point may be any number."""
+    demand(variable.key == tower.x.key, "an integral is one by the variable")
+    value = acb(len(tower.generators), 1) / 3
+    return tower.once(f"integral {f.key}", lambda: tower.new(lambda _: f, lambda at: value))  # type: ignore[no-any-return]
+
+
+def root_of(tower: Tower, polynomial: Function, index: Function) -> Function:
+    """A root of a polynomial over Q that is irreducible; it has a value where it is real, and these come first, in order."""
+    demand(polynomial.den.is_constant() and index.rational is not None, "a root is that of a polynomial")
+    coefficients = fmpq_poly(
+        [polynomial.num.to_dict().get((0,) * 47 + (k,), 0) for k in range(polynomial.num.degrees()[-1] + 1)]
+    )
+    factors = coefficients.factor()[1]
+    demand(len(factors) == 1 and factors[0][1] == 1, "the polynomial of a root is irreducible")
+    monic = coefficients / coefficients.leading_coefficient()
+
+    real = sorted((root.real for root, _ in monic.complex_roots() if root.imag == 0), key=float)
+    value = acb(dict(enumerate(real)).get(int(index.rational), "nan"))
+
+    def relation(t: Any) -> Any:
+        return sum((t**k * monic[k] for k in range(monic.degree() + 1)), start=TOWER.constant(0))
+
+    def make() -> Function:
+        return tower.new(lambda _: tower.number(0), lambda at: value, relation)
+
+    return tower.once(f"root {monic} {index.key}", make)  # type: ignore[no-any-return]
+
+
+def inverse_sine(tower: Tower, w: Function) -> Function:
+    """asin, whose sine is known to an elliptic integral."""
+    slope = w.derivative() / half_power(tower, tower.number(1) - w * w)
+    phi: Function = tower.once(f"asin {w.key}", lambda: tower.new(lambda _: slope, lambda at: at(w).asin()))
+    tower.made[f"sine of {phi.key}"] = w
+    return phi
+
+
+def elliptic(power: int) -> Callable[..., Function]:
+    """F or E: the integral of (1 - m sin^2)^(-1/2), or that of (1 - m sin^2)^(1/2), from 0 to phi = asin(w)."""
+    name = "elliptic_f" if power < 0 else "elliptic_e_inc"
+
+    def make(tower: Tower, phi: Function, *rest: Function) -> Function:
+        w = tower.made.get(f"sine of {phi.key}")
+        if w is None or len(rest) != 1 or rest[0].rational is None:
+            raise NotImplementedError("elliptic integrals")
+        root = half_power(tower, tower.number(1) - rest[0] * w * w)
+        slope = phi.derivative() * root.to_the(power)
+
+        def ball(at: Any) -> Any:
+            return getattr(acb, name)(at(phi), at(rest[0]))
+
+        return tower.once(f"{name} {phi.key} {rest[0].key}", lambda: tower.new(lambda _: slope, ball))  # type: ignore[no-any-return]
+
+    return make
+
+
+def incomplete_gamma(tower: Tower, s: Function, u: Function) -> Function:
+    """int_0^u t^(s-1) e^-t dt."""
+    demand(s.rational is not None, "the parameter is rational")
+
+    def new() -> Function:
+        slope = tower.power(u, s - tower.number(1)) / tower.exp(u) * u.derivative()
+        return tower.new(lambda _: slope, lambda at: at(u).gamma_lower(at(s)))
+
+    return tower.once(f"gamma {s.key} {u.key}", new)  # type: ignore[no-any-return]
+
+
+def hypergeometric(tower: Tower, above: Any, below: Any, z: Function) -> Function:
+    """2F1 by Gauss' equation z (1 - z) F'' = a b F - (c - (a + b + 1) z) F', 1F1 by Kummer's z F'' = a F - (c - z) F'."""
+    one = tower.number(1)
+    if not isinstance(above, tuple) or not isinstance(below, tuple) or (len(above), len(below)) not in ((2, 1), (1, 1)):
+        raise NotImplementedError("hyper")
+    numbers = [p.rational for p in (*above, *below)]
+    if None in numbers:
+        raise NotImplementedError("hyper")
+    *first, c = numbers
+    product = prod(first)
+    linear = tower.number(c) - z * (tower.number(sum(first) + 1) if len(first) == 2 else one)
+    leading = z * (one - z) if len(first) == 2 else z
+
+    def ball(shift: int) -> Callable[[Any], Any]:
+        shifted = [acb(number + shift) for number in numbers]
+        values = acb.hypgeom_2f1 if len(first) == 2 else acb.hypgeom_1f1
+        return lambda at: values(at, *shifted) * (acb(product / c) if shift else 1)
+
+    second = (tower.number(-1) * linear / leading, tower.number(product) / leading)
+    return tower.pair(f"hyper {numbers} {z.key}", z, second, (ball(0), ball(1)))
+
+
+def bessel(name: str, sign: int) -> Callable[..., Function]:
+    """F'' = -F'/z + (n^2/z^2 - sign) F: J and Y for 1, I and K for -1."""
+
+    def make(tower: Tower, n: Function, z: Function) -> Function:
+        order = n.rational
+        if order is None:
+            raise NotImplementedError("a Bessel function of another order")
+
+        def ball(at: Any, shift: int = 0) -> Any:
+            return getattr(at, f"bessel_{name}")(acb(order + shift))
+
+        def slope(at: Any) -> Any:  # F_n' = n F_n/z - F_(n+1), with + for I
+            return acb(order) * ball(at) / at + (ball(at, 1) if name == "i" else -ball(at, 1))
+
+        p = tower.number(-1) / z
+        return tower.pair(f"bessel_{name} {n.key} {z.key}", z, (p, n * n / (z * z) - tower.number(sign)), (ball, slope))
+
+    return make
+
+
+def airy(index: int) -> Callable[..., Function]:
+    """Ai, Ai', Bi, Bi', in this order: F'' = z F."""
+
+    def make(tower: Tower, z: Function) -> Function:
+        first = index - index % 2
+        balls = (lambda at: at.airy()[first], lambda at: at.airy()[first + 1])
+        F = tower.pair(f"airy {first} {z.key}", z, (tower.number(0), z), balls)
+        return tower.made[f"derivative of {F.key}"] if index % 2 else F
+
+    return make
+
+
+def half_power(tower: Tower, f: Function) -> Function:
+    return tower.power(f, tower.number(fmpq(1, 2)))
+
+
+def constant(name: str, ball: Callable[[], Any]) -> Callable[[Tower], Function]:
+    """A number between which and other numbers no relation is known."""
+    return lambda tower: tower.once(name, lambda: tower.new(lambda _: tower.number(0), lambda at: ball()))
+
+
+def error_slope(tower: Tower, u: Function, sign: int) -> Function:
+    return tower.number(2) * tower.exp(u * u * tower.number(sign)) / half_power(tower, CONSTANTS["pi"](tower))
+
+
+CONSTANTS: dict[str, Callable[[Tower], Function]] = {
+    "pi": constant("pi", acb.pi),
+    "E": lambda tower: tower.exp(tower.number(1)),
+    "I": lambda tower: half_power(tower, tower.number(-1)),
+}
+#: The functions that are read, as SymPy writes them.
+CALLS: dict[str, Callable[..., Function]] = {
+    "exp": Tower.exp,
+    "sqrt": half_power,
+    "cos": circular(False),
+    "sin": circular(True),
+    "tan": lambda tower, u: tower.called("sin", [u]) / tower.called("cos", [u]),
+    "cosh": lambda tower, u: (tower.exp(u) + tower.number(1) / tower.exp(u)) / tower.number(2),
+    "sinh": lambda tower, u: (tower.exp(u) - tower.number(1) / tower.exp(u)) / tower.number(2),
+    "log": by_derivative("log", lambda tower, u: tower.number(1) / u, acb.log),
+    "atan": by_derivative("atan", lambda tower, u: tower.number(1) / (tower.number(1) + u * u), acb.atan),
+    "atanh": by_derivative("atanh", lambda tower, u: tower.number(1) / (tower.number(1) - u * u), acb.atanh),
+    "asin": inverse_sine,
+    "elliptic_f": elliptic(-1),
+    "elliptic_e": elliptic(1),
+    "acos": by_derivative("acos", lambda tower, u: tower.number(-1) / half_power(tower, tower.number(1) - u * u), acb.acos),
+    "asinh": by_derivative("asinh", lambda tower, u: tower.number(1) / half_power(tower, tower.number(1) + u * u), acb.asinh),
+    "Ei": by_derivative("Ei", lambda tower, u: tower.exp(u) / u, acb.ei),
+    "erf": by_derivative("erf", lambda tower, u: error_slope(tower, u, -1), acb.erf),
+    "erfi": by_derivative("erfi", lambda tower, u: error_slope(tower, u, 1), acb.erfi),
+    "erfc": by_derivative("erfc", lambda tower, u: tower.number(-1) * error_slope(tower, u, -1), acb.erfc),
+    "lowergamma": incomplete_gamma,
+    "Integral": integral,
+    "CRootOf": root_of,
+    "hyper": hypergeometric,
+    "besselj": bessel("j", 1),
+    "bessely": bessel("y", 1),
+    "besseli": bessel("i", -1),
+    "besselk": bessel("k", -1),
+    "airyai": airy(0),
+    "airyaiprime": airy(1),
+    "airybi": airy(2),
+    "airybiprime": airy(3),
+}  # fmt: skip
+
+
+class FormulaReader(Reader):
+    """Formulas, with the functions of `CALLS`."""
+
+    def __init__(self, text: str, tower: Tower) -> None:
+        super().__init__(text, {})
+        self.tower = tower
+
+    def number(self, value: Any) -> Any:
+        return self.tower.number(value)
+
+    def named(self, name: str) -> Any:
+        if name in self.tower.names:
+            return self.tower.names[name]
+        if self.tokens[-1] == "(":
+            if name not in CALLS:
+                raise NotImplementedError(name)
+            self.tokens.pop()
+            return self.tower.called(name, self.listed()[0])
+        if name not in CONSTANTS:
+            raise NotImplementedError(name)
+        return CONSTANTS[name](self.tower)
+
+    def enclosed(self) -> Any:
+        values, is_tuple = self.listed()
+        return tuple(values) if is_tuple else values[0]
+
+    def listed(self) -> tuple[list[Any], bool]:
+        """What stands between commas up to ")"; is it a tuple, with a comma at least?"""
+        values = []
+        has_commas = False
+        while self.tokens[-1] != ")":
+            values.append(self.expression(0))
+            if self.tokens[-1] != ")":
+                demand(self.tokens.pop() == ",", "each ( has its )")
+                has_commas = True
+        self.tokens.pop()
+        return values, has_commas
+
+    def power(self, base: Any) -> Any:
+        return self.tower.power(base, self.operand())
+
+
+def read_formulas(texts: list[str], tower: Tower) -> tuple[Tower, list[Any]]:
+    """The functions, in a tower with the roots that they need; a text in place of one that has a function not known here."""
+    while True:
+        found: list[Any] = []
+        try:
+            for text in texts:
+                try:
+                    found.append(FormulaReader(text, tower).value())
+                except NotImplementedError as name:
+                    found.append(str(name))
+            return tower, found
+        except Refined:
+            (variable,) = tower.names
+            tower = Tower(variable, tower.orders)
+
+
 # ------------------------------------------------------------------------------------------- answers
 
 REQUIRED = "schema input variable S status case riccati constants verified proof notices seconds"
 #: The other keys that an answer has; whatever else is there belongs to the user, as the lines and names of a batch.
 OPTIONAL = "field equation gauge generic_conditions group solutions"
-NOT_LOOKED_AT = ("input", "notices", "seconds", "solutions")
+NOT_LOOKED_AT = ("input", "notices", "seconds")
 NOT_LOOKED_AT_IN_THE_EQUATION = ("change", "f", "h", "text", "unknown")
 
 
@@ -1207,7 +1753,49 @@ class Answer:
         if self.data.get("group") is not None:
             self.group(f, F)
             checked.append("group")
-        return f"{'; '.join(checked)}; not checked: {', '.join(self.not_looked_at(checked))}"
+        proven, unproven = self.solutions()
+        checked += proven
+        return f"{'; '.join(checked)}; not checked: {', '.join([*self.not_looked_at(checked), *unproven])}"
+
+    def solutions(self) -> tuple[list[str], list[str]]:
+        """Two independent solutions: what was proven, and what was neither proven nor refuted."""
+        texts = self.data.get("solutions")
+        if texts is None:
+            return [], []
+        demand(self.structure is not None, "there are solutions beside a proof that there are none")
+        demand(len(the_list(texts, "the solutions")) == 2, "there are two solutions")
+        coefficients = self.coefficients()
+        if coefficients is None:
+            return [], ["solutions"]
+        tower, read_ones = read_formulas([*texts, *coefficients], Tower(self.data["variable"], {}))
+        *pair, a, b, c = read_ones
+        unproven = []
+        for k, y in enumerate(pair):
+            if isinstance(y, str):
+                unproven.append(f"solutions[{k}] ({y})")
+                continue
+            slope = y.derivative()
+            rest = a * slope.derivative() + b * slope + c * y
+            if rest.num != 0:
+                demand(not tower.is_refuted(rest), f"solutions[{k}] solves the equation")
+                unproven.append(f"solutions[{k}]")
+        if unproven:
+            return [], unproven
+        first, second = pair
+        wronskian = first * second.derivative() - first.derivative() * second
+        demand(wronskian.num != 0, "the solutions are independent")
+        if all(ball.contains(0) for ball in tower.balls(wronskian)):
+            return [], ["independence of the solutions"]
+        return ["solutions"], []
+
+    def coefficients(self) -> list[str] | None:
+        """Those of the equation that the solutions solve, a, b and c; None where the variable was changed."""
+        equation: Any = self.data.get("equation")
+        if equation is None:
+            return ["1", "0", f"-({self.data['S']})"]
+        if equation["field"] is not None or equation.get("change") is not None:
+            return None
+        return [equation["a"], equation["b"], equation["c"]]
 
     def heading(self) -> None:
         """What is said in more than one place is the same."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -37,7 +38,7 @@ TOO_LARGE = (
     "not checked: the number of zeros of a solution is too large",
     "not checked: the number of zeros of a form of degree",
 )
-GROUP_TOO = "checked: S from input; case; omega; group; not checked: "
+GROUP_TOO = "checked: S from input; case; omega; group; "
 #: In generated equations also this, where the program doesn't name the order either.
 REASONS = ("not checked: the order of a group on a curve of positive genus", *TOO_LARGE)
 
@@ -259,10 +260,10 @@ def test_it_runs_alone(tmp_path: Path) -> None:
     wrong.write_text(lines[0] + "\n" + lines[1].replace('"S": "x"', '"S": "x**2 + 3"') + "\n")
     done = run("-I", str(alone), str(right))
     assert (done.returncode, done.stderr) == (0, "")
-    said = "case; omega; group; not checked: notices, seconds, solutions"
+    said = "case; omega; group; solutions; not checked: notices, seconds"
     assert done.stdout.splitlines() == [
         f"{right}:1: checked: S from input; {said}",
-        f"{right}:2: checked: S from input; case; group; not checked: notices, seconds, solutions",
+        f"{right}:2: checked: S from input; case; group; not checked: notices, seconds",
         f"{right}:3: checked: S from input; {said}",
     ]
     done = run("-I", str(alone), str(right), str(wrong))
@@ -276,18 +277,18 @@ EQUATION = "equation.change, equation.f, equation.h, equation.text, equation.unk
 @pytest.mark.parametrize(
     ("text", "checked", "others"),
     [
-        ("x^2 + 3", "S from input; case; omega; group", "notices, seconds, solutions, line"),
-        ("x", "S from input; case; group", "notices, seconds, solutions, line"),
-        ("0*sqrt(x^2) + x", "case; group", "input, notices, seconds, solutions, line"),
+        ("x^2 + 3", "S from input; case; omega; group; solutions", "notices, seconds, line"),
+        ("x", "S from input; case; group", "notices, seconds, line"),
+        ("0*sqrt(x^2) + x", "case; group", "input, notices, seconds, line"),
         (
             "y'' + 2*x*y' + 2*y = 0",
-            "y'' = S y from a, b, c; gauge; case; omega; group",
-            f"input, notices, seconds, solutions, {EQUATION}, line",
+            "y'' = S y from a, b, c; gauge; case; omega; group; solutions",
+            f"input, notices, seconds, {EQUATION}, line",
         ),
         (
             "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
-            "y'' = S y from a, b, c; gauge; case; omega; group",
-            f"input, notices, seconds, solutions, {EQUATION}, line",
+            "y'' = S y from a, b, c; gauge; case; omega; group; solutions",
+            f"input, notices, seconds, {EQUATION}, line",
         ),
     ],
 )
@@ -706,3 +707,115 @@ def test_exponents_at_irregular_places_of_any_order(nu: int, e: int) -> None:
         assert place.exponents().contains(min(e, nu - e))
         assert abs(place.exponents() - min(e, nu - e)) < 1e-20
     assert flint.ctx.cap == 10
+
+
+# ------------------------------------------------------------------------------------------- solutions
+
+SOLVED = {
+    "powers": "-3/16/x^2",
+    "sines": "2/x^2 - 1",
+    "an exponential integral": "(x-4)/(4*x)",
+    "an error function": "(4*x^2+12*x-3)/(16*x^2)",
+    "an imaginary error function": "(x^2-14)/4",
+    "an incomplete gamma function": "x^4 + 4*x",
+    "an integral": "(-14*x^2+10*x-50)/(225*x^4-450*x^3+225*x^2)",
+    "Legendre's second solution": "(6*x^2-7)/(x^4-2*x^2+1)",
+    "an irrational exponent": "(7*x^2-10)/(4*x^4-8*x^2+4)",
+    "nested roots": "9/(4*x^4+24*x^2+36)",
+    "an elliptic integral": "(5*x^4+8*x^3-98*x^2+136*x-99)/(16*x^6-224*x^4+192*x^3+784*x^2-1344*x+576)",
+    "Gauss' function": "(-200*x^2+189*x-189)/(900*x^4-1800*x^3+900*x^2)",
+    "a gauge": "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
+    "constants": "y'' - 2*y' + 4*y = 0",
+}
+
+
+@pytest.mark.parametrize("text", SOLVED.values(), ids=SOLVED)
+def test_printed_solutions_are_proven_and_false_ones_refuted(text: str) -> None:
+    """A member that is multiplied by x, or has something added, or is the other one again; both are zero; other functions."""
+    data = json.loads(kovacic.solve(text).to_json(full=True))
+    y1, y2 = data["solutions"]
+    assert "; solutions; not checked: " in checker.verdict(json.dumps(data))
+    assert "; solutions; not checked: " in checker.verdict(
+        json.dumps(data | {"solutions": [f"{y1} - 2*({y2})", f"({y2})/3"]})
+    )
+    wrong = [[f"x*({y1})", y2], [y1, f"{y2} + x/10**20"], [y1, f"7*({y1})"], ["0", "0"], [y1, "0"], ["x**7", "cosh(x)"]]
+    for solutions in wrong:
+        assert checker.verdict(json.dumps(data | {"solutions": solutions})).startswith("refuted: "), solutions
+
+
+@pytest.mark.parametrize(
+    ("text", "solutions", "said"),
+    [
+        ("2/x^2", ["x**2", "zeta(x)"], "solutions[1] (zeta)"),
+        ("2/x^2", ["RootSum(_a**2 - 2, Lambda(_a, _a*x**2))", "1/x"], "solutions[0] (RootSum)"),
+        ("2/x^2", ["x**2", "sqrt(x**2)/x**2"], ""),
+        ("2/x^2", ["(CRootOf(x**3 - 2, 0)**3 - 1)*x**2", "CRootOf(x**5 - x + 1, 0)/x"], ""),
+        ("2/x^2", ["x**2", "(1 + 0*asin(1/x))/x"], ""),
+        (
+            "2/x^2",
+            ["x**2", "sqrt(x**2 - 1) - sqrt(x - 1)*sqrt(x + 1) + 1/x"],
+            "solutions[1]",
+        ),  # 1/x on a half plane
+    ],
+)
+def test_what_is_not_proven_of_the_solutions_is_named(text: str, solutions: list[str], said: str) -> None:
+    data = json.loads(kovacic.solve(text).to_json(full=True)) | {"solutions": solutions}
+    expected = (
+        f"group; not checked: notices, seconds, {said}" if said else "group; solutions; not checked: notices, seconds"
+    )
+    assert checker.verdict(json.dumps(data)).endswith(expected)
+
+
+@pytest.mark.parametrize(
+    ("S", "y1", "y2"),
+    [
+        ("x", "airyai(x)", "airybi(x)"),
+        ("x^2 + x", "exp(x/2)*airyai(x)", "airybiprime(x)"),
+        ("-1 + 7/(36*x^2)", "sqrt(x)*besselj(2/3, x)", "sqrt(x)*bessely(2/3, x)"),
+        ("1 + 7/(36*x^2)", "sqrt(x)*besseli(2/3, x)", "sqrt(x)*besselk(2/3, x)"),
+        ("1/4 - 5/(12*x) - 5/(36*x^2)", "x**(5/6)*exp(-x/2)*hyper((5/12,), (5/3,), x)", "besselj(0, x)"),
+    ],
+)
+def test_functions_that_are_known_by_their_equations(S: str, y1: str, y2: str) -> None:
+    """Both members, or the first one alone, by differentiation; the other ones by their values."""
+    from build import function
+
+    num, den = function(S).num, function(S).den
+    tower, (first, second, potential) = checker.read_formulas([y1, y2, f"({num})/({den})"], checker.Tower("x", {}))
+    residues = [y.derivative().derivative() - potential * y for y in (first, second)]
+    assert [bool(residue.num) for residue in residues] == [
+        S == "x^2 + x",
+        "besselj(0" in y2 or S == "x^2 + x",
+    ]
+    for residue in residues:
+        assert bool(residue.num) is tower.is_refuted(residue)
+
+
+FORMULAS = [
+    "exp(x**2/3 - x/2) + sqrt(x**3) + (2*x/3)**(-2/5) + (x + 1)**(sqrt(2)) + E*x**pi + I",
+    "sin(x/2)*cos(x**2) + tan(x) + cosh(x) - sinh(2*x)",
+    "log(x + 2) + atan(x) + atanh(x/7) + asin(x/9) + acos(x/8) + asinh(x)",
+    "Ei(x) + erf(x) + erfi(x/2) + erfc(x) + lowergamma(1/3, x**2)",
+    "elliptic_f(asin(x/3), 2/5) + elliptic_e(asin(x/3), 1/7)",
+    "hyper((1/3, 2/5), (7/4,), x/5) + hyper((1/3,), (7/4,), x) + CRootOf(x**3 - 2, 0)*x",
+    "besselj(1/3, x) + bessely(2, x) + besseli(1/3, x) + besselk(2/5, x)",
+    "airyai(x) + airyaiprime(x) + airybi(x) + airybiprime(x) + Integral(x, x)",
+]
+
+
+def test_every_function_has_the_derivative_and_the_relations_of_its_values() -> None:
+    """Differences of values, for each generator of a tower: nothing else proves what the checker says of a function."""
+    assert set(checker.CALLS) | set(checker.CONSTANTS) <= set(re.findall("[A-Za-z_]+", " ".join(FORMULAS)))
+    checker.ctx.prec = 333
+    for text in FORMULAS:
+        tower, _ = checker.read_formulas([text], checker.Tower("x", {}))
+        x, h = checker.POINTS[0], checker.arb(2) ** -60
+        for k, t in enumerate(reversed(checker.TOWER.gens()[-len(tower.generators) :])):
+            function = checker.Function(tower, t)
+            difference = (tower.at(x + h, function) - tower.at(x - h, function)) / (2 * h)
+            is_integral = "Integral" in text and k == len(tower.generators) - 1
+            assert is_integral or abs(difference - tower.at(x, tower.generators[k].slope)) < 1e-15, (text, k)
+        for relation in tower.relations:  # a function whose polynomial isn't reduced is its value
+            unreduced = object.__new__(checker.Function)
+            unreduced.tower, unreduced.num, unreduced.den = tower, relation, checker.TOWER.constant(1)
+            assert abs(tower.at(x, unreduced)) < 1e-60, text
