@@ -23,7 +23,7 @@ What "checked" means, for an S over Q(x):
   poles).
 - group: its family, n, order and name follow from the above, and from the evidence that is given for it.
 - solutions: both satisfy the equation, by exact differentiation, and their Wronskian isn't zero.  A function that isn't known
-  here is named ("solutions[1] (RootSum)"), and so is what differentiation alone doesn't prove, as relations between roots that
+  here is named ("solutions[1] (zeta)"), and so is what differentiation alone doesn't prove, as relations between roots that
   depend on their branches ("solutions[1]"); what is nonzero at several points is refuted.
 Every key is either looked at, or named after "not checked", or refused.  What the keys that aren't looked at say is for the
 reader to compare: `input` and `equation.text` with a, b and c, or with S.
@@ -1437,7 +1437,7 @@ class Tower:
         self.made[f"derivative of {F.key}"] = G
         return F
 
-    def called(self, name: str, arguments: list[Any]) -> Function:
+    def called(self, name: str, arguments: list[Any]) -> Any:
         """The function of this name."""
         make = CALLS.get(name)
         if make is None:
@@ -1483,26 +1483,56 @@ def integral(tower: Tower, f: Function, variable: Function) -> Function:
     return tower.once(f"integral {f.key}", lambda: tower.new(lambda _: f, lambda at: value))  # type: ignore[no-any-return]
 
 
+def over_q(f: Function, letter: Function) -> Any:
+    """The polynomial over Q in a generator that this is."""
+    i = letter.num.degrees().index(1)
+    others = f.num.degrees()[:i] + f.num.degrees()[i + 1 :]
+    if any(others) or not f.den.is_constant():
+        raise NotImplementedError("a polynomial with other letters")
+    return in_one_variable(f.num, i)
+
+
 def root_of(tower: Tower, polynomial: Function, index: Function) -> Function:
     """A root of a polynomial over Q that is irreducible; it has a value where it is real, and these come first, in order."""
-    demand(polynomial.den.is_constant() and index.rational is not None, "a root is that of a polynomial")
-    coefficients = fmpq_poly(
-        [polynomial.num.to_dict().get((0,) * 47 + (k,), 0) for k in range(polynomial.num.degrees()[-1] + 1)]
-    )
-    factors = coefficients.factor()[1]
+    p = over_q(polynomial, tower.x)
+    factors = p.factor()[1]
     demand(len(factors) == 1 and factors[0][1] == 1, "the polynomial of a root is irreducible")
-    monic = coefficients / coefficients.leading_coefficient()
-
+    monic = p / p.leading_coefficient()
     real = sorted((root.real for root, _ in monic.complex_roots() if root.imag == 0), key=float)
     value = acb(dict(enumerate(real)).get(int(index.rational), "nan"))
 
-    def relation(t: Any) -> Any:
-        return sum((t**k * monic[k] for k in range(monic.degree() + 1)), start=TOWER.constant(0))
-
     def make() -> Function:
-        return tower.new(lambda _: tower.number(0), lambda at: value, relation)
+        return tower.new(lambda _: tower.number(0), lambda at: value, lambda t: sum_of_powers(monic, t))
 
     return tower.once(f"root {monic} {index.key}", make)  # type: ignore[no-any-return]
+
+
+def sum_of_powers(p: Any, t: Any) -> Any:
+    return sum((t**k * p[k] for k in range(p.degree() + 1)), start=TOWER.constant(0))
+
+
+def letter(tower: Tower, name: str) -> Function:
+    """A letter that is bound in a sum."""
+    return tower.once(f"letter {name}", lambda: tower.new(lambda _: tower.number(0), lambda at: acb("nan")))  # type: ignore[no-any-return]
+
+
+def root_sum(tower: Tower, polynomial: Function, term: tuple[Function, Function]) -> Function:
+    """The sum of c(a) log(x - a) over the roots a of p; its derivative has the residues c(a), and is (c p' modulo p)/p."""
+    a, body = term
+    slope = body.derivative()  # -c(a)/(a - x)
+    p = over_q(polynomial, a)
+    if slope.den != a.num - tower.x.num or p.gcd(p.derivative()).degree() > 0:
+        raise NotImplementedError("RootSum")
+    c = -over_q(Function(tower, slope.num), a)
+    x = tower.x.num
+    derivative = Function(tower, sum_of_powers(c * p.derivative() % p, x), sum_of_powers(p, x))
+
+    def ball(at: Any) -> Any:
+        return sum(
+            (acb_poly(c.coeffs())(root) * (at(tower.x) - root).log() for root, _ in p.complex_roots()), start=acb(0)
+        )
+
+    return tower.once(f"sum {p} {c}", lambda: tower.new(lambda _: derivative, ball))  # type: ignore[no-any-return]
 
 
 def inverse_sine(tower: Tower, w: Function) -> Function:
@@ -1616,7 +1646,7 @@ CONSTANTS: dict[str, Callable[[Tower], Function]] = {
     "I": lambda tower: half_power(tower, tower.number(-1)),
 }
 #: The functions that are read, as SymPy writes them.
-CALLS: dict[str, Callable[..., Function]] = {
+CALLS: dict[str, Callable[..., Any]] = {
     "exp": Tower.exp,
     "sqrt": half_power,
     "cos": circular(False),
@@ -1639,6 +1669,8 @@ CALLS: dict[str, Callable[..., Function]] = {
     "lowergamma": incomplete_gamma,
     "Integral": integral,
     "CRootOf": root_of,
+    "Lambda": lambda tower, a, body: (a, body),
+    "RootSum": root_sum,
     "hyper": hypergeometric,
     "besselj": bessel("j", 1),
     "bessely": bessel("y", 1),
@@ -1669,6 +1701,8 @@ class FormulaReader(Reader):
                 raise NotImplementedError(name)
             self.tokens.pop()
             return self.tower.called(name, self.listed()[0])
+        if name.startswith("_"):
+            return letter(self.tower, name)
         if name not in CONSTANTS:
             raise NotImplementedError(name)
         return CONSTANTS[name](self.tower)
