@@ -8,6 +8,7 @@ gamma, a subgroup of G x Gamma, where G is the group of the normal form and Gamm
   group with the characters Z^2/L; a unipotent part stays as it is.
 - Imprimitive and finite on a curve of genus 0: the same with the residues on the curve z^2 = g of `imprimitive`, where every
   divisor of degree 0 is principal; the diagonal part has index 2.
+- Imprimitive and finite on a curve of positive genus: see `_order_on_curve`.
 - N(T): see `_infinite_dihedral`.
 - Primitive: |group| = |G| N/(e k), e the degree of the largest common quotient of G and Gamma (at most 3, 2, 1 for SL(2,3),
   the binary octahedral group, SL(2,5): the semi-invariant of Kovacic's degree decides it), and k = 2 if (-1, -1) lies in H.
@@ -22,11 +23,13 @@ from fractions import Fraction
 from math import gcd, lcm, prod
 from typing import Any, NamedTuple
 
-from kovacic.algebra.factors import product
+from kovacic.algebra.extension import adjoined_square_root
+from kovacic.algebra.factors import product, squarefree_factors
 from kovacic.algebra.partial_fractions import decompose
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
-from kovacic.decision import Decision, SemiInvariant
+from kovacic.decision import CurveFunction, Decision, SemiInvariant
 from kovacic.engine.places import analyse
 from kovacic.galois.decide import rational_residues
 from kovacic.galois.group import Ground, Group, GroupKind
@@ -132,9 +135,17 @@ def _finite_gauge(S: RatFunc, normal_form: Group, f: SemiInvariant, rho: RatFunc
     """The group for a gauge of order N > 1, and an irreducible normal form that is finite or isn't known to be."""
     given = normal_form.name
     order = _finite_order(S, normal_form, f, rho, N)
-    name = f"{given} with scalars" if order is None else f"{given} with scalars, order {order}"
-    if N == 2 and order is not None:  # then it is that of the normal form
+    if order is None:
+        return EquationGroup(normal_form, N, f"{given} with scalars", normal_form.finite)
+    # Where gamma^2/f is rational, the determinant is -1 on the elements that exchange lines, else 1: so these are involutions.
+    # Of the two groups of order 8 with faithful representations of degree 2, only the dihedral one has another determinant than 1.
+    is_dihedral = normal_form.kind is GroupKind.DICYCLIC and (order == 8 or _is_integral(rho * 2 - f.theta))
+    if N == 2:  # it is isomorphic to that of the normal form, with determinant 1
         name = f"{given}, twisted by signs"
+    elif is_dihedral:
+        name = "S3" if order == 6 else f"dihedral of order {order}"
+    else:
+        name = f"{given} with scalars, order {order}"
     return EquationGroup(normal_form, N, name, normal_form.finite, order)
 
 
@@ -165,8 +176,74 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
     if f.P.field != S.field:
         return None
     curve = curve_of(analyse(S, Budget()), f)
-    order = None if curve.genus > 0 else _torus([], _residues_on_curve(curve, rho)).order
+    if curve.genus > 0:
+        return _order_on_curve(group, f, rho, N)
+    order = _torus([], _residues_on_curve(curve, rho)).order
     return order and 2 * order
+
+
+def _order_on_curve(group: Group, f: SemiInvariant, rho: RatFunc, N: int) -> int | None:
+    """The order for an even N and a dicyclic group of order 4n on a curve of positive genus, by the function u^n.
+
+    Over the field K of the curve y1 has the order 2n and gamma an order M, N or N/2.  If gamma^i y1^j lies in K, so does
+    gamma^i y2^j, since the conjugation of the curve leaves gamma alone; hence u^j and gamma^(2i), and j = n, i = M/2.  So the
+    diagonal part of H has the order 2 n M, or half of that if y1^(2n) gamma^M = f^n u^n gamma^M is a square in K.  Here f^2
+    is rational: with an odd power of f the norm would be that of y, which is no square.
+    """
+    function = group.function
+    n = group.n
+    if function is None or n is None or function.rest:
+        return None
+    is_in_K = _is_integral(rho * (N // 2) - f.theta)  # gamma^(N/2)/f is rational
+    M = N // 2 if is_in_K else N
+    if M % 2:
+        return 4 * n * M  # nothing in common, and (-1, -1) isn't in H
+    coincide = False
+    if (n + is_in_K) % 2 == 0:
+        rational = rho * M - f.theta if is_in_K else rho * M
+        factors = [part.factor for part in decompose(rational).residues if (part.rational or 0) % 2]
+        coincide = _is_square(*_up_to_squares(function, [*factors, f.P] if is_in_K else factors), function.h)
+    order = 4 * n * M // (2 if coincide else 1)  # of H
+    # (zeta, chi) in the diagonal part satisfy zeta^n chi^(M/2) = 1 if they coincide: is (-1, -1) one of them?
+    has_minus_one = not coincide or (n + M // 2) % 2 == 0
+    return order // 2 if has_minus_one else order
+
+
+def _up_to_squares(function: CurveFunction, factors: Sequence[Poly]) -> tuple[Poly, Poly]:
+    """A and B with A + B y a constant times a square times u^n and the factors.
+
+    u^n = prod (a + b y)^e/(G prod N^(e//2)), N the norms a^2 - h b^2, G^2 the product of those with an odd e, up to a constant.
+    """
+    h = function.h
+    A = h**0
+    B = A * 0
+    of_odd = h**0
+    for piece in function.pieces:
+        norm = piece.a * piece.a - h * piece.b * piece.b
+        if piece.exponent // 2 % 2:
+            A, B = A * norm, B * norm
+        if piece.exponent % 2:
+            of_odd = of_odd * norm
+            A, B = A * piece.a + B * piece.b * h, A * piece.b + B * piece.a
+    rational = product([h**0, *factors, *(part for part, k in squarefree_factors(of_odd) if k // 2 % 2)])
+    return A * rational, B * rational
+
+
+def _is_square(A: Poly, B: Poly, h: Poly) -> bool:
+    """Is A + B y on the curve y^2 = h a square, up to a constant?
+
+    The norm A^2 - h B^2 of a square is the square of some m, and 2 (A + m) (A + B y) = (A + m + B y)^2; so it is one exactly
+    if A + m is a square on the curve, which for a rational function is the square of a rational function, or h times one.
+    """
+    rational = A
+    if B:
+        norm = A * A - h * B * B
+        parts = squarefree_factors(norm)
+        if any(k % 2 for _, k in parts):
+            return False
+        root = adjoined_square_root(norm.field, norm.lc)
+        rational = A.over(root.field) + product([root, *((part ** (k // 2)).over(root.field) for part, k in parts)])
+    return any(all(k % 2 == 0 for _, k in squarefree_factors(F)) for F in (rational, rational * h.over(rational.field)))
 
 
 def _common_quotient(kind: GroupKind, f: SemiInvariant, rho: RatFunc, N: int) -> int:
