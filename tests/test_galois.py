@@ -620,16 +620,43 @@ def test_names_of_sl2_with_scalars(n: int, name: str) -> None:
     assert (group.name, group.scalars, group.finite, group.order) == (name, n, False, None)
 
 
-def test_an_order_on_a_curve_of_positive_genus_isnt_guessed() -> None:
-    """Even roots of x - 2 beside a dicyclic group on a curve of genus 1: the order isn't determined, and isn't claimed."""
-    S = transform.pull_back(
-        transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3)), (X**2 + 1) / (X - 3)
-    )
-    orders = {n: kovacic.solve(with_gauge(S, Fraction(1, n) / (X - 2))).equation_group for n in (2, 3, 4)}
-    assert orders[2].order == orders[2].normal_form.order
-    assert orders[3].order == 3 * orders[3].normal_form.order
-    assert (orders[4].order, orders[4].finite) == (None, True)
-    assert orders[4].name == f"{orders[4].normal_form.name} with scalars"
+@parametrize("N", [4, 6, 8, 12], ordinary=1)
+@pytest.mark.parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(1, 4), Fraction(3, 2), Fraction(7, 3)])
+def test_orders_with_scalars_on_curves_of_positive_genus(third: Fraction, N: int) -> None:
+    """A map with general branch points leaves the group in GL2 as it is, which is known on the line: by the residues there.
+
+    Solutions are y(f)/sqrt(f') for the normal forms; without the factor sqrt(f') in the gauge there are signs that have nothing
+    to do with the group, as those of sqrt(x - 7).
+    """
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(third.numerator > 1) + Fraction(1, 2), third)
+    f = [(X**2 + 1) / (X - 3), (X**2 + 3 * X + 5) / (X + 1), X**3 + X + 1][N % 3]
+    slope = f.derivative()
+    pulled_back = transform.pull_back(S, f)
+    for radicand in (X - 2, X, X * (X - 1), X * (X - 1) ** 2, X**2 + X + 1):
+        rho = radicand.derivative() / radicand / N
+        for signs, on_curve in (
+            (X * 0, rho(f) * slope + slope.derivative() / slope / 2),
+            (Fraction(1, 2) / (X - 7), rho(f) * slope),
+        ):
+            expected = kovacic.solve(with_gauge(S, rho + signs)).equation_group
+            found = kovacic.solve(with_gauge(pulled_back, on_curve)).equation_group
+            assert expected.order is not None
+            assert (found.name, found.order, found.finite) == (expected.name, expected.order, True), (radicand, signs)
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("(1-x^2)*y'' - x*y' + y/9 = 0", "S3"),  # cos(arccos(x)/3), a root of 4 y^3 - 3 y = x
+        ("(1-x^2)*y'' - x*y' + y/16 = 0", "dihedral of order 8"),
+        ("(1-x^2)*y'' - x*y' + 4*y/25 = 0", "dihedral of order 10"),
+        ("(1-x^2)*y'' - x*y' + y/36 = 0", "dihedral of order 12"),
+    ],
+)
+def test_groups_of_chebyshevs_equation_are_dihedral(text: str, name: str) -> None:
+    """The solutions T_(p/q)(x) and U are the roots of a polynomial of degree q, permuted like the corners of a q-gon."""
+    group = kovacic.solve(text).equation_group
+    assert (group.name, group.finite) == (name, True)
 
 
 @pytest.mark.parametrize(

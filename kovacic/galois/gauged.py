@@ -138,7 +138,7 @@ def _finite_gauge(S: RatFunc, normal_form: Group, f: SemiInvariant, rho: RatFunc
     if order is None:
         return EquationGroup(normal_form, N, f"{given} with scalars", normal_form.finite)
     # Where gamma^2/f is rational, the determinant is -1 on the elements that exchange lines, else 1: so these are involutions.
-    # Of the two groups of order 8 with faithful representations of degree 2, only the dihedral one has another determinant than 1.
+    # Of the two groups of order 8 that aren't commutative, only the quaternion group has determinant 1.
     is_dihedral = normal_form.kind is GroupKind.DICYCLIC and (order == 8 or _is_integral(rho * 2 - f.theta))
     if N == 2:  # it is isomorphic to that of the normal form, with determinant 1
         name = f"{given}, twisted by signs"
