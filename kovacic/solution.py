@@ -290,8 +290,8 @@ class Solution(Answer):
         --------
         >>> import kovacic
         >>> figure = kovacic.solve("x^2 + 3").plot(-1, 1, points=20)
-        >>> [line.get_label()[:2] for line in figure.axes[0].get_lines()][:2]
-        ['y1', 'y2']
+        >>> [line.get_label()[:4] for line in figure.axes[0].get_lines()][:2]
+        ['$y_1', '$y_2']
         >>> figure = kovacic.solve("x").plot(-5, 1, x0=0, y0=1, dy0=0, title="Airy", points=20)
         >>> figure.axes[0].get_title()
         'Airy'

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -13,9 +15,12 @@ import pytest
 import sympy
 from build import parametrize, run, sample
 from clocks import interrupted
+from matplotlib.lines import Line2D
 
 import kovacic
 from kovacic import Ball
+from kovacic.reading.latex import without_latex
+from kovacic.reading.symbolic import read_expression
 
 
 def test_samples_are_cut_at_singular_points_and_complex_beyond() -> None:
@@ -129,14 +134,14 @@ def test_the_legend_says_which_solution_is_drawn() -> None:
     """Values without a place are those at the left end, as in initial value problems; there must be one."""
     waves = "y'' + y'/10 + y = 0"
     figure = plot(waves, 0, 20, y0=1, points=20)
-    assert legend(figure) == ["y, where y(0) = 1, y'(0) = 0"]
+    assert legend(figure) == [r"$y$, where $y(0) = 1,\ y'(0) = 0$"]
     assert figure.axes[0].lines[0].get_ydata()[0] == pytest.approx(1)
-    assert legend(plot("x^3 + 1", 0, 2, points=20)) == ["y, where y(1) = 1, y'(1) = 0"]  # no solution is known
+    assert legend(plot("x^3 + 1", 0, 2, points=20)) == [r"$y$, where $y(1) = 1,\ y'(1) = 0$"]  # no solution is known
     assert legend(plot(waves, 0, 9, x0=3, y0="1/3", dy0="sqrt(2)", points=20)) == [
-        "y, where y(3) = 1/3, y'(3) = sqrt(2)"
+        r"$y$, where $y(3) = \frac{1}{3},\ y'(3) = \sqrt{2}$"
     ]
     bessel = "x^2*y'' + x*y' + x^2*y = 0"
-    assert legend(plot(bessel, 0, 9, x0=0, which="regular", points=20))[0] == "y, regular at 0"
+    assert legend(plot(bessel, 0, 9, x0=0, which="regular", points=20))[0] == "$y$ regular at $x = 0$"
     with pytest.raises(kovacic.InputError, match="the values need a place: 0, the left end, is a singular point"):
         plot(bessel, 0, 9, y0=1)
 
@@ -144,23 +149,49 @@ def test_the_legend_says_which_solution_is_drawn() -> None:
 @pytest.mark.long
 def test_both_solutions_of_a_solved_equation_are_drawn_and_named() -> None:
     figure = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0").plot(1, 9)
-    assert legend(figure) == ["y1 = cos(x)/sqrt(x)", "y2 = sin(x)/sqrt(x)"]
-    assert figure.axes[0].get_title() == "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
+    assert legend(figure) == [
+        r"$y_1 = \frac{\cos{\left(x \right)}}{\sqrt{x}}$",
+        r"$y_2 = \frac{\sin{\left(x \right)}}{\sqrt{x}}$",
+    ]
+    assert figure.axes[0].get_title() == r"$x^{2} y'' + x y' + \left(x^{2} - \dfrac{1}{4}\right) y = 0$"
     for line, y in zip(figure.axes[0].lines, (np.cos, np.sin), strict=False):
         at = line.get_xdata()
         assert np.abs(line.get_ydata() - y(at) / np.sqrt(at)).max() < 1e-3
     special = kovacic.solve("x").plot(-12, 6)
-    assert legend(special) == ["y1 = airyai(x)", "y2 = airybi(x)"]
+    assert legend(special) == [r"$y_1 = Ai\left(x\right)$", r"$y_2 = Bi\left(x\right)$"]
     decaying = special.axes[0].lines[0]
     assert 0 < decaying.get_ydata()[-1] < 1e-4
 
 
 @pytest.mark.long
 def test_a_growing_solution_leaves_the_rest_to_be_seen() -> None:
-    axes = kovacic.solve("x^2 + 3").plot(-6, 6).axes[0]
-    assert axes.get_yscale() == "function"
-    assert "logarithmic beyond" in axes.get_ylabel()
-    assert kovacic.solve("-1").plot(0, 9).axes[0].get_yscale() == "linear"
+    """Bi outgrows the waves from which it comes, and 1/x is as large as one comes near to 0."""
+    for equation, start, stop, height in (("x", -12, 3, 0.536), ("2/x^2", -2, 3, 9), ("x^2 - 7", -6, 6, 2.1)):
+        axes = kovacic.solve(equation).plot(start, stop).axes[0]
+        assert axes.get_yscale() == "linear"
+        assert axes.get_ylim()[1] == pytest.approx(1.1 * height, rel=0.01)
+        assert f"(cut off at {height:.2g})" in axes.get_ylabel()
+
+
+@parametrize(
+    ("equation", "stop", "options"),
+    [
+        ("1", 9, {"x0": 0}),  # cosh
+        ("1", 600, {"x0": 0}),  # up to 10^260
+        ("y'' + (1 + 2/5*cos(2*x))*y = 0", 60, {"x0": 0}),  # parametric resonance
+        ("-1", 9, {}),
+        ("x^2*y'' + x*y' + x^2*y = 0", 60, {}),
+    ],
+    ordinary=1,
+)
+def test_what_grows_evenly_is_drawn_whole_on_a_linear_axis(equation: str, stop: int, options: dict[str, Any]) -> None:
+    axes = plot(equation, "1/10" if "x^2" in equation else 0, stop, **options).axes[0]
+    assert axes.get_yscale() == "linear"
+    assert axes.get_ylabel() == "$y$"
+    low, high = axes.get_ylim()
+    for line in axes.lines:
+        if not line.get_label().startswith("_"):
+            assert low < line.get_ydata().min() <= line.get_ydata().max() < high
 
 
 @pytest.mark.long
@@ -224,10 +255,15 @@ def test_a_picture_of_an_equation_with_an_algebraic_constant() -> None:
 @pytest.mark.long
 def test_the_legend_says_which_solution_is_drawn_and_the_title_which_equation() -> None:
     figure = plot("x", -3, 1, y0=2, points=20)
-    assert legend(figure) == ["y, where y(-3) = 2, y'(-3) = 0"]
-    assert figure.axes[0].get_title() == "y'' = x y"
-    assert legend(plot("x^2*y'' + x*y' + x^2*y = 0", 0, 5, x0=0, which="regular", points=20))[0] == "y, regular at 0"
-    assert legend(plot("-1", 0, 5, x0=0, frobenius=(1, 2), points=20)) == ["y = (1) y1 + (2) y2, Frobenius' basis at 0"]
+    assert legend(figure) == [r"$y$, where $y(-3) = 2,\ y'(-3) = 0$"]
+    assert figure.axes[0].get_title() == "$y'' = x y$"
+    assert (
+        legend(plot("x^2*y'' + x*y' + x^2*y = 0", 0, 5, x0=0, which="regular", points=20))[0]
+        == "$y$ regular at $x = 0$"
+    )
+    assert legend(plot("-1", 0, 5, x0=0, frobenius=(1, 2), points=20)) == [
+        "$y$ = (1) $y_1$ + (2) $y_2$ of the Frobenius basis at $x = 0$"
+    ]
 
 
 @pytest.mark.long
@@ -240,18 +276,118 @@ def test_no_entry_of_a_legend_leaves_the_picture() -> None:
     assert extent.x1 <= figure.bbox.x1
 
 
-@pytest.mark.parametrize("stop", [9, 600])
-def test_the_axis_of_a_growing_solution_has_an_inverse_and_no_corner(stop: int) -> None:
-    """cosh(x), up to 4,000 and up to 10^260."""
-    (axes,) = plot("1", 0, stop, x0=0, y0=1, dy0=0, points=20).axes
-    assert axes.get_yscale() == "function"
-    forward = axes.yaxis.get_transform()
-    largest = np.cosh(stop)
-    y = np.array([-largest, -1.0, -0.3, 0.0, 0.5, 0.9, 7.0, largest])
-    assert forward.inverted().transform(forward.transform(y)) == pytest.approx(y, rel=1e-9)
-    sizes = np.geomspace(1e-3, largest, 5000)
-    heights = forward.transform(sizes)
-    assert heights[-1] < 4
-    slopes = np.diff(heights) / np.diff(sizes)
-    assert (slopes > 0).all()
-    assert stop > 9 or (slopes[1:] / slopes[:-1] > 0.9).all()
+#: Special functions as SymPy writes them in LaTeX.
+_SPECIAL = {
+    "Ai": sympy.airyai,
+    "Bi": sympy.airybi,
+    "J_{0}": partial(sympy.besselj, 0),
+    "Y_{0}": partial(sympy.bessely, 0),
+    "K": sympy.elliptic_k,
+}
+
+
+def formula_of(latex: str) -> Any:
+    """The SymPy expression of a formula in a legend, in which a special function occurs once at most."""
+    for name, function in _SPECIAL.items():
+        before, found, rest = latex.partition(rf"{name}\left(")
+        if found:
+            argument, _, after = rest.rpartition(r"\right)")
+            place = sympy.Symbol("w")
+            return formula_of(f"{before} w {after}").subs(place, function(formula_of(argument)))
+    return read_expression(without_latex(latex, latex))
+
+
+def demand_what_the_label_says(label: str, at: Any, drawn: Any, variable: sympy.Symbol) -> bool:
+    """Read the label of a line, evaluate it, and compare it with the line's data; False without anything to compare."""
+    part = {"Re": np.real, "Im": np.imag}.get(label[:2], lambda values: values)
+    size = np.abs(drawn).max()
+    found = re.search(r"\$[a-z]_[12] = (.*)\$", label)
+    if found is not None:
+        formula = formula_of(found[1])
+        for k in np.linspace(0, len(at) - 1, 7).astype(int):
+            value = complex(sympy.N(formula.subs(variable, float(at[k]))))
+            assert abs(part(value) - drawn[k]) < 1e-3 * size + 1e-9, (label, at[k])
+        return True
+    found = re.search(r"\$[a-z](\\left)?\((.*?)(\\right)?\) = (.*?)(,\\ [a-z]'.* = (.*))?\$", label)
+    if found is None:
+        return False
+    place, value, slope = (float(sympy.N(formula_of(found[k]))) for k in (2, 4, 6))
+    near = np.argsort(np.abs(at - place))[:2]
+    if np.abs(at[near[0]] - place) > 0.1:  # on another stretch
+        return True
+    low, high = sorted(near)
+    slope_drawn = (drawn[high] - drawn[low]) / (at[high] - at[low])
+    scale = max(1.0, np.abs(np.gradient(drawn, at)).max())
+    assert part(complex(value)) == pytest.approx(np.interp(place, at, drawn), abs=2e-3 * size + 1e-9), label
+    assert part(complex(slope)) == pytest.approx(slope_drawn, abs=0.1 * scale), label
+    return True
+
+
+_RIGHT_HAND_SIDES = ["x", "exp(-x^2)", "1/(2 + cos(x))", "x^2 - 1", "cos(3*x)"]
+_LEFT_HAND_SIDES = ["y'' + y", "y'' + y'/5 + 2*y", "x^2*y'' + x*y' + x^2*y", "y'' - x*y"]
+#: What is drawn, from where to where, and the number of real lines that there have to be, if it matters.
+PICTURES: list[tuple[str, Any, Any, int | None]] = [
+    *((f"{left} = {right}", "1/2", 7, 1) for left in _LEFT_HAND_SIDES for right in _RIGHT_HAND_SIDES),
+    *(
+        (f"y'' + {f}*y = 0", "-9/10", "9/10", None)
+        for f in ("exp(x)", "tan(x)", "cos(x)", "sinh(x)", "exp(-2*x)", "tanh(x)")
+    ),
+    ("y'' + exp(x)*y = x", 0, 3, 1),
+    ("x^2 + 3", -2, 2, 2),
+    ("-1/(4*x^2) - 3", -2, 2, 4),
+    ("-1/x - 3/(16*x^2)", -3, 30, 4),
+    ("2/x^2", -2, 3, 2),
+    ("4*x^2*y'' + y = 0", -2, 4, 4),
+    ("x*(1-x)*y'' + (1-2*x)*y' - y/4 = 0", -1, 2, None),
+    ("(1-x^2)*y'' - 2*x*y' + 6*y = 0", -3, 3, 3),
+    ("x", -12, 2, 2),
+    ("x^2*y'' + x*y' + x^2*y = 0", 1, 40, 2),
+    ("u''(t) + 4*u(t) = 0", 0, 5, 2),
+    ("-3/16/x^2 - 2/9/(x-1)^2 + 3/16/(x*(x-1))", 0, 1, 2),  # tetrahedral
+    ("x^2*y'' + x*y' + (x^2+1)*y = 0", "1/100", 10, 2),
+    ("x^3", -4, 2, 2),
+    ("sqrt(2)", -1, 2, 2),
+]
+
+
+@parametrize(("equation", "start", "stop", "count"), PICTURES, ordinary=4)
+def test_a_picture_shows_what_its_labels_say(equation: str, start: Any, stop: Any, count: int | None) -> None:
+    """The title is the equation in the variable of the axis, each entry of the legend has the data of its line."""
+    answer = kovacic.solve(equation)
+    figure = answer.plot(start, stop)
+    (axes,) = figure.axes
+    variable = axes.get_xlabel().strip("$")
+    again = kovacic.solve(axes.get_title().strip("$"), var=variable)
+    assert again.S == answer.S
+    is_homogeneous = answer.equation is None or answer.equation.is_homogeneous
+    assert is_homogeneous == (again.equation is None or again.equation.is_homogeneous)
+    named: dict[str, list[Any]] = {}
+    for line in axes.lines:
+        if line.get_label() == "singular point":
+            break
+        if line.get_label() == "_":  # beyond a singular point
+            list(named.values())[-1].append(line)
+        elif not line.get_label().startswith("_"):
+            named[line.get_label()] = [line]
+    assert count is None or len(named) == count
+    data = []
+    for label, parts in named.items():
+        at, drawn = (
+            np.concatenate([np.asarray(get(part)) for part in parts]) for get in (Line2D.get_xdata, Line2D.get_ydata)
+        )
+        assert demand_what_the_label_says(label, at, drawn, sympy.Symbol(variable)) or is_homogeneous
+        data.append(drawn)
+    if len(data) == 2 and len(data[0]) == len(data[1]):
+        assert np.linalg.matrix_rank(np.stack(data), tol=1e-6 * np.abs(data[0]).max()) == 2
+
+
+def test_the_envelope_of_bessels_functions_is_their_amplitude() -> None:
+    """Between its points, too: near 1, where it falls as 1/sqrt(x), they are near to each other."""
+    from scipy.special import hankel1
+
+    bessel = "x^2*y'' + x*y' + x^2*y = 0"
+    values = {"y0": "0.765197686557966551449717526103", "dy0": "-0.440050585744933515959682203719"}
+    (envelope,) = sample(bessel, 1, 2000, x0=1, **values).envelopes
+    at = np.geomspace(1.5, 2000, 400)
+    assert np.interp(at, envelope.x, envelope.real) == pytest.approx(np.abs(hankel1(0, at)), rel=0.1)
+    assert np.interp(at[100:], envelope.x, envelope.real) == pytest.approx(np.abs(hankel1(0, at[100:])), rel=0.02)

@@ -37,7 +37,7 @@ def test_a_vectorised_function_and_a_figure() -> None:
     ratio = f([2.0])[0] / f([1.5])[0]
     assert ratio == pytest.approx(2 / 1.5 * 2.718281828459045 ** ((4 - 2.25) / 2), rel=1e-12)
     figure = answer.plot(1, 2, x0=1, points=20)
-    assert figure.axes[0].get_xlabel() == "x"
+    assert figure.axes[0].get_xlabel() == "$x$"
 
 
 def test_an_answer_pickles_after_its_parts_were_used() -> None:

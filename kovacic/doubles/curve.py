@@ -143,18 +143,27 @@ def arcs(
 
 
 def _grid(chart: PieceChart, interval: tuple[Fraction, Fraction], width: Fraction) -> list[ExactPoint]:
-    """Where S is looked at: equidistant points, and, beside singular points near the axis, nearer and nearer ones."""
+    """Where S is looked at: equidistant points, and nearer and nearer ones beside singular points."""
     low, high = interval
     count = max(8, round(_GRID * (high - low) / width))
     chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
-    for z in map(to_double, chart.singular):
-        distance = abs(z.imag)
-        while 0 < distance < float(width):
-            for x in (z.real - distance, z.real, z.real + distance):
-                if low < x < high:
-                    chosen.add(Fraction(x))
-            distance *= 1.5
+    chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
     return [ExactPoint(x) for x in sorted(chosen)]
+
+
+def _beside_singular_points(chart: PieceChart, low: float, high: float) -> list[float]:
+    """Points between low and high, nearer and nearer to the singular points on the axis, at its ends or beside it.
+
+    Solutions and S are powers of the distance there: on steps that grow by a half they are nearly straight.
+    """
+    found = []
+    for z in map(to_double, chart.singular):
+        inside = min(max(z.real, low), high)
+        distance = abs(z - inside)
+        while 0 < distance < high - low:
+            found += [x for x in (z.real - distance, z.real, z.real + distance) if low < x < high]
+            distance *= 1.5
+    return found
 
 
 def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -221,7 +230,7 @@ def _envelope(
     low = part.x[0]
     high = part.x[-1]
     count = max(8, int(_ENVELOPE * (high - low) / float(width)))
-    x = np.linspace(low, high, count + 1)
+    x = np.unique(np.append(np.linspace(low, high, count + 1), _beside_singular_points(chart, float(low), float(high))))
     here = coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
     samples = _sampled(x, states)
     q = here.frequency

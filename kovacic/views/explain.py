@@ -113,7 +113,7 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
 
 
 def _picture(answer: Answer) -> str:
-    """A real solution between and beside the singular points on the axis; nothing where its values can't be had.
+    """Solutions between and beside the singular points on the axis; nothing where their values can't be had.
 
     Without NumPy or matplotlib there is no picture either: the page is whole without it.
     """
@@ -131,7 +131,7 @@ def _picture(answer: Answer) -> str:
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
     svg = drawing.getvalue()[drawing.getvalue().index("<svg") :]
-    caption = "The solution with y = 1, y&#x27; = 0 in the middle of its longest interval without a singular point."
+    caption = "Solutions between and beside the singular points on the real axis."
     heading = FORMATS["html"].heading(_PICTURE, 2)
     return f"\n{heading}\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
 

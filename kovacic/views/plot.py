@@ -5,14 +5,16 @@ compared with further values; the error band is drawn where it's visible at all.
 picture, its envelope is drawn instead (`kovacic.doubles.curve`), and the legend says so.  Beyond a singular point on the
 axis the solution is the continuation through the upper half-plane.
 
+Nothing is claimed that isn't drawn: a formula enters the legend after it was compared with its curve, and the axis is linear;
+where it is cut off, its name says at which size.
+
 matplotlib is needed (the extra `plot`) and imported here only, with a canvas of its own: no window is opened,
 and neither the backend nor the state of pyplot is touched.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -30,7 +32,7 @@ from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
 from kovacic.enclosure.evaluate import Accuracy, InitialValues
 from kovacic.enclosure.functions import as_written
 from kovacic.enclosure.points import ExactPoint, as_point
-from kovacic.enclosure.problem import Coefficients, change_of
+from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.variable import with_variable
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
@@ -38,32 +40,36 @@ from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import Limits, limited, limits_of
 from kovacic.numerals import as_text, plain_text
 from kovacic.reading.read import read_input
-from kovacic.views.sentences import equation_of
-from kovacic.writing.formula import of_sympy
+from kovacic.views.sentences import normal_form
+from kovacic.writing.formula import latex_text, of_sympy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+#: The curve ends this share of its interval before a singular point: beside an irregular one, solutions are as large as
+#: exp(1/distance).
 _SHARE = Fraction(1, 256)
 _IRREGULAR_SHARE = Fraction(1, 16)
-"""The curve ends this share of its interval before a singular point."""
 
 #: The ends of pictures.
 _FARTHEST = 10**300
-#: A formula of more characters isn't written into the legend.
+#: Characters of a formula in the legend, of an entry of a legend in two columns, and of the equation in the title.
 _LONGEST_LABEL = 50
-#: Entries of a legend in two columns have so many characters at most, and a title so many.
 _LONGEST_IN_COLUMNS = 55
 _LONGEST_TITLE = 100
 #: Characters of a formula that SymPy evaluates where the curves start; powers of long numbers take it minutes.
 _LONGEST_EVALUATED = 2000
-#: Powers of ten beside an axis, at most.
-_MOST_POWERS = 4
+#: Points of each stretch at which a formula is compared with its curve, and the share of its size by which it may differ.
+_COMPARED = 3
+_AGREEMENT = 1e-6
 #: The share of the height from which on an error is drawn.
 _SEEN = 2e-3
-#: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
-_RANGE = 20
+#: Beside a singular point, up to this share of the width, a solution may be as large as it likes without being drawn whole.
+_BESIDE = 0.05
+_BESIDE_IRREGULAR = 0.2
+#: The axis is cut off where the largest value is more than this many times the size that is looked for: cosh isn't cut.
+_RANGE = 4
 
 
 class SampleOptions(InitialValues, Accuracy, total=False):
@@ -85,6 +91,7 @@ class SampledCurve:
 
     runs: tuple[tuple[Arc | Envelope, ...], ...]
     singular: tuple[complex, ...]
+    irregular: tuple[complex, ...]  # those among them beside which solutions are as large as exp(1/distance)
     x0: object
 
     @property
@@ -136,8 +143,9 @@ def sample(
     chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
-        x0 = _start(intervals, a, has_values=bool({"y0", "dy0"} & {*asked}))
-    asked = {**_default_values(asked), **asked}
+        x0 = _ordinary_start(intervals, a) if {"y0", "dy0"} & {*asked} else _middle_of_the_longest(intervals)
+    if "which" not in asked and "frobenius" not in asked:
+        asked = {"y0": 1, "dy0": 0, **asked}
     digits = asked.pop("digits", 8)
     limits = asked.pop("limits", None)
     chart = replace(chart, given={"x0": x0})
@@ -146,23 +154,10 @@ def sample(
         return chart.states(list(places), digits, limits, path="above", **asked)
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
-    near = tuple(complex(point) for point in chart.singular if _is_a_double(point))
-    return SampledCurve(tuple(runs), near, x0)
-
-
-def _default_values(asked: dict[str, Any]) -> dict[str, int | None]:
-    """y(x0) = 1 and y'(x0) = 0 where no solution is asked for; none where it is chosen by its behaviour at x0."""
-    is_chosen = asked.get("which") is not None or asked.get("frobenius") is not None
-    if is_chosen:
-        return {"y0": None, "dy0": None}
-    return {"y0": 1, "dy0": 0}
-
-
-def _start(intervals: list[tuple[Fraction, Fraction]], a: Fraction, *, has_values: bool) -> Fraction:
-    """Where initial values hold that are given without a place, or those that are chosen here."""
-    if has_values:
-        return _ordinary_start(intervals, a)
-    return _middle_of_the_longest(intervals)
+    singular, irregular = (
+        tuple(complex(point) for point in points if _is_a_double(point)) for points in (chart.singular, chart.irregular)
+    )
+    return SampledCurve(tuple(runs), singular, irregular, x0)
 
 
 def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
@@ -176,10 +171,7 @@ def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
 
 
 def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tuple[Fraction, Fraction]]:
-    """The parts of [a, b] between singular points, shorter by a share beside each of these.
-
-    Beside an irregular singular point, solutions are as large as exp(1/distance).
-    """
+    """The parts of [a, b] between singular points, shorter by a share beside each of these."""
     cuts = sorted({z.re for z in chart.singular if z.is_real() and a <= z.re <= b})
     wild = {float(point.re) for point in chart.irregular}
 
@@ -206,8 +198,11 @@ def _ordinary_start(intervals: list[tuple[Fraction, Fraction]], a: Fraction) -> 
 
 
 def _middle_of_the_longest(intervals: list[tuple[Fraction, Fraction]]) -> Fraction:
+    """The middle, or a number of one digit near it, which the legend can show."""
     low, high = max(intervals, key=lambda interval: interval[1] - interval[0])
-    return (low + high) / 2
+    middle = (low + high) / 2
+    plain = middle.limit_denominator(9)
+    return plain if abs(plain - middle) < (high - low) / 8 else middle
 
 
 @limited
@@ -271,8 +266,8 @@ def plot(
 
     >>> import io, kovacic
     >>> figure = plot(kovacic.solve("x^2 + 3"), -1, 1, points=20)
-    >>> [line.get_label()[:2] for line in figure.axes[0].get_lines()][:2]
-    ['y1', 'y2']
+    >>> [line.get_label()[:4] for line in figure.axes[0].get_lines()][:2]
+    ['$y_1', '$y_2']
     >>> figure = plot("a*x", -5, 1, x0=0, y0=1, dy0=0, params={"a": 1}, title="Airy", points=20)
     >>> figure.axes[0].get_title()
     'Airy'
@@ -284,57 +279,72 @@ def plot(
     True
     """
     check_keywords("plot", options, PlotOptions.__annotations__)
-    if title is None:
-        title = _title(equation)
+    given = equation
     if isinstance(equation, str) or options.get("var") is not None:
         equation = _read(equation, options.pop("var", None), options.get("limits"))
+    if title is None:
+        title = _title(equation, given, options.get("params"))
     from matplotlib.figure import Figure as NewFigure
 
     curves = _curves(equation, start, stop, options)
     low, high = map(float, _ends(start, stop))
-    singular = [z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high]
+    lines = [line for label, curve in curves for line in _lines(label, curve)]
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     axes = figure.add_subplot()
-    colour = 0
-    for label, curve in curves:
-        colour = _draw(axes, curve, label, colour)
-    _mark(singular, axes)
-    axes.set(xlim=(low, high), xlabel=_variable(equation), title=title)
-    _scale(axes, [curve for _, curve in curves])
+    for number, line in enumerate(lines):
+        line.draw(axes, f"C{number}")
+    label: str | None = "singular point"
+    for z in curves[0][1].singular:
+        if z.imag == 0 and low <= z.real <= high:
+            axes.axvline(z.real, color="0.4", linestyle="--", linewidth=1, label=label)
+            label = None  # once in the legend
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
-    _legend(figure)
+    variable, unknown = map(_typeset, _names(equation))
+    axes.set(xlim=(low, high), xlabel=variable, ylabel=unknown)
+    axes.set_title(title, pad=12)  # room for the denominators of formulas
+    _cut(axes, lines, high - low)
+    _, names = axes.get_legend_handles_labels()
+    ncols = 2 if max(map(len, names)) <= _LONGEST_IN_COLUMNS else 1
+    size = "large" if any(r"\frac" in name for name in names) else "medium"
+    figure.legend(loc="outside lower center", ncols=ncols, frameon=False, fontsize=size)
     if output is not None:
         figure.savefig(output, dpi=150)
     figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
     return figure
 
 
-def _mark(singular: list[float], axes: Axes) -> None:
-    """Lines at singular points, named once in the legend."""
-    label: str | None = "singular point"
-    for x in singular:
-        axes.axvline(x, color="0.4", linestyle="--", linewidth=1, label=label)
-        label = None
+def _typeset(latex: str, otherwise: str | None = None) -> str:
+    """A formula for matplotlib, which knows some of LaTeX; as text, by default the same, where it doesn't know this."""
+    from matplotlib.mathtext import MathTextParser
+
+    formula = f"${latex}$"
+    try:
+        if latex:
+            MathTextParser("path").parse(formula)
+            return formula
+    except ValueError:
+        pass
+    return (latex if otherwise is None else otherwise).replace("$", r"\$")
 
 
-def _title(equation: object) -> str:
-    """The equation; nothing for coefficients without a text of their own."""
-    if isinstance(equation, Answer):
-        return equation_of(equation).text
-    if not isinstance(equation, str) or len(equation) > _LONGEST_TITLE:
+def _title(equation: object, given: object, params: Mapping[str, object] | None) -> str:
+    """The equation, and the values of parameters; nothing for coefficients without a text of their own."""
+    text = given.text if isinstance(given, Answer) else given
+    latex = ""
+    if isinstance(equation, Answer | Parsed):
+        if equation.equation is None:
+            formula = normal_form(equation)
+            text = formula.text
+            latex = formula.latex
+        elif equation.equation.change is None:
+            text = str(equation.equation)
+            latex = latex_text(equation.equation.text(caret=False))
+    # In another variable it isn't what was given; the text stands as it is then.
+    if not isinstance(text, str) or len(text) > _LONGEST_TITLE:
         return ""
-    if "=" in equation:
-        return equation
-    S = equation.strip()
-    return f"y'' = {S} y" if S.isalnum() else f"y'' = ({S}) y"
-
-
-def _legend(figure: Figure) -> None:
-    """Below the picture, in two columns where these have room."""
-    (axes,) = figure.axes
-    _, names = axes.get_legend_handles_labels()
-    ncols = 2 if max(map(len, names)) <= _LONGEST_IN_COLUMNS else 1
-    figure.legend(loc="outside lower center", ncols=ncols, frameon=False)
+    values = [f"{name} = {plain_text(value)}" for name, value in (params or {}).items()]
+    latex = latex.replace(r"\frac", r"\dfrac")
+    return ",   ".join([_typeset(latex, text), *(_typeset(latex_text(value), value) for value in values)])
 
 
 def _read(equation: object, var: str | None, limits: Limits | None) -> object:
@@ -347,58 +357,79 @@ def _read(equation: object, var: str | None, limits: Limits | None) -> object:
         return as_written(equation, None, limits_of(limits))
 
 
-def _variable(equation: object) -> str:
-    """The name of the variable, for the axis."""
-    change = change_of(equation)
-    if change is not None:
-        return change.variable
-    if isinstance(equation, Answer | Parsed | Coefficients):
-        return str(equation.variable)
-    return "x"
+def _names(equation: object) -> tuple[str, str]:
+    """The variable and the unknown, for the axes."""
+    if not isinstance(equation, Answer | Parsed):
+        return str(equation.variable) if isinstance(equation, Coefficients) else "x", "y"
+    given = equation.equation
+    if given is None:
+        return equation.variable, "y"
+    return equation.variable if given.change is None else given.change.variable, given.unknown
 
 
-def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
+def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[_Label, SampledCurve]]:
     """What is drawn, and how the legend names it."""
     given = {name for name in ("y0", "dy0", "which", "frobenius") if options.get(name) is not None}
     if isinstance(equation, Answer) and not given:
-        found = _solutions(equation, start, stop, options)
+        # y1 and y2 solve the homogeneous equation alone.
+        is_homogeneous = equation.equation is None or equation.equation.is_homogeneous
+        found = _solutions(equation, start, stop, options) if is_homogeneous else []
         if found:
             return found
     curve = sample(equation, start, stop, **options)
-    name = _name(options, curve.x0)
-    if len(name) > _LONGEST_LABEL:
-        name = "y"
-    return [(name, curve)]
+    return [(_Label(_name(_names(equation)[1], options, curve.x0)), curve)]
 
 
-def _name(options: PlotOptions, x0: object) -> str:
+def _name(y: str, options: PlotOptions, x0: object) -> str:
     """Which solution is drawn."""
     at = plain_text(x0)
     value = "1" if options.get("y0") is None else plain_text(options["y0"])
     slope = "0" if options.get("dy0") is None else plain_text(options["dy0"])
-    if options.get("which") == "decaying":
-        return f"y, decaying, y({at}) = {value}"
-    if options.get("which") is not None:
-        return f"y, regular at {at}"
+    value_there = f"{y}({at}) = {value}"
+    place = _typeset(latex_text(f"x = {at}"), f"x = {at}")
     weights = options.get("frobenius")
+    if options.get("which") == "regular":
+        return f"{_typeset(y)} regular at {place}"
     if weights is not None:
         c1, c2 = map(plain_text, weights)
-        return f"y = ({c1}) y1 + ({c2}) y2, Frobenius' basis at {at}"
-    return f"y, where y({at}) = {value}, y'({at}) = {slope}"
+        return f"{_typeset(y)} = ({c1}) {_typeset(f'{y}_1')} + ({c2}) {_typeset(f'{y}_2')} of the Frobenius basis at {place}"
+    shown = value_there
+    latex = latex_text(value_there)
+    if options.get("which") is None:
+        shown = f"{shown}, {y}'({at}) = {slope}"
+        latex += r",\ " + latex_text(f"{y}'({at}) = {slope}")
+    if len(shown) > _LONGEST_LABEL:
+        return _typeset(y)
+    said = _typeset(latex, shown)
+    return f"{_typeset(y)} decaying, {said}" if options.get("which") == "decaying" else f"{_typeset(y)}, where {said}"
 
 
-def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
+@dataclass(frozen=True)
+class _Label:
+    """How the legend names a solution, and, where it is known and short, its formula in LaTeX."""
+
+    name: str
+    formula: str = ""
+
+    def of_part(self, part: str) -> str:
+        """The entry of the real or the imaginary part, or, for "", of a real solution."""
+        if not self.formula:
+            return f"{part} {self.name}".strip()
+        equation = _typeset(f"{self.name.strip('$')} = {self.formula}", self.name)
+        return f"{part} {self.name}, {equation}" if part else equation
+
+
+def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[_Label, SampledCurve]]:
     """y1 and y2 of the answer, as the solutions with their values and slopes at x0; none where these aren't known.
 
     A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.
     """
     import sympy
 
-    x = sympy.Symbol(answer.variable)
+    x = sympy.Symbol(_names(answer)[0])
     form = derived.closed_form(answer)
-    pair = derived.special(answer) if form is None else form
-    expressions = tuple(pair)
-    if not all(_can_be_evaluated(y, x) for y in expressions):
+    pair = tuple(derived.special(answer) if form is None else form)
+    if not pair or not all(_can_be_evaluated(y, x) for y in pair):
         return []
     a, b = _ends(start, stop)
     chart = chart_of(answer, {}, options.get("params"))
@@ -407,20 +438,58 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
     at = _middle_of_the_longest(intervals) if x0 is None else as_point(x0, "x0").re
     digits = 30 + _digits_gained(chart, intervals)
     place = sympy.Rational(at.numerator, at.denominator)
+    data = [[sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))] for y in pair]
+    if not all(value.is_number and value.is_finite for values in data for value in values):
+        return []
+
+    def sampled(values: Sequence[Any]) -> SampledCurve:
+        asked: PlotOptions = {**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])}
+        return sample(answer, start, stop, **asked)
+
+    names = [_typeset(f"{_names(answer)[1]}_{k}") for k in (1, 2)]
+    if len(intervals) == 1 and not all(value.is_real for values in data for value in values):
+        # The equation is real: real and imaginary parts solve it on an interval without a singular point.
+        parts = [
+            (f"{part} {name}", [take(value) for value in values])
+            for name, values in zip(names, data, strict=True)
+            for part, take in (("Re", sympy.re), ("Im", sympy.im))
+        ]
+        return [(_Label(name), sampled(values)) for name, values in _independent(parts)]
     found = []
-    for k, y in enumerate(expressions, start=1):
-        value = sympy.N(y.subs(x, place), digits)
-        slope = sympy.N(y.diff(x).subs(x, place), digits)
-        if not _is_finite(value) or not _is_finite(slope):
-            return []
-        asked: PlotOptions = {**options, "x0": at, "y0": str(value), "dy0": str(slope)}
-        curve = sample(answer, start, stop, **asked)
-        name = f"y{k}"
-        text = of_sympy(y).text
-        if len(text) <= _LONGEST_LABEL:
-            name += f" = {text}"
-        found.append((name, curve))
+    for name, y, values in zip(names, pair, data, strict=True):
+        curve = sampled(values)
+        text = of_sympy(y)
+        is_shown = len(text.text) <= _LONGEST_LABEL and _agrees(y, x, curve)
+        found.append((_Label(name, text.latex if is_shown else ""), curve))
     return found
+
+
+def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
+    """The first solution that isn't zero, and the first one that isn't a multiple of it, by values and slopes to 30 digits."""
+    sizes = [abs(y) + abs(dy) for _, (y, dy) in solutions]
+    # What is smaller is what rounding leaves of an imaginary part.
+    visible = [(one, size) for one, size in zip(solutions, sizes, strict=True) if size > 1e-25 * max(sizes)]
+    first, first_size = visible[0]
+    y1, dy1 = first[1]
+    for second, size in visible[1:]:
+        y2, dy2 = second[1]
+        if abs(y1 * dy2 - y2 * dy1) > 1e-25 * size * first_size:
+            return [first, second]
+    return [first]
+
+
+def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
+    """True if the formula has the values of its curve: beyond a singular point it may be on another branch."""
+    import sympy
+
+    largest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
+    for arc in curve.arcs:
+        for k in np.linspace(0, len(arc.x) - 1, _COMPARED).astype(int):
+            value = sympy.N(y.subs(x, sympy.Rational(float(arc.x[k]))), 15)
+            allowed = _AGREEMENT * largest + float(arc.radius[k])
+            if not value.is_number or not abs(complex(value) - arc.y[k]) <= allowed:
+                return False
+    return True
 
 
 def _can_be_evaluated(y: Any, x: Any) -> bool:
@@ -430,10 +499,6 @@ def _can_be_evaluated(y: Any, x: Any) -> bool:
     if has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED:
         return False
     return not y.has(sympy.Integral) and y.free_symbols <= {x}
-
-
-def _is_finite(value: Any) -> bool:
-    return bool(value.is_number and value.is_finite)
 
 
 def _is_a_double(point: ExactPoint) -> bool:
@@ -450,97 +515,79 @@ def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]
     return int(min(5000.0, 2 * total / np.log(10)))
 
 
-def _draw(axes: Axes, curve: SampledCurve, label: str, colour: int) -> int:
-    """The parts of one solution; returns the number of the next colour."""
-    names = {"real": label}
-    if _is_complex(curve):
-        names = {"real": f"Re {label}", "imag": f"Im {label}"}
-    for part, name in names.items():
-        _draw_part(axes, curve, part, name=name, style=f"C{colour}")
-        colour += 1
-    return colour
-
-
-def _draw_part(axes: Axes, curve: SampledCurve, part: str, *, name: str, style: str) -> None:
-    """The real or the imaginary part, with bands where errors can be seen."""
-    biggest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
-    in_legend = name
-    for arc in curve.arcs:
-        x, y = arc.drawn()
-        axes.plot(x, getattr(y, part), linewidth=1.5, color=style, label=in_legend)
-        in_legend = "_"  # once in the legend
-        if arc.radius.max() > _SEEN * biggest:
-            middle = getattr(arc.y, part)
-            low = middle - arc.radius
-            high = middle + arc.radius
-            axes.fill_between(arc.x, low, high, color=style, alpha=0.25, linewidth=0, label="error band")
-    for envelope in curve.envelopes:
-        size = envelope.real if part == "real" else envelope.imaginary
-        said = f"{name}: envelope of {envelope.periods:,.0f} oscillations"
-        axes.fill_between(envelope.x, -size, size, color=style, alpha=0.35, linewidth=0.8, label=said)
-
-
-def _is_complex(curve: SampledCurve) -> bool:
-    """Can an imaginary part be told from zero?"""
-    if any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs):
-        return True
-    return any(np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes)
-
-
-def _scale(axes: Axes, curves: list[SampledCurve]) -> None:
-    """A linear axis, or, where a solution grows so much that the rest wouldn't be seen, logarithmic beyond the usual."""
-    sizes = [np.abs(arc.y) for curve in curves for arc in curve.arcs]
-    sizes += [np.hypot(part.real, part.imaginary) for curve in curves for part in curve.envelopes]
-    usual = min(map(_usual, sizes))
-    largest = max(float(part.max()) for part in sizes)
-    axes.set_ylabel("y")
-    if 0 < _RANGE * usual < largest:
-        scale = _Compressed(usual, 2 / np.log(largest / usual))
-        axes.set_yscale("function", functions=(scale.forward, scale.backward))
-        ticks = _ticks(usual, largest)
-        axes.set_yticks(list(ticks), list(ticks.values()))
-        axes.set_ylabel(f"y (logarithmic beyond {usual:.2g})")
-
-
-def _usual(sizes: Any) -> float:
-    """Twice the median; of a solution that grows, twice the size that it has before it does."""
-    median = float(np.median(sizes))
-    if sizes.max() <= _RANGE * 2 * median:
-        return 2 * median
-    stretches = [part.max() for part in np.array_split(sizes, min(20, len(sizes)))]
-    return 2 * float(min(stretches))
-
-
 @dataclass(frozen=True)
-class _Compressed:
-    """y/L for |y| <= L, and sign(y) (1 + c log(1 + (|y|/L - 1)/c)) beyond, with the same slope: smooth curves stay smooth."""
+class _Line:
+    """One line of a picture: the real or the imaginary part of a curve, with its entry in the legend."""
 
-    L: float
-    c: float
+    curve: SampledCurve
+    part: str
+    label: str
 
-    def forward(self, y: Any) -> Any:
-        """Where y is drawn."""
-        size = np.abs(y) / self.L
-        return np.sign(y) * np.where(size <= 1, size, 1 + self.c * np.log1p(np.maximum(size - 1, 0) / self.c))
+    def values(self, numbers: Any) -> Any:
+        return getattr(numbers, self.part)
 
-    def backward(self, place: Any) -> Any:
-        """y."""
-        size = np.abs(place)
-        far = 1 + self.c * np.expm1(np.clip((size - 1) / self.c, 0, 700))
-        return np.sign(place) * np.where(size <= 1, size, far) * self.L
+    def amplitude(self, envelope: Envelope) -> Any:
+        return envelope.real if self.part == "real" else envelope.imaginary
+
+    def draw(self, axes: Axes, colour: str) -> None:
+        """The arcs, with bands where errors can be seen, and the envelopes."""
+        largest = max((float(np.abs(arc.y).max()) for arc in self.curve.arcs), default=0.0)
+        label = self.label
+        for arc in self.curve.arcs:
+            x, y = arc.drawn()
+            axes.plot(x, self.values(y), linewidth=1.5, color=colour, label=label)
+            label = "_"  # once in the legend
+            if arc.radius.max() > _SEEN * largest:
+                middle = self.values(arc.y)
+                low = middle - arc.radius
+                high = middle + arc.radius
+                axes.fill_between(arc.x, low, high, color=colour, alpha=0.25, linewidth=0, label="error band")
+        for envelope in self.curve.envelopes:
+            size = self.amplitude(envelope)
+            said = f"{self.label}: envelope of {envelope.periods:,.0f} oscillations"
+            axes.fill_between(envelope.x, -size, size, color=colour, alpha=0.35, linewidth=0.8, label=said)
+
+    def sizes(self, width: float) -> tuple[float, float]:
+        """The size that is looked for, and the largest value.
+
+        A solution that oscillates is looked at for its extrema, another one for its values; none of them beside a singular
+        point, where they are as large as one comes near.
+        """
+        pieces = []
+        for arc in self.curve.arcs:
+            rising = self.values(arc.dy) > 0
+            pieces.append((arc.x, np.abs(self.values(arc.y)), rising != np.roll(rising, -1)))
+            pieces[-1][2][-1] = False  # nothing follows the last sample
+        pieces += [(part.x, self.amplitude(part), np.full(len(part.x), True)) for part in self.curve.envelopes]
+        x, size, turns = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
+        away = np.full(len(x), True)
+        for z in self.curve.singular:
+            share = _BESIDE_IRREGULAR if z in self.curve.irregular else _BESIDE
+            away &= np.abs(x - z) > share * width
+        # Three extrema are a wave; cosh has one.
+        is_wave = np.count_nonzero(away & turns) > 2
+        sizes = size[away & turns] if is_wave else size[away]
+        return float(sizes.max(initial=0.0)), float(size.max())
 
 
-def _ticks(usual: float, largest: float) -> dict[float, str]:
-    """0, a round number in the linear part, and powers of ten beyond it, on both sides."""
-    power = 10.0 ** math.floor(math.log10(usual))
-    near = power * max(k for k in (1, 2, 5) if k * power <= usual)
-    found = {near: f"{near:g}"}
-    first = math.ceil(math.log10(4 * usual))
-    last = math.floor(math.log10(largest))
-    every = (last - first) // _MOST_POWERS + 1
-    found |= {10.0**k: f"$10^{{{k}}}$" for k in range(first, last + 1, every)}
-    negative = {-value: f"\N{MINUS SIGN}{text}" for value, text in found.items()}
-    return negative | {0.0: "0"} | found
+def _lines(label: _Label, curve: SampledCurve) -> list[_Line]:
+    """The real part, and the imaginary one if it can be told from zero."""
+    is_complex = any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs) or any(
+        np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes
+    )
+    if not is_complex:
+        return [_Line(curve, "real", label.of_part(""))]
+    return [_Line(curve, "real", label.of_part("Re")), _Line(curve, "imag", label.of_part("Im"))]
+
+
+def _cut(axes: Axes, lines: list[_Line], width: float) -> None:
+    """Cut the axis off where a solution grows so much that the others, or its own oscillation, wouldn't be seen."""
+    sizes, largest = np.transpose([line.sizes(width) for line in lines])
+    height = max(sizes.max(), largest[largest <= _RANGE * sizes.max()].max(initial=0.0))
+    if largest.max() > _RANGE * height > 0:
+        low, high = axes.get_ylim()
+        axes.set_ylim(max(low, -1.1 * height), min(high, 1.1 * height))
+        axes.set_ylabel(f"{axes.get_ylabel()} (cut off at {height:.2g})")
 
 
 def _png(figure: Figure) -> bytes:

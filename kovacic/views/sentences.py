@@ -8,6 +8,7 @@ from typing import Any
 from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant
+from kovacic.equation import Parsed
 from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
 from kovacic.writing.omega import omega_math
 
@@ -21,7 +22,7 @@ SCREEN = 600
 SHORTER = "shorter, in special functions:"
 
 
-def formulas_of(answer: Answer) -> Formulas:
+def formulas_of(answer: Answer | Parsed) -> Formulas:
     """How the functions of this answer are written."""
     return Formulas(answer.variable, answer.S.field)
 
@@ -39,7 +40,7 @@ def equation_of(answer: Answer) -> Math:
     return Math(str(equation), latex_text(equation.text(caret=False)))
 
 
-def normal_form(answer: Answer, y: str = "y") -> Math:
+def normal_form(answer: Answer | Parsed, y: str = "y") -> Math:
     """y'' = S y."""
     return Math(f"{y}''", f"{y}''").equals(formulas_of(answer).times(answer.S, y, y))
 

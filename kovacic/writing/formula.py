@@ -27,7 +27,8 @@ _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
 ]
 _INNERMOST = re.compile(r"(\b(?:sqrt|cbrt|root))?\(([^()]*)\)")
 # It begins where a word does: else each digit of a long number would be tried as a beginning.
-_QUOTIENT = re.compile(r"(?<![^\s/,-])([^\s/,-][^\s/,]*)/([^\s/,]+)")
+# Only one factor is below the line: 1/2*t is (1/2) t.
+_QUOTIENT = re.compile(r"(?<![^\s/,-])([^\s/,-][^\s/,]*)/((?:\*\*|[^\s/,*])+)")
 # Characters for private use stand for the parts of a formula which are ready.
 _PART = 0xF0000
 _READY = re.compile(f"[{chr(_PART)}-{chr(0x10FFFD)}]")
@@ -198,6 +199,8 @@ def latex_text(text: str) -> str:
 
     >>> print(latex_text("-n*(n + 3)/(2*sqrt(mu)) - b**2"))
     -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
+    >>> print(latex_text("1/2*t**2"))
+    \frac{1}{2} t^{2}
     """
     writer = _LatexWriter()
     found = 1
