@@ -516,7 +516,7 @@ def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]
 
 
 @dataclass(frozen=True)
-class _Line:
+class _DrawnPart:
     """One line of a picture: the real or the imaginary part of a curve, with its entry in the legend."""
 
     curve: SampledCurve
@@ -570,17 +570,17 @@ class _Line:
         return float(sizes.max(initial=0.0)), float(size.max())
 
 
-def _lines(label: _Label, curve: SampledCurve) -> list[_Line]:
+def _lines(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
     """The real part, and the imaginary one if it can be told from zero."""
     is_complex = any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs) or any(
         np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes
     )
     if not is_complex:
-        return [_Line(curve, "real", label.of_part(""))]
-    return [_Line(curve, "real", label.of_part("Re")), _Line(curve, "imag", label.of_part("Im"))]
+        return [_DrawnPart(curve, "real", label.of_part(""))]
+    return [_DrawnPart(curve, "real", label.of_part("Re")), _DrawnPart(curve, "imag", label.of_part("Im"))]
 
 
-def _cut(axes: Axes, lines: list[_Line], width: float) -> None:
+def _cut(axes: Axes, lines: list[_DrawnPart], width: float) -> None:
     """Cut the axis off where a solution grows so much that the others, or its own oscillation, wouldn't be seen."""
     sizes, largest = np.transpose([line.sizes(width) for line in lines])
     height = max(sizes.max(), largest[largest <= _RANGE * sizes.max()].max(initial=0.0))
