@@ -1,11 +1,17 @@
-"""The paper's equations (1) to (13) derived from the definitions, for all values of the parameters.
+"""Woronetz's equations for the ball on the sphere, as the paper prints them and as they follow from the definitions.
 
-The two velocities of the contact point in the frame (e_u, e_v, e_n) agree (rolling without slipping): that gives (2).  The
-angular velocity is that of the frame in space, known by (u1, v1, theta), less that in the ball, known by (u, v): (4), (5).
-The equations of motion (7) are d'Alembert's principle for the velocities u', v', n that rolling leaves free; the rest follows
-by elimination.  `residuals` is the difference of each printed formula from what is derived here, and `holds` decides that
-they vanish, in the engine's field of rational functions.  The accelerations are unique, since the matrix of K22, K23, K33 is
-positive definite.
+The contact point is (x, y, z)(u, v) on the ball, in axes through its centre of mass, and (u1, v1) on the sphere; theta is
+the angle between the u-line there and the v1-line.  E, F, G and L, M, N are the fundamental forms of the ball's surface, e_n
+its outward normal.  `PRINTED` is what the paper prints under its numbers (1) to (11), or, where that is general, what it says
+of the ball.
+
+The derivation holds for all values of the parameters.  The two velocities of the contact point in the frame (e_u, e_v, e_n)
+agree (rolling without slipping): that gives (2).  The angular velocity is that of the frame in space, known by (u1, v1, theta),
+less that in the ball, known by (u, v): (4), (5).  The equations of motion (7) are d'Alembert's principle for the velocities
+u', v', n that rolling leaves free; the rest follows by elimination.  `residuals` is the difference of each printed formula from
+what is derived here, and `holds` decides that they vanish, in the engine's field of rational functions.  The accelerations are
+unique, since the matrix of K22, K23, K33 is positive definite.
+P. Woronetz, Math. Ann. 70 (1911) 410-453; A. S. Kuleshov & D. V. Katasonova (2018).
 """
 
 from __future__ import annotations
@@ -16,56 +22,108 @@ from typing import Any
 import sympy as sp
 from sympy import cos, sin
 
-from kovacic.ball.body import A1, A3, InRoots, x1, x2
-from kovacic.ball.paper import (
-    K11,
-    K22,
-    K23,
-    K33,
-    PRINTED,
-    R1,
-    D,
-    R,
-    T_du,
-    T_dv,
-    T_n,
-    T_u,
-    V_u,
-    a,
-    ddu,
-    ddv,
-    dn,
-    dtheta,
-    du,
-    du1,
-    dv,
-    dv1,
-    m,
-    n,
-    sigma,
-    tau,
-    theta,
-    u,
-    u1,
-    v,
-    v1,
-    w3,
-    x,
-)
+from kovacic.ball.body import A1, A3, InRoots, U, X, x1, x2
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
+
+u = U
+x = X
+m, R, a, R1, D = sp.symbols("m R a R1 D")
+v, theta, u1, v1, n, w3 = sp.symbols("v theta u1 v1 n omega_3")
+du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'' n'")
+sigma, tau = sp.symbols("sigma tau")
+#: The partial derivatives of the kinetic energy Theta, and dV/du.
+T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
+
+# The surface of the ball, with r the radius vector from its centre of mass.
+_k = 1 + R / R1
+_rho = R / R1
+_pull = R / (R + R1)
+_eps = R + a * cos(u)
+_turn = _k * _eps
+_tilt = (A3 - A1) * R * cos(u) + A3 * a
+_D = A1 * A3 + A1 * m * R**2 * sin(u) ** 2 + A3 * m * (R * cos(u) + a) ** 2
+_coordinates = {"x": R * sin(u) * cos(v), "y": R * sin(u) * sin(v), "z": R * cos(u) + a}
+_cosines = {
+    "c11": cos(u) * cos(v),
+    "c12": cos(u) * sin(v),
+    "c13": -sin(u),
+    "c21": -sin(v),
+    "c22": cos(v),
+    "c23": sp.Integer(0),
+    "c31": sin(u) * cos(v),
+    "c32": sin(u) * sin(v),
+    "c33": cos(u),
+}
+_K11 = _k**2 * (A1 + m * (R**2 + a**2 + 2 * R * a * cos(u)))
+_K22 = _k**2 * sin(u) ** 2 * (m * _eps**2 + A1 * cos(u) ** 2 + A3 * sin(u) ** 2)
+_K23 = _k * sin(u) ** 2 * (m * a * _eps - (A3 - A1) * cos(u))
+_K33 = (A1 + m * a**2) * sin(u) ** 2 + A3 * cos(u) ** 2
+K11, K22, K23, K33 = sp.symbols("K11 K22 K23 K33")
+#: The coefficients of (9), functions of u.
+_nine = {
+    "a1": -(1 - _rho**2) * sin(u) * K33 - _pull * sin(u) * K11 - m * R * sin(u) * _turn,
+    "b1": -(1 - _rho**2) * sin(u) * K23,
+    "a2": -_pull * K23 / sin(u) - m * R * a * sin(u),
+    "b2": _pull * (sin(u) * K11 - K22 / sin(u)),
+}
+_a1, _b1, _a2, _b2 = sp.symbols("a1 b1 a2 b2")
+
+#: For each of the paper's numbers (and "system", which has none) the formulas by name.  D is a name in "system" and (11).
+PRINTED: dict[str, dict[str, sp.Expr]] = {
+    "8": {**_coordinates, "E": R**2, "G": R**2 * sin(u) ** 2, "L": -R, "N": -R * sin(u) ** 2},
+    "1": _cosines,
+    "2": {
+        "u1'": _rho * (-du * sin(theta) + dv * sin(u) * cos(theta)),
+        "v1'": _rho * (du * cos(theta) + dv * sin(u) * sin(theta)) / sin(u1),
+    },
+    "4": {
+        "omega_1": tau * dv * cos(u) * cos(v) - sigma * du * sin(v) + n * sin(u) * cos(v),
+        "omega_2": tau * dv * cos(u) * sin(v) + sigma * du * cos(v) + n * sin(u) * sin(v),
+        "omega_3": -tau * dv * sin(u) + n * cos(u),
+    },
+    "5": {"tau": _k * sin(u), "sigma": -_k, "n": -dtheta - cos(u) * dv - cos(u1) * dv1},
+    "6": {"K11": _K11, "K22": _K22, "K23": _K23, "K33": _K33},
+    "7": {
+        "dTheta_u'/dt": T_u
+        + (1 - _rho**2) * sin(u) * dv * T_n
+        + _pull / sin(u) * n * T_dv
+        + m * R * sin(u) * n * (a * n + _turn * dv)
+        - V_u,
+        "dTheta_v'/dt": -(1 - _rho**2) * sin(u) * du * T_n
+        - _pull * sin(u) * n * T_du
+        - m * R * sin(u) * n * _turn * du,
+        "dTheta_n/dt": _pull * sin(u) * dv * T_du - _pull / sin(u) * du * T_dv - m * R * a * sin(u) * du * n,
+    },
+    "9": _nine,
+    "10": {
+        "a1'": _a1 - sp.diff(_K23, u),
+        "b1'": _b1 - sp.diff(_K22, u),
+        "a2'": _a2 - sp.diff(_K33, u),
+        "b2'": _b2 - sp.diff(_K23, u),
+    },
+    "system": {
+        "a1": -m * R**2 * _tilt * sin(u) / (R1 * D),
+        "a2": (R1 + R) * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2) * sin(u) / (R1 * D),
+        "b1": m * R**3 * A1 * sin(u) / (R1 * D),
+        "b2": m * R * (R1 + R) * _tilt * sin(u) / (R1 * D),
+        "D": _D,
+    },
+    "11": {
+        "d1": -(
+            2 * m * R**2 * (A3 - A1) * sin(u) ** 2 * cos(u)
+            + (3 - cos(u) ** 2) * m * R * a * A3
+            + A3 * (A1 + m * R**2 + m * a**2) * cos(u)
+        )
+        / (D * sin(u)),
+        "d2": m * R**2 * (R1**2 - R**2) * (A3 - A1) * sin(u) ** 2 / (R1**2 * D),
+    },
+}
 
 
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
     """d/dt, the symbols in `clock` having these rates."""
     return sum((expression.diff(symbol) * speed for symbol, speed in clock.items()), expression * 0)
-
-
-def _axes(p: sp.Symbol, q: sp.Symbol) -> tuple[Any, Any, Any]:
-    """The unit vectors along the meridian, along the circle and outwards on a sphere of colatitude p, longitude q."""
-    out = sp.Matrix([sin(p) * cos(q), sin(p) * sin(q), cos(p)])
-    east = sp.Matrix([-sin(q), cos(q), 0])
-    return out.diff(p), east, out
 
 
 def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
@@ -74,92 +132,65 @@ def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
     return sp.Matrix([W[2, 1], W[0, 2], W[1, 0]])
 
 
-def _cosines() -> Any:
-    """The printed direction cosines, e_u, e_v, e_n as columns in the axes of the ball."""
-    return sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
-
-
-def _surface() -> Any:
-    """The printed surface, from the centre of mass."""
-    return sp.Matrix([PRINTED["8"][name] for name in ("x", "y", "z")])
-
-
-def _space() -> Any:
-    """The frame at the contact point as (u1, v1, theta) tell it, as columns in space."""
-    south, east, out = _axes(u1, v1)
-    along = -sin(theta) * south + cos(theta) * east
-    across = cos(theta) * south + sin(theta) * east
-    return sp.Matrix.hstack(along, across, -out)
-
-
-_ON_BALL = {u: du, v: dv}
-_ON_SPHERE = {u1: du1, v1: dv1, theta: dtheta}
-
-
-def _rolling() -> dict[sp.Symbol, sp.Expr]:
-    """u1' and v1' as (2) prints them."""
-    return {du1: PRINTED["2"]["u1'"], dv1: PRINTED["2"]["v1'"]}
-
-
-def _energy() -> sp.Expr:
-    """2 Theta as (6) prints it."""
-    K = PRINTED["6"]
-    return K["K11"] * du**2 + K["K22"] * dv**2 + 2 * K["K23"] * dv * n + K["K33"] * n**2
+#: As printed: the surface, from the centre of mass, and e_u, e_v, e_n as columns, both in the axes of the ball.
+_ON_BALL = sp.Matrix([PRINTED["8"][name] for name in ("x", "y", "z")])
+_FRAME = sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
+_BALL_CLOCK = {u: du, v: dv}
+_SPHERE_CLOCK = {u1: du1, v1: dv1, theta: dtheta}
 
 
 def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
     """(8) and (1): the surface is a sphere about its centre; its fundamental forms; the direction cosines."""
     forms = PRINTED["8"]
-    r = _surface()
-    c = _cosines()
-    r_u = r.diff(u)
-    r_v = r.diff(v)
-    e_n = c[:, 2]
-    centre = sp.Matrix([0, 0, a])
-    sphere = (r - centre).dot(r - centre) - R**2
+    r_u = _ON_BALL.diff(u)
+    r_v = _ON_BALL.diff(v)
+    e_u, e_v, e_n = (_FRAME[:, k] for k in range(3))
+    from_centre = _ON_BALL - sp.Matrix([0, 0, a])
     first = [r_u.dot(r_u) - forms["E"], r_u.dot(r_v), r_v.dot(r_v) - forms["G"]]
-    second = [r.diff(u, 2).dot(e_n) - forms["L"], r.diff(u, v).dot(e_n), r.diff(v, 2).dot(e_n) - forms["N"]]
-    yield "(8)", [sphere, *first, *second]
+    second = [r_u.diff(u).dot(e_n) - forms["L"], r_u.diff(v).dot(e_n), r_v.diff(v).dot(e_n) - forms["N"]]
+    yield "(8)", [from_centre.dot(from_centre) - R**2, *first, *second]
     # sqrt(E) = R and sqrt(G) = R sin u.
-    yield "(1)", [*(R * c[:, 0] - r_u), *(R * sin(u) * c[:, 1] - r_v), *(c[:, 0].cross(c[:, 1]) - e_n)]
+    yield "(1)", [*(R * e_u - r_u), *(R * sin(u) * e_v - r_v), *(e_u.cross(e_v) - e_n)]
 
 
 def _kinematics() -> Iterator[tuple[str, list[Any]]]:
     """(2), (4) and (5)."""
     five = PRINTED["5"]
-    c = _cosines()
-    in_space = _space()
-    rolling = _rolling()
-    contact_on_sphere = R1 * _axes(u1, v1)[2]
-    slip = c.T * rate(_surface(), _ON_BALL) - in_space.T * rate(contact_on_sphere, _ON_SPHERE)
+    rolling = {du1: PRINTED["2"]["u1'"], dv1: PRINTED["2"]["v1'"]}
+    # The frame at the contact point as (u1, v1, theta) tell it: the meridian and the circle on the sphere, turned by theta.
+    out = sp.Matrix([sin(u1) * cos(v1), sin(u1) * sin(v1), cos(u1)])
+    south = out.diff(u1)
+    east = sp.Matrix([-sin(v1), cos(v1), 0])
+    in_space = sp.Matrix.hstack(-sin(theta) * south + cos(theta) * east, cos(theta) * south + sin(theta) * east, -out)
+    slip = _FRAME.T * rate(_ON_BALL, _BALL_CLOCK) - in_space.T * rate(R1 * out, _SPHERE_CLOCK)
     yield "(2)", list(slip.xreplace(rolling))
-    in_frame = _turning(in_space, _ON_SPHERE) - _turning(c, _ON_BALL)
+    in_frame = _turning(in_space, _SPHERE_CLOCK) - _turning(_FRAME, _BALL_CLOCK)
     along = in_frame[0].xreplace(rolling) - five["tau"] * dv
     across = in_frame[1].xreplace(rolling) - five["sigma"] * du
     yield "(5)", [along, across, in_frame[2] - five["n"]]
-    omega = c * sp.Matrix([tau * dv, sigma * du, n])
+    omega = _FRAME * sp.Matrix([tau * dv, sigma * du, n])
     yield "(4)", [omega[i] - PRINTED["4"][f"omega_{i + 1}"] for i in range(3)]
 
 
 def _dynamics() -> Iterator[tuple[str, list[Any]]]:
     """(3) with (6), and (7)."""
     five = PRINTED["5"]
-    values = {tau: five["tau"], sigma: five["sigma"]}
-    energy = _energy()
+    K = PRINTED["6"]
+    energy = K["K11"] * du**2 + K["K22"] * dv**2 + 2 * K["K23"] * dv * n + K["K33"] * n**2  # 2 Theta
     # (3) and (4), in the axes of the ball.
-    one, two, three = (PRINTED["4"][f"omega_{i}"].xreplace(values) for i in (1, 2, 3))
-    X, Y, Z = _surface()
-    w = sp.Matrix([three * Y - two * Z, one * Z - three * X, two * X - one * Y])
-    yield "(3), (6)", [m * w.dot(w) + A1 * (one**2 + two**2) + A3 * three**2 - energy]
+    omega = sp.Matrix([PRINTED["4"][f"omega_{i}"] for i in (1, 2, 3)]).xreplace(
+        {tau: five["tau"], sigma: five["sigma"]}
+    )
+    w = omega.cross(_ON_BALL)
+    yield "(3), (6)", [m * w.dot(w) + A1 * (omega[0] ** 2 + omega[1] ** 2) + A3 * omega[2] ** 2 - energy]
     # In the frame, where v doesn't occur.
-    c = _cosines()
     omega = sp.Matrix([five["tau"] * dv, five["sigma"] * du, n])
-    frame_turns = _turning(c, _ON_BALL)
-    rho, axis = (c.T * vector for vector in (_surface(), sp.Matrix([0, 0, 1])))
-    velocity = rho.cross(omega)
+    turning = omega + _turning(_FRAME, _BALL_CLOCK)
+    axis = _FRAME.T * sp.Matrix([0, 0, 1])
+    velocity = (_FRAME.T * _ON_BALL).cross(omega)
     momentum = A1 * omega + (A3 - A1) * omega.dot(axis) * axis
     clock = {u: du, du: ddu, dv: ddv, n: dn}
-    force, moment = (rate(vector, clock) + (omega + frame_turns).cross(vector) for vector in (m * velocity, momentum))
+    force, moment = (rate(vector, clock) + turning.cross(vector) for vector in (m * velocity, momentum))
     at = {V_u: sp.S.Zero} | {name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))}
     parts = []
     for z, name in ((du, "dTheta_u'/dt"), (dv, "dTheta_v'/dt"), (n, "dTheta_n/dt")):
@@ -182,11 +213,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
     first = nine["a1"] * n + nine["b1"] * dv - (sp.diff(K["K23"], u) * n + sp.diff(K["K22"], u) * dv)
     second = nine["a2"] * n + nine["b2"] * dv - (sp.diff(K["K33"], u) * n + sp.diff(K["K23"], u) * dv)
     yield "(10)", [ten["a1'"] * n + ten["b1'"] * dv - first, ten["a2'"] * n + ten["b2'"] * dv - second]
-    p = {
-        name: value.xreplace({D: PRINTED["system"]["D"]})
-        for key in ("system", "11")
-        for name, value in PRINTED[key].items()
-    }
+    p = {name: value.xreplace({D: _D}) for key in ("system", "11") for name, value in PRINTED[key].items()}
     # v' from the third of (4), in which c23 = 0.
     slope = (cos(u) * n - w3) / (PRINTED["5"]["tau"] * sin(u))
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
@@ -204,7 +231,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
 
 def _in_the_roots() -> Iterator[tuple[str, list[Any]]]:
     """(12) and (13): the roots in place of m and a; their sum gives a, and their product is linear in 1/m."""
-    p = {name: value.xreplace({D: PRINTED["system"]["D"]}) for name, value in PRINTED["11"].items()}
+    p = {name: value.xreplace({D: _D}) for name, value in PRINTED["11"].items()}
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
     place = InRoots(R / R1)

@@ -129,18 +129,22 @@ class Dynamics:
         """D(x) of `kovacic.ball.body`."""
         return self.A1 * (self.A3 + self.m * self.R**2 * (1 - x * x)) + self.A3 * self.m * (self.R * x + self.a) ** 2
 
+    def arm(self, s: Vector) -> tuple[Any, Any, Any]:
+        """r, from the centre of mass to the contact point."""
+        return self.R * s[0], self.R * s[1], self.R * s[2] + self.a
+
     def acceleration(self, s: Vector, omega: Vector) -> tuple[Any, Any, Any]:
         """b."""
         drift = cross(omega, s)
         k = self.R / (1 + self.rho)
-        turn = cross(omega, (self.R * s[0], self.R * s[1], self.R * s[2] + self.a))
+        turn = cross(omega, self.arm(s))
         return cross(omega, [p - k * q for p, q in zip(turn, drift, strict=True)])
 
     def rates(self, slope: Callable[[Any], Any], y: Vector) -> list[Any]:
         """The derivatives of omega, s, the rows of B, and the contact point's way on a plane; floats or arrays of them."""
         omega = y[:3]
         s = y[3:6]
-        r = (self.R * s[0], self.R * s[1], self.R * s[2] + self.a)
+        r = self.arm(s)
         ds = cross(s, omega)
         moved = [cross(y[k : k + 3], omega) for k in (6, 9, 12)]
         J = (self.A1, self.A1, self.A3)

@@ -138,7 +138,7 @@ class Motion:
         """Kinetic and potential energy, from the integrated angular velocity: constant up to its errors."""
         ball = self.ball
         (_, y) = self._at(times)
-        velocity = cross(y[:3], (ball.R * y[3], ball.R * y[4], ball.R * y[5] + ball.a))
+        velocity = cross(y[:3], ball.arm(y[3:6]))
         twice = ball.m * dot(velocity, velocity) + ball.A1 * (y[0] ** 2 + y[1] ** 2) + ball.A3 * y[2] ** 2
         return np.asarray(twice / 2 + self.force.value(colatitude(y[3:6])), dtype=float)
 
@@ -153,7 +153,7 @@ class Motion:
         (_, y) = self._at(times)
         omega = y[:3]
         s = y[3:6]
-        turn = cross(ball.rates(self.force.slope, y)[:3], (ball.R * s[0], ball.R * s[1], ball.R * s[2] + ball.a))
+        turn = cross(ball.rates(self.force.slope, y)[:3], ball.arm(s))
         lever = ball.a * ball.kappa / (1 + ball.rho)  # of the centre of mass, by the distance of the two centres
         weight = self.force.g * (1 + lever * s[2]) / np.sqrt(1 + lever**2 + 2 * lever * s[2])
         return np.asarray(ball.m * (dot(s, turn) + dot(s, ball.acceleration(s, omega)) + weight))
@@ -168,23 +168,19 @@ class Motion:
         start = self._solution(np.array(0.0))
         return self.ball.transport(y[5], start[5], start[2], self.start.n)
 
-    def _check_determined(self, instants: Array) -> None:
-        """An asymptotic motion is known from 0 to `determined`."""
-        outside = (instants < 0) | (instants > self.determined)
-        if not outside.any():
-            return
-        why = "it comes so near to an unstable steady motion that floats don't tell whether and when it turns"
-        said = f"the motion is asymptotic, its digits are lost from t = {self.determined:.6g} on: {why}"
-        hint = f"times from 0 to {self.determined:.6g}, or a velocity at the start that differs by 1e-5 of itself"
-        raise LimitExceeded(f"{said}\n  hint: {hint}", limit="digits")
-
     def _at(self, times: Any) -> tuple[Array, Array]:
         """The number of whole oscillations, and the states (18, ...) in the first one."""
         instants = np.asarray(times, dtype=float)
         if not np.isfinite(instants).all():
             raise InputError("times must be finite")
         if np.isfinite(self.determined):
-            self._check_determined(instants)
+            if ((instants < 0) | (instants > self.determined)).any():
+                why = "it comes so near to an unstable steady motion that floats don't tell whether and when it turns"
+                said = f"the motion is asymptotic, its digits are lost from t = {self.determined:.6g} on: {why}"
+                hint = (
+                    f"times from 0 to {self.determined:.6g}, or a velocity at the start that differs by 1e-5 of itself"
+                )
+                raise LimitExceeded(f"{said}\n  hint: {hint}", limit="digits")
             return np.zeros(instants.shape), self._solution(instants.ravel()).reshape(18, *instants.shape)
         count = np.floor(instants / self._cycle)
         if np.abs(count).max(initial=0) > LONGEST:
@@ -192,18 +188,6 @@ class Motion:
             raise LimitExceeded(f"a motion is followed for {end}", limit="time")
         rest = np.clip(instants - count * self._cycle, 0, self._cycle)
         return count, self._solution(rest.ravel()).reshape(18, *rest.shape)
-
-
-@dataclass(frozen=True, slots=True)
-class _Course:
-    """What an integration says of a motion: the fields of `Motion` of the same names."""
-
-    solution: Callable[[Array], Array]
-    cycle: float
-    period: float | None
-    turning_points: tuple[float, float]
-    approach: float
-    determined: float = np.inf
 
 
 def solve_motion(
@@ -225,50 +209,27 @@ def solve_motion(
     True
     """
     ball = Dynamics.of(sphere)
-    state = _read_state(start)
-    force = _read_force(sphere, gravity, potential)
+    state = State(*(as_float(getattr(start, field.name), field.name) for field in fields(start)))
+    if not 0 <= state.u <= np.pi:
+        raise InputError(f"u is an angle between 0 and pi, not {state.u}")
+    if gravity is not None and potential is not None:
+        raise InputError("either gravity or a potential")
+    if potential is not None:
+        force = Force.of(potential_of(potential))
+    else:
+        force = Force.gravity(sphere, 1 if gravity is None else gravity)
     frame = Rotation.from_euler("ZY", [state.v, state.u]).as_matrix()  # (e_u, e_v, e_r) as columns
     along = [(1 + ball.rho) * np.sin(state.u) * state.dv, -(1 + ball.rho) * state.du, state.n]
     y = np.concatenate([frame @ along, frame[:, 2], np.eye(3).ravel(), np.zeros(3)])
     slopes = np.abs(np.broadcast_to(force.slope(np.linspace(0, np.pi, 65)), 65))
     rate = float(np.linalg.norm(y[:3]) + np.sqrt(slopes.mean() / (ball.A1 + ball.m * ball.R**2))) or 1.0
     course = _follow(ball, force, y, rate)
-    turned = course.solution(np.array(course.cycle))
+    turned = course["_solution"](np.array(course["_cycle"]))
     before, after = (z[[0, 3]] + 1j * z[[1, 4]] for z in (y, turned))  # of omega and s, across the axis
     gain = float(np.angle((after * before.conj() * [rate**-2, 1.0]).sum()))
     turn = Rotation.from_matrix(turned[6:15].reshape(3, 3) @ _turned(_AXIS, np.array(gain))).as_rotvec()
-    return Motion(
-        ball=ball,
-        force=force,
-        start=state,
-        period=course.period,
-        turning_points=course.turning_points,
-        approach=course.approach,
-        determined=course.determined,
-        _solution=course.solution,
-        _cycle=course.cycle,
-        _gain=gain,
-        _turn=turn,
-        _space=_contact_frame(ball, state) @ frame.T,
-    )
-
-
-def _read_state(start: State) -> State:
-    """The start as floats."""
-    state = State(*(as_float(getattr(start, field.name), field.name) for field in fields(start)))
-    if not 0 <= state.u <= np.pi:
-        raise InputError(f"u is an angle between 0 and pi, not {state.u}")
-    return state
-
-
-def _read_force(sphere: BallOnSphere, gravity: Quantity | None, potential: Potential | None) -> Force:
-    if gravity is not None and potential is not None:
-        raise InputError("either gravity or a potential")
-    if potential is not None:
-        return Force.of(potential_of(potential))
-    if gravity is None:
-        gravity = 1
-    return Force.gravity(sphere, gravity)
+    space = _contact_frame(ball, state) @ frame.T
+    return Motion(ball=ball, force=force, start=state, _gain=gain, _turn=turn, _space=space, **course)
 
 
 def _contact_frame(ball: Dynamics, state: State) -> Array:
@@ -278,42 +239,53 @@ def _contact_frame(ball: Dynamics, state: State) -> Array:
     """
     s = np.sin(state.theta)
     c = np.cos(state.theta)
-    if not ball.kappa:
-        return np.array([[-s, c, 0.0], [c, s, 0.0], [0.0, 0.0, -1.0]])
-    on_sphere = Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix()
-    if ball.kappa > 0:
-        return np.asarray(on_sphere @ [[-s, c, 0.0], [c, s, 0.0], [0.0, 0.0, -1.0]])
-    return np.asarray(on_sphere @ [[-s, -c, 0.0], [c, -s, 0.0], [0.0, 0.0, 1.0]])
+    side = -1.0 if ball.kappa < 0 else 1.0
+    frame = np.array([[-s, side * c, 0.0], [c, side * s, 0.0], [0.0, 0.0, -side]])
+    return np.asarray(Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() @ frame) if ball.kappa else frame
 
 
-def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> _Course:
-    """One oscillation from y, some time of a steady motion, or what is known of an asymptotic one."""
+def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, Any]:
+    """One oscillation from y, some time of a steady motion, or what is known of an asymptotic one: fields of `Motion`."""
 
     def change(states: Array) -> Array:
         return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)
 
     if float(change(y)) < _STEADY:
-        solution = _integrate(ball, force, y, rate, turns=0)
-        steady_u = float(colatitude(y[3:6]))
-        return _Course(solution.sol, 10 / rate, None, (steady_u, steady_u), 1.0)
+        steady = float(colatitude(y[3:6]))
+        return {
+            "_solution": _integrate(ball, force, y, rate, turns=0).sol,
+            "_cycle": 10 / rate,
+            "period": None,
+            "turning_points": (steady, steady),
+            "approach": 1.0,
+            "determined": np.inf,
+        }
     solution = _integrate(ball, force, y, rate, turns=4)
     turns = solution.t_events[0]
     distance = change(solution.y)
     approach = float(distance.min() / distance.max())
+    determined = np.inf
+    period = None
     if approach < _ASYMPTOTIC:
         rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _TOLERANCE)
-        end = _last_agreement(solution, rough, rate)
-        ends = np.array([0.0, *turns[turns < end], end])
-        u = colatitude(solution.sol(ends)[3:6])
-        return _Course(solution.sol, end, None, (float(u.min()), float(u.max())), approach, determined=end)
-    # x'' at two turning points: the period is known best between those where it is larger.
-    p = solution.sol(turns[:2])
-    f = np.array(ball.rates(force.slope, p))
-    first, second = np.abs(f[3] * p[1] + p[3] * f[1] - f[4] * p[0] - p[4] * f[0])
-    start = 0 if first >= second else 1
-    period = float(turns[start + 2] - turns[start])
-    low, high = np.sort(colatitude(p[3:6]))
-    return _Course(solution.sol, period, period, (float(low), float(high)), approach)
+        cycle = determined = _last_agreement(solution, rough, rate)
+        u = colatitude(solution.sol(np.array([0.0, *turns[turns < cycle], cycle]))[3:6])
+    else:
+        # x'' at two turning points: the period is known best between those where it is larger.
+        p = solution.sol(turns[:2])
+        f = np.array(ball.rates(force.slope, p))
+        first, second = np.abs(f[3] * p[1] + p[3] * f[1] - f[4] * p[0] - p[4] * f[0])
+        start = 0 if first >= second else 1
+        cycle = period = float(turns[start + 2] - turns[start])
+        u = colatitude(p[3:6])
+    return {
+        "_solution": solution.sol,
+        "_cycle": cycle,
+        "period": period,
+        "turning_points": (float(u.min()), float(u.max())),
+        "approach": approach,
+        "determined": determined,
+    }
 
 
 def _last_agreement(fine: Any, rough: Any, rate: float) -> float:
@@ -321,9 +293,7 @@ def _last_agreement(fine: Any, rough: Any, rate: float) -> float:
     times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), _COMPARED)
     scale = np.repeat([rate, 1.0], 3)[:, None]
     difference = np.abs((fine.sol(times) - rough.sol(times))[:6] / scale).max(axis=0)
-    lost = difference > _AGREEMENT
-    if not lost.any():
-        return float(times[-1])
+    lost = np.append(difference > _AGREEMENT, True)
     return float(times[max(int(lost.argmax()) - 1, 0)])
 
 
@@ -350,16 +320,16 @@ def _integrate(
 
     speed.terminal = turns or False  # type: ignore[attr-defined]
     scale = np.repeat([rate, 1.0, ball.R], [3, 12, 3])
-    options: dict[str, Any] = {
-        "rtol": tolerance,
-        "atol": 1e-16 * (tolerance / _TOLERANCE) * scale,
-        "dense_output": True,
-        "method": "DOP853",
-    }
-    if turns:
-        result = solve_ivp(rates, (0.0, 1e12 / rate), y, events=speed, **options)
-    else:
-        result = solve_ivp(rates, (0.0, 10 / rate), y, **options)
+    result = solve_ivp(
+        rates,
+        (0.0, (1e12 if turns else 10) / rate),
+        y,
+        events=speed if turns else None,
+        rtol=tolerance,
+        atol=1e-16 * (tolerance / _TOLERANCE) * scale,
+        dense_output=True,
+        method="DOP853",
+    )
     if not result.success or (turns and len(result.t_events[0]) < turns):
         said = f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}"
         raise LimitExceeded(said, limit="steps")

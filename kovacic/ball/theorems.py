@@ -61,7 +61,7 @@ class BallSolution:
     y: sp.Expr
     omega_3: sp.Expr
     n: sp.Expr
-    E: sp.Expr | None = None  # of which powers occur: D'/2 + sqrt(l D), or its negative where that is positive
+    E: sp.Expr | None = None
 
     def solves(self, place: Rolling) -> bool:
         """Do omega, y, n and omega_3 as they're printed satisfy (13) and the linear system (see `linear_system`)?
@@ -117,119 +117,55 @@ def closed_form(place: Rolling) -> BallSolution:
     """
     if isinstance(place, InRoots):
         return _in_roots(place)
-    letters = _Letters.of(place)
-    rho = letters.rho
-    if rho != 0 and letters.leading == 0 == letters.half:
-        return _with_constant_D(letters)
-    found = _general(letters)
-    omega = found.omega
-    if (2 * rho).is_Integer and rho != 0 and len(place.roots) == 2:
+    rho = place.ratio
+    root = sp.sqrt(place.D)
+    if rho != 0 and place.leading == 0 == place.half:  # D is constant, and its powers go into c1 and c2
+        y = C1 + C2 * X
+        return BallSolution((sp.Integer(0), 1 / X), y, y, -C2 * place.D / rho / place.weight)
+    eta, spin, omega, E = _general(place)
+    quarter = place.D ** sp.Rational(1, 4)
+    if sign(place.discriminant) == 0 and place.leading != 0 and rho != 0:  # D is a square
+        quarter = sp.sqrt(sp.sqrt(place.leading) * (X + place.half.subs(X, 0) / place.leading))
+    if rho.is_number and (2 * rho).is_Integer and rho != 0 and len(place.roots) == 2:
         omega = _in_roots(InRoots(rho)).omega
-    omega_3 = found.eta / found.quarter**2
-    if rho == 1:  # c1 by itself
-        omega_3 = sum(term / letters.root for term in found.eta.args)
-    return BallSolution(omega, found.quarter * found.eta, omega_3, found.spin / letters.weight, found.E)
+    # For rho = 1, c1 stands by itself.
+    omega_3 = sum(term / root for term in eta.args) if rho == 1 else eta / quarter**2
+    return BallSolution(omega, quarter * eta, omega_3, spin / place.weight, E)
 
 
-@dataclass(frozen=True)
-class _Letters:
-    """D, l, D'/2, d and rho of a ball, and m R^2 A1."""
-
-    D: sp.Expr
-    leading: sp.Expr
-    half: sp.Expr
-    d: sp.Expr
-    rho: sp.Expr
-    weight: sp.Expr
-
-    @classmethod
-    def of(cls, place: Rolling) -> _Letters:
-        return cls(place.D, place.leading, place.half, place.discriminant / 4, place.ratio, place.weight)
-
-    @property
-    def root(self) -> sp.Expr:
-        """sqrt(D)."""
-        return sp.sqrt(self.D)
-
-    @property
-    def scale(self) -> sp.Expr:
-        """sqrt(l)."""
-        return sp.sqrt(self.leading)
-
-    @property
-    def share(self) -> sp.Expr:
-        """D'/(4 D)."""
-        return sp.factor(self.half / (2 * self.D))
-
-
-@dataclass(frozen=True)
-class _General:
-    """eta, m R^2 A1 n, omega, D^(1/4) and E: the general solution, before it is written."""
-
-    eta: sp.Expr
-    spin: sp.Expr
-    omega: tuple[sp.Expr, ...]
-    quarter: sp.Expr
-    E: sp.Expr | None = None
-
-
-def _with_constant_D(c: _Letters) -> BallSolution:
-    """The powers of D go into c1 and c2, of y too."""
-    n = -C2 * c.D / c.rho / c.weight
-    return BallSolution((c.share, 1 / X), C1 + C2 * X, C1 + C2 * X, n)
-
-
-def _general(c: _Letters) -> _General:
-    """The general solution in the form that is the simplest for this ball, for a D that isn't constant or rho = 0."""
-    quarter = c.D ** sp.Rational(1, 4)
-    rate = c.rho * c.scale / c.root
-    omega = (c.share + rate, c.share - rate)
-    if c.rho == 0:
-        return _General(C1, C2 - c.half * C1 / c.root, (c.share,), quarter)
-    if c.leading == 0:  # D' is constant; zeta = -(half/rho) c2 by the first of the two equations
-        eta = C1 + C2 * c.root
-        return _General(eta, -c.half * (C2 / c.rho + eta / c.root), (c.share, 3 * c.share), quarter)
-    if sign(c.d) == 0:
-        return _with_double_root(c)
-    if c.rho == 1:
-        eta = C1 * c.root + C2 * c.half
-        spin = -2 * C1 * c.half - C2 * sp.expand(c.leading * c.D + c.half**2) / c.root
-        return _General(eta, spin, omega, quarter)
-    if sign(c.leading) == -1:
-        return _in_angles(c, omega, quarter)
-    return _in_powers(c, omega, quarter)
-
-
-def _with_double_root(c: _Letters) -> _General:
-    """D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); here l > 0, since a double root needs A3 > A1."""
-    linear = X + c.half.subs(X, 0) / c.leading
-    quarter = sp.sqrt(c.scale * linear)
-    eta = C1 * linear**c.rho + C2 * linear ** (-c.rho)
-    spin = -2 * c.scale * C1 * linear**c.rho
-    omega = tuple((sp.Rational(1, 2) + power) / linear for power in (c.rho, -c.rho))
-    return _General(eta, spin, omega, quarter)
-
-
-def _in_angles(c: _Letters, omega: tuple[sp.Expr, ...], quarter: sp.Expr) -> _General:
-    """For l < 0, with E = sqrt(d) exp(i phi)."""
-    phi = sp.acos(c.half / sp.sqrt(c.d))
-    eta = C1 * sp.cos(c.rho * phi) + C2 * sp.sin(c.rho * phi)
-    turned = C1 * sp.cos((1 + c.rho) * phi) + C2 * sp.sin((1 + c.rho) * phi)
-    return _General(eta, -sp.sqrt(c.d) * turned / c.root, omega, quarter)
-
-
-def _in_powers(c: _Letters, omega: tuple[sp.Expr, ...], quarter: sp.Expr) -> _General:
-    """In powers of E; for real roots beyond x = 1, D' is negative and so is E: its negative is as good, and positive."""
-    is_beyond = sign(c.d) == 1 and sign(c.half.subs(X, 0)) == -1
-    if is_beyond:
-        E = -c.half - c.scale * c.root
-        direction = 1
-    else:
-        E = c.half + c.scale * c.root
-        direction = -1
-    eta = C1 * E**c.rho + C2 * E ** (-c.rho)
-    spin = direction * (C1 * E ** (1 + c.rho) + c.d * C2 * E ** (-1 - c.rho)) / c.root
-    return _General(eta, spin, omega, quarter, E)
+def _general(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr, ...], sp.Expr | None]:
+    """eta, m R^2 A1 n, omega and E in the form that is the simplest for this ball, where D isn't constant or rho = 0."""
+    D = place.D
+    half = place.half
+    leading = place.leading
+    rho = place.ratio
+    d = place.discriminant / 4
+    root = sp.sqrt(D)
+    scale = sp.sqrt(leading)
+    share = sp.factor(half / (2 * D))
+    omega = share + rho * scale / root, share - rho * scale / root
+    if rho == 0:
+        return C1, C2 - half * C1 / root, (share,), None
+    if leading == 0:  # D' is constant; zeta = -(half/rho) c2 by the first of the two equations
+        eta = C1 + C2 * root
+        return eta, -half * (C2 / rho + eta / root), (share, 3 * share), None
+    if sign(d) == 0:  # D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); l > 0, since a double root needs A3 > A1
+        linear = X + half.subs(X, 0) / leading
+        omega = tuple((sp.Rational(1, 2) + power) / linear for power in (rho, -rho))
+        return C1 * linear**rho + C2 * linear ** (-rho), -2 * scale * C1 * linear**rho, omega, None
+    if rho == 1:
+        spin = -2 * C1 * half - C2 * sp.expand(leading * D + half**2) / root
+        return C1 * root + C2 * half, spin, omega, None
+    if sign(leading) == -1:  # E = sqrt(d) exp(i phi)
+        phi = sp.acos(half / sp.sqrt(d))
+        turned = C1 * sp.cos((1 + rho) * phi) + C2 * sp.sin((1 + rho) * phi)
+        return C1 * sp.cos(rho * phi) + C2 * sp.sin(rho * phi), -sp.sqrt(d) * turned / root, omega, None
+    # For real roots beyond x = 1, D' is negative and so is E: its negative is as good, and positive.
+    is_beyond = sign(d) == 1 and sign(half.subs(X, 0)) == -1
+    direction = 1 if is_beyond else -1
+    E = -half - scale * root if is_beyond else half + scale * root
+    spin = direction * (C1 * E ** (1 + rho) + d * C2 * E ** (-1 - rho)) / root
+    return C1 * E**rho + C2 * E ** (-rho), spin, omega, E
 
 
 def _in_roots(place: InRoots) -> BallSolution:
