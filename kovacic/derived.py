@@ -68,9 +68,9 @@ def closed_form(answer: Answer) -> ClosedForm | None:
     """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
     if answer.case is None:
         return None
-    from kovacic.closed_form.form import solutions
+    from kovacic.special.choice import solutions
 
-    found = solutions(answer.S, answer.decision, answer.gauge, answer.variable)
+    found = solutions(answer.S, answer.decision, answer.gauge, answer.variable, Budget(answer.limits))
     return _in_given_variable(answer, found)  # type: ignore[no-any-return]
 
 

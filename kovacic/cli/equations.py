@@ -175,31 +175,19 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
 
 
 def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
-    """What `dsolve` finds; beside formulas of many lines a shorter one in special functions, if one is known."""
-    from kovacic.general_solution import dsolve, in_special_functions, validity
+    """What `dsolve` finds, and where it is real."""
+    from kovacic.general_solution import dsolve, validity
     from kovacic.numerals import as_latex, as_text
-    from kovacic.views.sentences import SHORTER
     from kovacic.writing.formula import caret
 
     found = dsolve(equation, **given)
-    shorter = in_special_functions(found, equation, **given)
-
-    def lines(solution: Any, indent: str = "") -> Iterator[str]:
-        yield f"{indent}{solution.lhs} = {caret(as_text(solution.rhs))}"
-        needed = validity(solution)
-        if needed:
-            yield f"  {needed.claim} for {caret(as_text(needed))}"
-
     if latex:
         yield as_latex(found)
-        if shorter is not None:
-            yield r"\text{" + SHORTER + "}"
-            yield as_latex(shorter)
         return
-    yield from lines(found)
-    if shorter is not None:
-        yield SHORTER
-        yield from lines(shorter, indent="  ")
+    yield f"{found.lhs} = {caret(as_text(found.rhs))}"
+    needed = validity(found)
+    if needed:
+        yield f"  {needed.claim} for {caret(as_text(needed))}"
 
 
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:

@@ -148,13 +148,17 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
     for digits in (DIGITS + 15, 3 * DIGITS, 8 * DIGITS, 24 * DIGITS, 96 * DIGITS):
         check_time()
         with ctx.workdps(digits):
-            point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
-            value = residual(expression, variable, S, gauge, point)
+            value = residual(expression, variable, S, gauge, check_point())
             bound = arb(10) ** -DIGITS
             if value < bound or value > bound:  # neither holds for a ball that contains the bound
                 return bool(value < bound)
     said = f"the check of a written-out solution needs more than {digits} digits"
     raise LimitExceeded(said, limit="digits")
+
+
+def check_point() -> Any:
+    """An ordinary point of no particular equation, at the precision in force."""
+    return acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
 
 
 def value_at(r: RatFunc, point: Any) -> Any:

@@ -1,9 +1,10 @@
-"""`solutions`: two independent solutions as SymPy expressions, checked before they are returned."""
+"""`written` and `verified`: two independent solutions as SymPy expressions, and their check."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from typing import Any
 
 from sympy import Add, Mul, Symbol, exp
@@ -15,8 +16,7 @@ from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import triangular
 from kovacic.closed_form.klein import Hypergeometric, KleinForm
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
-from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
-from kovacic.decision import Decision
+from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 from kovacic.errors import VerificationFailed
 from kovacic.limits import check_time
 from kovacic.numerals import as_latex
@@ -36,14 +36,14 @@ class ClosedForm:
     variable : sympy.Symbol
         That of the equation.
     structure
-        The same as data, without SymPy; it may change between versions.
+        What the closed form is made from as data, without SymPy, computed when it is asked for; it may change between versions.
     gauge : RatFunc
         The logarithmic derivative of the factor that is in y1 and y2: 0 where S itself was given.
     checked : str
         "exact" if the equation was verified in rational functions from the factors, or "numerical, 50 digits"; what is shown
         has been checked at a point in either case.
     notes : tuple of str
-        What was left as an integral, and why.
+        What was left as an integral, and why; what is to be known about the formulas.
 
     Examples
     --------
@@ -57,10 +57,14 @@ class ClosedForm:
     y1: Any
     y2: Any
     variable: Any
-    structure: ClosedStructure
     gauge: RatFunc
     checked: str
     notes: tuple[str, ...] = ()
+    build: Callable[[], ClosedStructure] = field(kw_only=True, repr=False, compare=False)
+
+    @cached_property
+    def structure(self) -> ClosedStructure:
+        return self.build()
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.y1, self.y2))
@@ -69,38 +73,30 @@ class ClosedForm:
         return rf"$y_1 = {as_latex(self.y1)},\quad y_2 = {as_latex(self.y2)}$"
 
 
-def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x") -> ClosedForm:
-    """Two independent solutions of the equation that was given: those of y'' = S y times its gauge factor.
-
-    `gauge` is the logarithmic derivative of that factor, -b/(2a) for the equation a z'' + b z' + c z = 0, and 0 for the normal
-    form.  It is merged into the products of powers and exponentials.  Where S is real and has real solutions of a known
-    form, these are returned.
-
-    Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
-    doesn't pass its check, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
-
-    >>> import kovacic
-    >>> answer = kovacic.solve("2/x^2 - 1")
-    >>> form = solutions(answer.S, answer.decision, answer.gauge)
-    >>> form.y1, form.checked
-    ((x*cos(x) - sin(x))/x, 'exact')
-    """
-    if decision.case is None:
-        raise ValueError(decision.undecided or "there is no Liouvillian solution")
-    structure = build(S, decision, gauge)
-    check_time()
-    x = Symbol(variable)
-    atoms = Atoms(x)
+def written(structure: ClosedStructure, gauge: RatFunc, variable: str) -> ClosedForm:
+    """The solutions that the structure says, as SymPy expressions; not checked yet."""
+    atoms = Atoms(Symbol(variable))
     y1, y2, notes = expressions(structure, atoms)
-    y1 = one_exponential(y1)
-    y2 = one_exponential(y2)
+    checked = NUMERICAL if isinstance(structure, KleinForm) else EXACT
+    notes = (*notes, *atoms.notes)
+    build = partial(_same, structure)
+    return ClosedForm(one_exponential(y1), one_exponential(y2), atoms.x, gauge, checked, notes, build=build)
+
+
+def verified(form: ClosedForm, structure: ClosedStructure, S: RatFunc) -> ClosedForm:
+    """The same, checked: the structure exactly in cases 1 and 2, and what is shown at a point.
+
+    Raises `VerificationFailed` if a solution doesn't pass, which is a defect of this package.
+    """
     check_time()
-    exact = not isinstance(structure, KleinForm)
-    passed = not exact or is_exact_solution(structure, S, gauge)
-    if not passed or not all(is_numerical_solution(y, x, S, gauge) for y in (y1, y2)):
+    passed = isinstance(structure, KleinForm) or is_exact_solution(structure, S, form.gauge)
+    if not passed or not all(is_numerical_solution(y, form.variable, S, form.gauge) for y in form):
         raise VerificationFailed(f"a closed form for S = {S} failed its check; please report the equation")
-    checked = EXACT if exact else NUMERICAL
-    return ClosedForm(y1, y2, x, structure, gauge, checked, (*notes, *atoms.notes))
+    return form
+
+
+def _same(structure: ClosedStructure) -> ClosedStructure:
+    return structure
 
 
 def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:

@@ -32,7 +32,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.product import Power, Product, product
+from kovacic.closed_form.product import Power, Product, product, written_length
 from kovacic.decision import SemiInvariant, Structure
 from kovacic.engine.places import Problem, analyse
 from kovacic.engine.riccati import Form, hessian, jacobian, normalised, root
@@ -74,6 +74,11 @@ class KleinForm:
     J: RatFunc
     at_vertices: tuple[Hypergeometric, Hypergeometric]
     at_edges: tuple[Hypergeometric, Hypergeometric]
+
+    @property
+    def length(self) -> int:
+        """About how many characters the solutions (1) take."""
+        return sum(y.factor.length + written_length([self.J]) for y in self.at_vertices)
 
 
 def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Covariants:

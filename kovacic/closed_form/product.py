@@ -55,11 +55,27 @@ class Product:
             total = total + residue.logarithmic
         return total
 
+    @property
+    def length(self) -> int:
+        """About how many characters it takes, without writing it with SymPy."""
+        factors: list[object] = [self.exponential.num, self.exponential.den]
+        for power in self.powers:
+            factors += [power.base, power.exponent]
+        for residue in self.roots:
+            factors += [residue.factor, residue.value]
+        return written_length(factors)
+
     def to_power(self, n: int) -> Product:
         """y^n."""
         powers = tuple(Power(power.base, power.exponent * n) for power in self.powers)
         roots = tuple(Residue(residue.factor, residue.value * n) for residue in self.roots)
         return Product(powers, roots, self.exponential * n)
+
+
+def written_length(parts: Iterable[object]) -> int:
+    """About how many characters these polynomials and rational functions take: none for 1, and a sign beside each other one."""
+    texts = [str(part) for part in parts]
+    return sum(len(text) + 3 for text in texts if text not in ("0", "1"))
 
 
 def gathered(powers: Iterable[Power]) -> tuple[Power, ...]:

@@ -6,17 +6,19 @@ itself), which is merged into the products at once.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.partial_fractions import Decomposition, decompose
+from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, Unit, gathered_zeros, integrate_on_curve
+from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.klein import KleinForm, klein_form
-from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
-from kovacic.closed_form.product import Product, product
+from kovacic.closed_form.primitive import OpenPrimitive, Primitive, RationalPrimitive, integrate_inverse_square
+from kovacic.closed_form.product import Product, product, written_length
 from kovacic.closed_form.torsion import completed
 from kovacic.decision import Decision, SemiInvariant, Structure
 
@@ -27,6 +29,11 @@ class Diagonal:
 
     first: Product
     second: Product
+
+    @property
+    def length(self) -> int:
+        """About how many characters both solutions take, as for all structures."""
+        return self.first.length + self.second.length
 
 
 @dataclass(frozen=True)
@@ -42,6 +49,12 @@ class Conjugate:
     A: Poly
     B: Poly
 
+    @property
+    def length(self) -> int:
+        # Each solution is (A cos V + B sin V) times the common factor.
+        phase = written_length([self.phase.exact, *_residue_parts(self.phase.residues)])
+        return 2 * (self.common.length + written_length([self.A, self.B]) + 2 * phase)
+
 
 @dataclass(frozen=True)
 class Triangular:
@@ -50,6 +63,14 @@ class Triangular:
     first: Product
     bare: Product
     primitive: Primitive
+
+    @property
+    def length(self) -> int:
+        if isinstance(self.primitive, OpenPrimitive):
+            return 2 * self.first.length + self.bare.length
+        # y1 stands before each logarithm, error function, ...
+        parts = primitive_parts(self.primitive)
+        return self.first.length * (1 + len(parts)) + written_length(parts)
 
 
 @dataclass(frozen=True)
@@ -64,8 +85,30 @@ class OnCurve:
     integral: CurveIntegral
     zeros: Unit | None = None
 
+    @property
+    def length(self) -> int:
+        units = (*self.integral.units, *([] if self.zeros is None else [self.zeros]))
+        parts: list[object] = [part for unit in units for part in (unit.A, unit.B, self.integral.g)]
+        return 2 * (self.common.length + written_length([*parts, *primitive_parts(self.integral)]))
+
 
 ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | KleinForm
+
+
+def _residue_parts(residues: Iterable[Residue]) -> list[object]:
+    return [part for residue in residues for part in (residue.factor, residue.value)]
+
+
+def primitive_parts(primitive: Primitive) -> list[object]:
+    """The polynomials and rational functions that an integral is written with."""
+    if isinstance(primitive, RationalPrimitive):
+        return [primitive.parts.exact, *_residue_parts(primitive.parts.residues)]
+    if isinstance(primitive, CurveIntegral):
+        return [primitive.exact, primitive.rest, primitive.g, *_residue_parts(primitive.residues)]
+    if isinstance(primitive, ExponentialPrimitive):
+        terms = [part for term in primitive.terms for part in (term.coefficient, term.q, term.b)]
+        return [primitive.W, *terms, *_residue_parts(primitive.poles)]
+    return []
 
 
 def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:

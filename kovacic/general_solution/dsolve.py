@@ -38,11 +38,12 @@ from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numerals import as_text
-from kovacic.views.sentences import SCREEN
 
 Expr = Any  # SymPy publishes no types
 #: Names of the one method.
 _HINTS = ("default", "best", "kovacic")
+#: Characters; beside a longer formula another one is offered.
+SCREEN = 600
 
 
 @limited

@@ -10,7 +10,7 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.form import at_edges, solutions
+from kovacic.closed_form.form import at_edges
 from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
 from kovacic.equation import Parsed, parameters_of
@@ -25,6 +25,7 @@ from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.reading.change_of_variable import is_power, solution_in_x
 from kovacic.solution import Solution, solve
+from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
 from kovacic.special.search import BySign, by_sign, special_functions
 
@@ -91,7 +92,7 @@ def decide(question: Question, budget: Budget) -> Solution:
 
 def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair:
     """The closed form; in case 3 with given conditions one that doesn't jump where J is 1 or infinite."""
-    form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
+    form = solutions(solution.S, solution.decision, solution.gauge, solution.variable, budget)
     if question.conditions and isinstance(form.structure, KleinForm):
         joined = _joined(solution, form.structure, budget)
         if joined is not None:

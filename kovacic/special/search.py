@@ -159,7 +159,7 @@ def special_functions(
         return search
     try:
         with budget.watched():
-            found = _written(search.pullback, S, gauge, variable, symbols or {}, joined=joined)
+            found = written_pair(search.pullback, S, gauge, variable, symbols or {}, joined=joined)
     except LimitExceeded as limit:
         return SpecialFunctions(None, search.searched, str(limit))
     if found is None:
@@ -168,7 +168,7 @@ def special_functions(
     return SpecialFunctions(search.pullback, search.searched, None, *found)
 
 
-def _written(
+def written_pair(
     pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], *, joined: bool
 ) -> tuple[Expr, Expr] | None:
     """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.

@@ -20,12 +20,10 @@ from kovacic.limits import bounded_work
 from kovacic.numerals import digits
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
-    SHORTER,
     equation_of,
     formulas_of,
     normal_form,
     reason,
-    shorter_pair,
     solutions_of,
     verdict_of,
 )
@@ -254,11 +252,6 @@ class _ExplanationWriter:
             title = "Solutions" if self.answer.case else "Solutions in special functions"
             yield Heading(title)
         yield from (Formula(name.equals(_printable(y))) for name, y in found)
-        longest = max((len(y.text) for _, y in found), default=0)
-        shorter = shorter_pair(self.answer, longest)
-        if shorter:
-            yield say(SHORTER.capitalize())
-            yield from (Formula(name.equals(y)) for name, y in shorter)
         yield from (say(f"Note: {note}.") for note in notes)
 
     def _is_too_long(self) -> bool:

@@ -16,10 +16,6 @@ from kovacic.writing.omega import omega_math
 SOLVABLE = "Liouvillian solutions exist"
 UNSOLVABLE = "no Liouvillian solution exists"
 UNDECIDED = "undecided"
-#: Characters; beside a longer formula another pair is offered.
-SCREEN = 600
-#: What is said before it.
-SHORTER = "shorter, in special functions:"
 
 
 def formulas_of(answer: Answer | Parsed) -> Formulas:
@@ -82,18 +78,6 @@ def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ..
     if form is None:
         return _named(answer, derived.special(answer)), ()
     return _named(answer, form), form.notes
-
-
-def shorter_pair(answer: Answer, length: int) -> list[tuple[Math, Math]]:
-    """Another pair, in special functions, to be shown beside closed forms of so many characters: of at most half of them.
-
-    None is offered beside a formula of less than a screen.
-    """
-    if answer.case is None or length <= SCREEN:
-        return []
-    pair = _named(answer, derived.special(answer))
-    longest = max((len(y.text) for _, y in pair), default=length)
-    return pair if longest < length / 2 else []
 
 
 def _named(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
-from kovacic.errors import LimitExceeded, VerificationFailed
-from kovacic.limits import Budget
-from kovacic.numerals import as_text
+from kovacic.errors import LimitExceeded
 from kovacic.reading.lexer import is_equation
 from kovacic.shown import in_one_line, visible
 from kovacic.views.sentences import (
-    SHORTER,
     SOLVABLE,
     UNDECIDED,
     UNSOLVABLE,
@@ -25,12 +22,11 @@ from kovacic.views.sentences import (
     of_degree,
     omega_of,
     reason,
-    shorter_pair,
     solutions_of,
     unknown_of,
     verdict_of,
 )
-from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, shortened
+from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.writing.omega import omega_lines
 
 if TYPE_CHECKING:
@@ -139,9 +135,7 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
 
     Where there is no Liouvillian solution, the two in special functions, or which were looked for; for an undecided equation
-    these two if they are known under the assumptions.  Beside formulas of many lines there is a shorter pair in special
-    functions, if one is known.  Products of powers and exponentials are written without SymPy, everything else as
-    `Solution.closed_form` has it.
+    these two if they are known under the assumptions.
     """
     if answer.status is Status.UNDECIDED and not (answer.known and derived.special(answer)):
         return
@@ -150,16 +144,12 @@ def solution_lines(answer: Answer) -> Iterator[str]:
         yield f"the solutions aren't written out here: polynomials of degree {semi.P.degree} (--json --full has them)"
         return
     try:
-        found = _written(answer)
+        found, notes = solutions_of(answer)
     except LimitExceeded as limit:
         yield f"the solutions weren't written out: {limit}"
         return
-    yield from _named(answer, found.solutions)
-    shorter = shorter_pair(answer, max(map(len, found.solutions), default=0))
-    if shorter:
-        yield SHORTER
-        yield from _indented(name.equals(value).text for name, value in shorter)
-    yield from (f"note: {note}" for note in found.notes)
+    yield from _named(answer, [value.text for _, value in found])
+    yield from (f"note: {note}" for note in notes)
 
 
 def _named(answer: Answer, solutions: Iterable[str]) -> Iterator[str]:
@@ -173,44 +163,6 @@ def _named(answer: Answer, solutions: Iterable[str]) -> Iterator[str]:
         yield from _indented(named)
     else:
         yield str(derived.special(answer))
-
-
-class _WrittenPair(NamedTuple):
-    """Two solutions as text (none, where none are known), and notes on them."""
-
-    solutions: tuple[str, ...]
-    notes: tuple[str, ...] = ()
-
-
-def _written(answer: Answer) -> _WrittenPair:
-    """The closed forms, without SymPy where that is possible; or the pair in special functions."""
-    if answer.case is None:
-        return _WrittenPair(tuple(caret(as_text(y)) for y in derived.special(answer)))
-    found = _without_sympy(answer)
-    if found is not None:
-        return found
-    form = derived.closed_form(answer)
-    assert form is not None
-    return _WrittenPair(tuple(caret(as_text(y)) for y in form), form.notes)
-
-
-def _without_sympy(answer: Answer) -> _WrittenPair | None:
-    """Products of powers and exponentials, checked; None for other solutions."""
-    from kovacic.closed_form.check import is_exact_solution
-    from kovacic.closed_form.primitive import OpenPrimitive
-    from kovacic.closed_form.structure import Triangular, build
-    from kovacic.views.products import written  # not for a verdict, which takes a fifth less time without it
-
-    with Budget(answer.limits).watched():
-        structure = build(answer.S, answer.decision, answer.gauge)
-        pair = None if answer.change else written(structure, answer.variable)
-        if pair is None:
-            return None
-        if not is_exact_solution(structure, answer.S, answer.gauge):
-            raise VerificationFailed(f"a closed form for S = {answer.S} failed its check; please report the equation")
-    if isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive):
-        return _WrittenPair(pair, (f"integral left because {structure.primitive.reason}",))
-    return _WrittenPair(pair)
 
 
 def _exclusions(answer: Answer) -> list[str]:
@@ -243,10 +195,7 @@ def _as_text(sentence: Iterable[str | Math]) -> str:
 def latex_view(answer: Answer) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
     found, _ = _in_time(answer)
-    shorter = shorter_pair(answer, max((len(value.text) for _, value in found), default=0))
     lines = [equation_of(answer).latex, *(name.equals(value).latex for name, value in found)]
-    if shorter:
-        lines += [rf"\text{{{SHORTER}}}", *(name.equals(value).latex for name, value in shorter)]
     if answer.status in _NEITHER:
         lines.insert(1, rf"\text{{{_NEITHER[answer.status]}}}")
     body = r" \\ ".join(lines)

@@ -1,0 +1,222 @@
+"""The form in which two solutions are written.  Every door shows what `solutions` chooses here; nothing else decides.
+
+An equation with Liouvillian solutions has several forms: elementary functions with their kin (Ei, erf, logarithms over roots);
+special functions, which are those of a standard equation with its actual parameters and, in case 3, Klein's; y1 times an
+integral that is left.  Each `PairForm` knows its kind and about its length from its data, before SymPy is asked for anything.
+
+The order: among the forms of at most `SHORT` characters, or `FACTOR` times the length of the shortest, an elementary one comes
+before special functions, and these come before an integral; among equals the shorter one.  Where the written pair loses more
+than half of 30 digits in the middle of the domain, a form of at most twice its length that doesn't comes first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import Any
+
+from flint import acb, arb, ctx, fmpq
+from sympy import Integral, Symbol
+
+from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import RationalPoly
+from kovacic.closed_form.check import check_point
+from kovacic.closed_form.form import EXACT, ClosedForm, verified, written
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.klein import KleinForm
+from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
+from kovacic.closed_form.product import written_length
+from kovacic.closed_form.structure import ClosedStructure, Triangular, build
+from kovacic.decision import Decision
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, bounded_work, check_time
+from kovacic.special.pullback import Pullback
+from kovacic.special.search import find, written_pair
+
+#: Units of work after which no pull-back is sought any more beside a form that is there.
+_SEARCH = 6000
+#: The working precision of the formula that is to be stable, in digits; half of them are to be left.
+_DIGITS = 30
+#: Shorter pairs aren't asked: too few terms to lose as many digits, at a point of the size of the singular ones.
+_ALWAYS_STABLE = 150
+
+UNSTABLE = f"of {_DIGITS} digits more than half are lost in these formulas by cancellation; `at` has proven values"
+
+
+class FormKind(IntEnum):
+    """Among short forms the one with the lower number is preferred."""
+
+    ELEMENTARY = 0
+    SPECIAL = 1
+    INTEGRAL = 2
+
+
+@dataclass(frozen=True)
+class PairForm:
+    """A form of two solutions: its kind, how many characters both take (about, until it is written), and how it is written."""
+
+    kind: FormKind
+    length: int
+    write: Callable[[], ClosedForm | None] = field(compare=False)
+    pair: ClosedForm | None = None
+
+
+def best(forms: list[PairForm]) -> PairForm:
+    """The preferred one by kind and length."""
+    bound = max(SHORT, FACTOR * min(form.length for form in forms))
+    return min((form for form in forms if form.length <= bound), key=lambda form: (form.kind, form.length))
+
+
+def solutions(
+    S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x", budget: Budget | None = None
+) -> ClosedForm:
+    """Two independent solutions of the equation that was given, in the chosen form, checked.
+
+    `gauge` is the logarithmic derivative of the factor between them and those of y'' = S y, -b/(2a) for the equation
+    a z'' + b z' + c z = 0, and 0 for the normal form.  Where S is real and has real solutions of a known form, these are
+    returned.
+
+    Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
+    doesn't pass its check, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
+
+    >>> import kovacic
+    >>> answer = kovacic.solve("2/x^2 - 1")
+    >>> form = solutions(answer.S, answer.decision, answer.gauge)
+    >>> form.y1, form.checked
+    ((x*cos(x) - sin(x))/x, 'exact')
+    """
+    if decision.case is None:
+        raise ValueError(decision.undecided or "there is no Liouvillian solution")
+    return _Equation(S, decision, gauge, variable, budget or Budget()).chosen()
+
+
+@dataclass(frozen=True)
+class _Equation:
+    """S and the gauge of an equation, and what was decided."""
+
+    S: RatFunc
+    decision: Decision
+    gauge: RatFunc
+    variable: str
+    budget: Budget
+
+    @cached_property
+    def structure(self) -> ClosedStructure:
+        return build(self.S, self.decision, self.gauge)
+
+    def chosen(self) -> ClosedForm:
+        """The preferred pair, checked; or one that keeps its digits and isn't much longer; with a note if there is no such."""
+        # In case 3 Klein's form comes after the pull-back's own parameters.
+        forms = self._special_forms() if self.decision.case == 3 else []
+        if not forms or best(forms).length > SHORT:
+            forms += self._own_forms()
+        found = best(forms)
+        if self.decision.case != 3 and (found.kind != FormKind.ELEMENTARY or found.length > SHORT):
+            forms += self._special_forms()
+        chosen, pair = self._written_best(forms)
+        if chosen.length <= _ALWAYS_STABLE or self._is_stable(pair):
+            return pair
+        others = [form for form in forms if form is not chosen and form.length <= 2 * chosen.length]
+        while others:
+            other, other_pair = self._written_best(others)
+            if self._is_stable(other_pair):
+                return other_pair
+            others.remove(other)
+        return replace(pair, notes=(*pair.notes, UNSTABLE))
+
+    def _own_forms(self) -> list[PairForm]:
+        """That of the structure, and y1 times an integral that is left beside a long one that is written out."""
+        structure = self.structure
+        check_time()
+        is_left = isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive)
+        kind = FormKind.ELEMENTARY
+        if is_left:
+            kind = FormKind.INTEGRAL
+        elif isinstance(structure, KleinForm):
+            kind = FormKind.SPECIAL
+        forms = [PairForm(kind, structure.length, partial(self._written, structure))]
+        if isinstance(structure, Triangular) and not is_left and structure.length > SHORT:
+            left = replace(structure, primitive=OpenPrimitive(LONG.format(structure.length)))
+            forms.append(PairForm(FormKind.INTEGRAL, left.length, partial(self._written, left)))
+        return forms
+
+    def _written(self, structure: ClosedStructure) -> ClosedForm:
+        return verified(written(structure, self.gauge, self.variable), structure, self.S)
+
+    def _special_forms(self) -> list[PairForm]:
+        """A pull-back of a standard equation with its actual parameters, if it is found soon."""
+        try:
+            with bounded_work(_SEARCH):
+                pullback = find(self.S, self.budget, extended=False).pullback
+        except LimitExceeded:
+            return []
+        if pullback is None:
+            return []
+        return [
+            PairForm(FormKind.SPECIAL, 4 * written_length([pullback.f]), partial(self._in_special_functions, pullback))
+        ]
+
+    def _in_special_functions(self, pullback: Pullback) -> ClosedForm | None:
+        """With y1 as it is where that is elementary and short; None where the two aren't known to be independent."""
+        pair = written_pair(pullback, self.S, self.gauge, self.variable, {}, joined=True)
+        if pair is None:
+            return None
+        pairs = [pair]
+        if self.decision.case == 1 and isinstance(self.structure, Triangular):
+            y1 = self._written(replace(self.structure, primitive=OpenPrimitive(""))).y1
+            is_short = len(str(y1)) <= max(len(str(y)) for y in pair)
+            pairs = [*((y1, y2) for y2 in pair if is_short), pair]
+        made = partial(build, self.S, self.decision, self.gauge)
+        forms = (ClosedForm(*pair, Symbol(self.variable), self.gauge, EXACT, build=made) for pair in pairs)
+        return next(filter(_are_independent, forms), None)
+
+    def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
+        """The preferred one, written: its true length, and whether an integral is left, may be other than was thought."""
+        while True:
+            form = best(forms)
+            if form.pair is not None:
+                return form, form.pair
+            forms.remove(form)
+            pair = form.write()
+            if pair is not None:
+                kind = FormKind.INTEGRAL if any(y.has(Integral) for y in pair) else form.kind
+                length = sum(len(str(y)) for y in pair) if forms else form.length
+                forms.append(PairForm(kind, length, form.write, pair))
+            elif not forms:
+                forms += self._own_forms()
+
+    def _is_stable(self, pair: ClosedForm) -> bool:
+        """Do the balls of both solutions, computed with 30 digits, keep half of these?"""
+        den = self.S.den
+        if not isinstance(den, RationalPoly):
+            return True
+        with ctx.workdps(_DIGITS):
+            point = _middle_of_the_domain(den)
+            return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
+
+
+def _are_independent(pair: ClosedForm) -> bool:
+    """Is the Wronskian known not to be zero at a point?"""
+    with ctx.workdps(_DIGITS):
+        y, dy, _ = jet(pair.y1, pair.variable, check_point())
+        z, dz, _ = jet(pair.y2, pair.variable, check_point())
+        W = y * dz - dy * z
+        return bool(W.is_finite() and not W.contains(0))
+
+
+def _middle_of_the_domain(den: RationalPoly) -> Any:
+    """Beside the middle of the longest of the intervals between real singular points; beside 1 to the right of a single one."""
+    real = sorted((zero.real for zero, _ in complex_zeros(den.rep.numer()) if zero.imag == 0), key=float)
+    if len(real) > 1:
+        left, right = max(pairwise(real), key=lambda ends: float(ends[1] - ends[0]))
+    elif real:
+        left, right = real[0], real[0] + 2
+    else:
+        left, right = arb(0), arb(2)
+    width = right - left
+    # Off the axis, where the cuts of roots and logarithms often lie.
+    return acb((left + right) / 2 + width * fmpq(1, 37), width * fmpq(1, 41)).mid()
