@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any
 
 import mpmath
@@ -179,3 +180,21 @@ def test_signs_and_floats() -> None:
     found = kovacic.dsolve(sympy.Eq(w(x).diff(x), w(x) ** 2 + 0.25), ics={w(0): 0.5}).rhs
     assert found.atoms(sympy.Float)
     assert not found.has(sympy.sqrt(2), Rational(1, 2))
+
+
+@pytest.mark.parametrize("third", ["1/3", "1/4", "1/5", "6/5"])
+def test_polynomials_of_case_3_have_no_common_factor(third: str) -> None:
+    """w' = S - w^2 for the hypergeometric equations with the exponent differences 1/2, 1/3 and this one."""
+    c = sympy.Rational(third) ** 2
+    x, w = sympy.symbols("x w")
+    S = (
+        -sympy.Rational(3, 16) / x**2
+        - sympy.Rational(2, 9) / (x - 1) ** 2
+        + (sympy.Rational(23, 36) + c) / (4 * x * (x - 1))
+    )
+    M = kovacic.solve_riccati(S, 0, -1).polynomial
+    coefficients = [sympy.Poly(a, x) for a in sympy.Poly(M, w).all_coeffs()]
+    assert reduce(sympy.gcd, coefficients).degree() == 0
+    assert reduce(sympy.gcd, (c for a in coefficients for c in a.coeffs())) == 1
+    total = (M.diff(w) * (S - w**2) + M.diff(x)).subs(x, 3)
+    assert sympy.rem(sympy.Poly(total, w), sympy.Poly(M.subs(x, 3), w)) == 0

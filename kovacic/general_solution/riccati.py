@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf
+from fractions import Fraction
+from math import gcd, lcm
 from typing import Any
 
 import sympy
 
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError
 from kovacic.general_solution.first_order import read_first_order
-from kovacic.limits import DEFAULT_LIMITS, Limits, limited, watched_seconds
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, limited
 from kovacic.numerals import as_latex, plain_text
-from kovacic.process import last_of
 from kovacic.solution import Solution, solve
 
 
@@ -62,10 +64,6 @@ class RiccatiSolutions:
         if self.polynomial is not None:
             found.append((as_latex(self.polynomial), 0))
         return r",\quad ".join(f"{left} = {as_latex(right)}" for left, right in found).join("$$")
-
-
-#: Degrees of all coefficients of omega's polynomial together, from which on its change of variable is made in a process.
-_LONG_POLYNOMIAL = 300
 
 
 @limited
@@ -115,11 +113,11 @@ def solve_riccati(
         return RiccatiSolutions((), None, None, are_all, solution)
     all_algebraic = None if group is None else group.finite
     atoms = Atoms(sympy.Symbol(solution.variable))
+    if solution.case != 1:
+        polynomial = _polynomial(solution, linear.gauge, R, atoms)
+        return RiccatiSolutions((), None, polynomial, all_algebraic, solution)
     gauge = atoms.ratio(linear.gauge)
     factor = atoms.ratio(R)
-    if solution.case != 1:
-        polynomial = _polynomial(solution, gauge, factor, atoms)
-        return RiccatiSolutions((), None, polynomial, all_algebraic, solution)
     family = _family(solution, factor, atoms.x) if all_algebraic else None
     if group is not None and group.order in (1, 2):  # infinitely many are rational
         return RiccatiSolutions((), family, None, all_algebraic, solution)
@@ -155,37 +153,40 @@ def _family(solution: Solution, factor: Any, x: Any) -> Any:
     return sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(x) / (factor * u))))
 
 
-def _polynomial(solution: Solution, gauge: Any, factor: Any, atoms: Atoms) -> Any:
-    """The polynomial for omega = -r w - gauge; None where that for omega isn't known."""
+def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
+    """The polynomial of omega = -r w - gauge in w, without a common factor; None where that for omega isn't known."""
     if solution.riccati is None:
         return None
+    field = solution.riccati.coefficients[0].field
+    slope, rest = (RatFunc(-part.num.over(field), part.den.over(field), reduced=True) for part in (factor, gauge))
+    by_powers: list[RatFunc] = []
+    for c in reversed(solution.riccati.coefficients):  # Horner: q(w) (slope w + rest) + c
+        check_time()
+        shifted = [rest * 0, *(a * slope for a in by_powers)]
+        low = [*(a * rest for a in by_powers), rest * 0]
+        by_powers = [a + b for a, b in zip(shifted, low, strict=True)]
+        by_powers[0] = by_powers[0] + c
     w = sympy.Symbol("w")
-    omega = -factor * w - gauge
-    coefficients = solution.riccati.coefficients
-    value = sum(atoms.ratio(c) * omega**k for k, c in enumerate(coefficients))
-    degrees = sum(c.num.degree + c.den.degree for c in coefficients)
-    if degrees < _LONG_POLYNOMIAL:
-        return _cleared(value, w)
-    return _cleared_apart(value, w)
+    return sympy.Add(*(atoms.poly(a) * w**k for k, a in enumerate(_coprime(by_powers))))
 
 
-def _cleared(value: Any, w: Any) -> Any:
-    """The numerator, by powers of w."""
-    return sympy.collect(sympy.expand(sympy.numer(sympy.together(value))), w)
-
-
-def _cleared_apart(value: Any, w: Any) -> Any:
-    """The same where it can be stopped, since SymPy may take minutes."""
-    found = last_of(_yield_cleared, value, w, seconds=watched_seconds(inf))
-    if found is None:
-        raise LimitExceeded(
-            "the polynomial of the algebraic solutions takes longer than the time limit", limit="seconds"
-        )
-    return found
-
-
-def _yield_cleared(value: Any, w: Any) -> Iterator[Any]:
-    yield _cleared(value, w)
+def _coprime(fractions: list[RatFunc]) -> list[Poly]:
+    """The multiples of rational functions that are polynomials without a common factor; over Q with coprime integers."""
+    den = fractions[0].den
+    for fraction in fractions[1:]:
+        den = den * (fraction.den // den.gcd(fraction.den))
+    found = [(fraction * den).num for fraction in fractions]
+    common = found[-1]
+    for polynomial in found[:-1]:
+        common = common.gcd(polynomial)
+    found = [polynomial // common for polynomial in found]
+    if found[0].field != QQ:
+        return found
+    contents = [polynomial.content() for polynomial in found if polynomial]
+    content = Fraction(gcd(*(top for top, _ in contents)), lcm(*(bottom for _, bottom in contents)))
+    if found[-1].rational_coefficients()[-1] < 0:
+        content = -content
+    return [polynomial * (1 / content) for polynomial in found]
 
 
 def _rational_omegas(solution: Solution, atoms: Any) -> list[Any]:
