@@ -39,6 +39,7 @@ _NAMES = {
     "limits": ("Limits",),
     "parameters": ("conditions",),
     "solution": ("Solution", "solve"),
+    "writing.code": ("as_code",),
 }
 _MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}
 

@@ -31,5 +31,6 @@ from kovacic.limits import Limits as Limits
 from kovacic.parameters import conditions as conditions
 from kovacic.solution import Solution as Solution
 from kovacic.solution import solve as solve
+from kovacic.writing.code import as_code as as_code
 
 __version__: str

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
+from build import run
 
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
@@ -69,3 +70,53 @@ def test_pi_is_a_number_in_what_is_written(given: object) -> None:
     written = (*answer.solutions, *answer.special)
     assert written
     assert all(y.free_symbols == {x} for y in written)
+
+
+def test_code_of_other_systems() -> None:
+    """The arguments as each system defines its functions: a modulus k or its square m, n before phi or behind, lists."""
+    m, n, t = sympy.symbols("m n t")
+    expected = {
+        sympy.elliptic_f(t, m): ("EllipticF[t, m]", "EllipticF(sin(t), sqrt(m))", "Elliptic.F(t, m)"),
+        sympy.elliptic_k(m): ("EllipticK[m]", "EllipticK(sqrt(m))", "ellipk(m)"),
+        sympy.elliptic_e(m): ("EllipticE[m]", "EllipticE(sqrt(m))", "ellipe(m)"),
+        sympy.elliptic_e(t, m): ("EllipticE[t, m]", "EllipticE(sin(t), sqrt(m))", "Elliptic.E(t, m)"),
+        sympy.elliptic_pi(n, t, m): ("EllipticPi[n, t, m]", "EllipticPi(sin(t), n, sqrt(m))", "Elliptic.Pi(n, t, m)"),
+        sympy.lowergamma(n, t): ("Gamma[n, 0, t]", "(GAMMA(n) - GAMMA(n, t))", "(gamma(n) - gamma(n, t))"),
+        sympy.hyper((n,), (), t): ("HypergeometricPFQ[{n}, {}, t]", "hypergeom([n], [], t)", "pFq((n,), (), t)"),
+        sympy.airyaiprime(t): ("AiryAiPrime[t]", "AiryAi(1, t)", "airyaiprime(t)"),
+        sympy.Ei(sympy.pi * t): ("ExpIntegralEi[Pi*t]", "Ei(Pi*t)", "expinti(pi * t)"),
+        sympy.E * t + sympy.I * sympy.pi: ("E*t + I*Pi", "exp(1)*t + I*Pi", "exp(1) * t + (pi) * im"),
+        sympy.Integral(sympy.exp(t**2), (t, 0, n)): (
+            "Integrate[Exp[t^2], {t, 0, n}]",
+            "Int(exp(t^2), t = 0 .. n)",
+            "Julia has no Integral, or one with another meaning",
+        ),
+        sympy.assoc_legendre(n, m, t): (
+            "LegendreP[n, m, t]",
+            *(f"{name} has no assoc_legendre, or one with another meaning" for name in ("Maple", "Julia")),
+        ),
+        sympy.Symbol("D") * t: (
+            "D can't be the name of a letter in Mathematica\n  hint: rename it with subs",
+            "D can't be the name of a letter in Maple\n  hint: rename it with subs",
+            "D .* t",
+        ),
+    }
+    for expression, codes in expected.items():
+        for language, code in zip(("mathematica", "maple", "julia"), codes, strict=True):
+            try:
+                found = kovacic.as_code(expression, language)
+            except kovacic.InputError as refused:
+                found = str(refused)
+            assert found == code
+
+
+def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["solve", "--as", "maple", "x^2 + 3", "x"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "# y'' = (x^2 + 3) y: case 1, omega = (x^2 + 1)/x",
+        "y1 := x*exp((1/2)*x^2);",
+        "y2 := sqrt(Pi)*x*exp((1/2)*x^2)*erf(x) + exp(-1/2*x^2);",
+        "# y'' = x y: no Liouvillian solution",
+        "y1 := AiryAi(x);",
+        "y2 := AiryBi(x);",
+    ]

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
 @options.equation_command()
 @click.argument("equations", metavar="S...", nargs=-1, required=True)
 @options.formats(
-    json="One JSON object (schema 1) a line for each equation.", latex="The equation and its solutions in LaTeX."
+    json="One JSON object (schema 1) a line for each equation.",
+    latex="The equation and its solutions in LaTeX.",
+    code="Two solutions as code of another system.",
 )
 @click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
 @click.option("--no-solutions", is_flag=True, help="Only the verdict and omega: faster.")
@@ -55,13 +57,17 @@ def solve(
     kovacic solve "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
     kovacic solve "y'' + 4*y = sin(x)"
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
+    kovacic solve --as mathematica "x^2 + 3"
     """
     from kovacic.views.text import render, solution_lines
 
     if form != "json":
         options.refuse({"full"}, "without --json")
     if form != "text":
-        options.refuse({"no_solutions", "derived"}, f"with --{form.replace('formula', 'latex')}")
+        named = {"json": "--json", "formula": "--latex"}
+        options.refuse({"no_solutions", "derived"}, f"with {named.get(form, '--as')}")
+    if form in options.LANGUAGES:
+        options.refuse({"ics"}, "with --as")
     if derived:  # the former names of what explain and dsolve do
         options.refuse({"ics"}, "with --explain")
         return int(context.invoke(explain, equations=equations, no_solutions=no_solutions, **given))
@@ -76,6 +82,8 @@ def solve(
             return (answer.to_json(full=full),)
         if form == "formula":
             return (answer._repr_latex_(),)
+        if form in options.LANGUAGES:
+            return _assignments(answer, form)
         solutions: Iterable[str] | None = None
         if not no_solutions:
             homogeneous = answer.equation is None or answer.equation.is_homogeneous
@@ -85,6 +93,15 @@ def solve(
     refuse = _print_refusal if form == "json" else None
     gap = "\n" if form == "text" else ""
     return options.answer_each(equations, show, gap=gap, refuse=refuse, **given)
+
+
+def _assignments(answer: Solution, language: str) -> Iterator[str]:
+    """The equation and the verdict as a comment, and two solutions if they are known."""
+    from kovacic.writing.code import LANGUAGES, as_code
+
+    yield LANGUAGES[language].comment.format(answer)
+    for k, y in enumerate(answer.solutions or answer.special, start=1):
+        yield LANGUAGES[language].assignment.format(f"y{k}", as_code(y, language))
 
 
 def _print_refusal(text: str, error: KovacicError) -> None:

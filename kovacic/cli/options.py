@@ -60,32 +60,44 @@ _CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 DOCUMENTS = {".html": "html", ".md": "markdown", ".tex": "latex", ".txt": "text"}
 
 
+#: Of `kovacic.as_code`.
+LANGUAGES = ("mathematica", "maple", "julia")
+
+
 def formats(
     *,
     json: str | None = None,
     latex: str | None = None,
+    code: str | None = None,
     choice: str | None = None,
     choices: Sequence[str] = ("text", "markdown", "latex", "html"),
     suffixes: Mapping[str, str] | None = None,
     default: str = "text",
 ) -> Callable[[Function], Function]:
-    """The options --json, --latex and --format, those that have a help text here, for what a command prints.
+    """The options --json, --latex, --as and --format, those that have a help text here, for what a command prints.
 
-    The command gets a single keyword `form`: "json"; "formula" for --latex; what --format or the suffix of --output says; or
-    the default.  Two of them at once are refused.
+    The command gets a single keyword `form`: "json"; "formula" for --latex; the language of --as; what --format or the suffix
+    of --output says; or the default.  Two of them at once are refused.
     """
     found = {
         "as_json": json and click.option("--json", "as_json", is_flag=True, help=json),
         "as_formula": latex and click.option("--latex", "as_formula", is_flag=True, help=latex),
+        "language": code and click.option("--as", "language", type=click.Choice(LANGUAGES), help=code),
         "form": choice and click.option("--format", "form", type=click.Choice(choices), help=choice),
     }
 
     def decorate(command: Function) -> Function:
         @wraps(command)
         def with_form(
-            *arguments: Any, as_json: bool = False, as_formula: bool = False, form: str | None = None, **given: Any
+            *arguments: Any,
+            as_json: bool = False,
+            as_formula: bool = False,
+            language: str | None = None,
+            form: str | None = None,
+            **given: Any,
         ) -> Any:
-            asked = {"--json": as_json and "json", "--latex": as_formula and "formula", "--format": form}
+            formula = as_formula and "formula"
+            asked = {"--json": as_json and "json", "--latex": formula, "--as": language, "--format": form}
             chosen = [name for name, value in asked.items() if value]
             if len(chosen) > 1:
                 raise click.UsageError(f"{' and '.join(chosen)} exclude each other")

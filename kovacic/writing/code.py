@@ -1,0 +1,243 @@
+"""SymPy expressions as code of Mathematica, Maple and Julia: SymPy's printers, with our own names where theirs are wrong.
+
+Maple's elliptic integrals take the sine of the amplitude and the modulus k, m = k^2, where SymPy has the amplitude and m.
+Julia's functions are those of SpecialFunctions.jl, HypergeometricFunctions.jl (pFq) and Elliptic.jl.  What a language lacks, or
+has with another meaning (the branches of Maple's LegendreP are others), is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from sympy.printing.julia import JuliaCodePrinter
+from sympy.printing.maple import MapleCodePrinter
+from sympy.printing.mathematica import MCodePrinter
+
+from kovacic.errors import InputError
+
+Expr = Any  # SymPy publishes no types
+
+#: What all of SymPy's printers write correctly.
+_ELEMENTARY = "exp log Abs sin cos tan cot sec csc asin acos atan sinh cosh tanh coth asinh acosh atanh"
+#: SymPy's names with the others' names, or with a pattern for the printed arguments; E/1 is E with one argument.
+_MATHEMATICA = """
+    besselj BesselJ, bessely BesselY, besseli BesselI, besselk BesselK, jn SphericalBesselJ, yn SphericalBesselY,
+    airyai AiryAi, airybi AiryBi, airyaiprime AiryAiPrime, airybiprime AiryBiPrime, erf Erf, erfc Erfc, erfi Erfi,
+    Ei ExpIntegralEi, Si SinIntegral, Ci CosIntegral, gamma Gamma, uppergamma Gamma, fresnels FresnelS, fresnelc FresnelC,
+    polylog PolyLog, sign Sign, elliptic_k EllipticK, elliptic_f EllipticF, elliptic_e EllipticE, elliptic_pi EllipticPi,
+    assoc_legendre LegendreP, legendre LegendreP, assoc_laguerre LaguerreL, laguerre LaguerreL, hermite HermiteH,
+    jacobi JacobiP, gegenbauer GegenbauerC, mathieuc MathieuC, mathieus MathieuS, mathieucprime MathieuCPrime,
+    mathieusprime MathieuSPrime, hyper HypergeometricPFQ
+"""
+_MAPLE = """
+    besselj BesselJ, bessely BesselY, besseli BesselI, besselk BesselK, airyai AiryAi, airybi AiryBi, erf erf, erfc erfc,
+    erfi erfi, Ei Ei, Si Si, Ci Ci, gamma GAMMA, uppergamma GAMMA, fresnels FresnelS, fresnelc FresnelC, polylog polylog,
+    sign signum, assoc_laguerre LaguerreL, laguerre LaguerreL, hermite HermiteH, jacobi JacobiP,
+    gegenbauer GegenbauerC, mathieuc MathieuC, mathieus MathieuS, mathieucprime MathieuCPrime, mathieusprime MathieuSPrime,
+    hyper hypergeom
+"""
+_JULIA = """
+    besselj besselj, bessely bessely, besseli besseli, besselk besselk, jn sphericalbesselj, yn sphericalbessely,
+    airyai airyai, airybi airybi, airyaiprime airyaiprime, airybiprime airybiprime, erf erf, erfc erfc, erfi erfi, Ei expinti,
+    Si sinint, Ci cosint, gamma gamma, uppergamma gamma, sign sign, elliptic_k ellipk, elliptic_e/1 ellipe,
+    elliptic_f Elliptic.F, elliptic_e/2 Elliptic.E, elliptic_pi/3 Elliptic.Pi, hyper pFq
+"""
+_PATTERNS: dict[str, dict[str, str]] = {
+    "mathematica": {
+        "lowergamma": "Gamma[{0}, 0, {1}]",
+        "Heaviside": "UnitStep[{0}]",
+        "Integral/1": "Integrate[{0}, {1}]",
+        "Integral/3": "Integrate[{0}, {{1}, {2}, {3}}]",
+        "RootSum": "RootSum[Function[{2}, {0}], Function[{2}, {1}]]",
+    },
+    "maple": {
+        "lowergamma": "(GAMMA({0}) - GAMMA({0}, {1}))",
+        "Heaviside": "Heaviside({0})",
+        "airyaiprime": "AiryAi(1, {0})",
+        "airybiprime": "AiryBi(1, {0})",
+        "elliptic_k": "EllipticK(sqrt({0}))",
+        "elliptic_f": "EllipticF(sin({0}), sqrt({1}))",
+        "elliptic_e/1": "EllipticE(sqrt({0}))",
+        "elliptic_e/2": "EllipticE(sin({0}), sqrt({1}))",
+        "elliptic_pi/2": "EllipticPi({0}, sqrt({1}))",
+        "elliptic_pi/3": "EllipticPi(sin({1}), {0}, sqrt({2}))",
+        "Integral/1": "Int({0}, {1})",
+        "Integral/3": "Int({0}, {1} = {2} .. {3})",
+        "RootSum": "sum({1}, {2} = RootOf({0}, {2}))",
+    },
+    "julia": {"lowergamma": "(gamma({0}) - gamma({0}, {1}))"},
+}
+
+
+@dataclass(frozen=True)
+class _Language:
+    """Its name, SymPy's printer, its brackets around arguments and lists, and names with a meaning of their own."""
+
+    name: str
+    printer: Any
+    calls: tuple[str, str]
+    lists: tuple[str, str]
+    functions: str
+    patterns: Mapping[str, str]
+    taken: str
+    assignment: str
+    comment: str
+
+    @property
+    def known(self) -> dict[str, str]:
+        """Patterns and names of functions by SymPy's."""
+        words = self.functions.replace(",", " ").split()
+        return {**dict(zip(words[::2], words[1::2], strict=True)), **self.patterns}
+
+
+LANGUAGES = {
+    "mathematica": _Language(
+        "Mathematica",
+        MCodePrinter,
+        ("[", "]"),
+        ("{", "}"),
+        _MATHEMATICA,
+        _PATTERNS["mathematica"],
+        "C D E I K N O Pi",
+        "{} = {};",
+        "(* {} *)",
+    ),
+    "maple": _Language(
+        "Maple",
+        MapleCodePrinter,
+        ("(", ")"),
+        ("[", "]"),
+        _MAPLE,
+        _PATTERNS["maple"],
+        "D I O Pi gamma Zeta Psi",
+        "{} := {};",
+        "# {}",
+    ),
+    "julia": _Language(
+        "Julia",
+        JuliaCodePrinter,
+        ("(", ")"),
+        ("(", ")"),
+        _JULIA,
+        _PATTERNS["julia"],
+        "im pi e gamma",
+        "{}(x) = {}",
+        "# {}",
+    ),
+}
+
+
+def as_code(expression: Expr, language: str) -> str:
+    """A SymPy expression as code of another system.
+
+    Parameters
+    ----------
+    expression : sympy.Expr
+        What `solutions`, `special`, `dsolve(...).rhs` and others return.
+    language : str
+        "mathematica", "maple" or "julia" (with SpecialFunctions.jl, HypergeometricFunctions.jl and Elliptic.jl).
+
+    Returns
+    -------
+    str
+        One line, in which every function has its meaning in SymPy; elliptic integrals in Maple for amplitudes in [-pi/2, pi/2].
+
+    Raises
+    ------
+    InputError
+        For another language, for a function that the language lacks, and for a name that means something else in it.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> y1, y2 = kovacic.solve("(-32*x**2 + 27*x - 27)/(144*x**2*(x - 1)**2)").solutions
+    >>> print(kovacic.as_code(y1, "mathematica"))
+    x^(1/4)*(x - 1)^(1/3)*HypergeometricPFQ[{-1/12, 1/4}, {1/2}, x]
+    >>> print(kovacic.as_code(y1, "maple"))
+    x^(1/4)*(x - 1)^(1/3)*hypergeom([-1/12, 1/4], [1/2], x)
+    """
+    chosen = LANGUAGES.get(language)
+    if chosen is None:
+        raise InputError(f"{language!r} is no language here", hint=f"the languages are {', '.join(LANGUAGES)}")
+    expression = sympy.sympify(expression, strict=True)
+    for name in sorted(symbol.name for symbol in expression.free_symbols):
+        is_pattern = "_" in name and language == "mathematica"
+        if is_pattern or name in chosen.taken.split():
+            raise InputError(f"{name} can't be the name of a letter in {chosen.name}", hint="rename it with subs")
+    return str(_printer(chosen).doprint(expression))
+
+
+def _printer(language: _Language) -> Any:
+    """SymPy's printer, which asks the table first and refuses what isn't in it."""
+    known = language.known
+
+    class Printer(language.printer):  # type: ignore[misc, name-defined]
+        def _print(self, expr: Expr, **options: Any) -> str:
+            kind = type(expr).__name__
+            own = known.get(kind) or known.get(f"{kind}/{_count(expr)}")
+            if own is not None:
+                return _filled(own, [self._print(part) for part in _arguments(expr)], language)
+            if isinstance(expr, sympy.Tuple):
+                return _list([self._print(part) for part in expr], language)
+            if _is_foreign(expr):
+                raise InputError(f"{language.name} has no {kind}, or one with another meaning")
+            corrected = _in_julia(self._print, expr) if language.name == "Julia" else None
+            return corrected or str(super()._print(expr, **options))
+
+    return Printer({"contract": False} if language.name == "Julia" else {})
+
+
+def _count(expr: Expr) -> int:
+    """The number of arguments; of an integral that of the variable and the ends."""
+    return len(expr.limits[0]) if isinstance(expr, sympy.Integral) else len(getattr(expr, "args", ()))
+
+
+def _arguments(expr: Expr) -> tuple[Expr, ...]:
+    """An integral has the variable, or it and the ends; a sum over roots p, f(a) and a, which is no letter of f."""
+    if isinstance(expr, sympy.Integral):
+        (limits,) = expr.limits
+        return (expr.function, *limits)
+    if isinstance(expr, sympy.RootSum):
+        used = {symbol.name for symbol in expr.free_symbols}
+        a = next(sympy.Symbol(name) for name in "abcrst" if name not in used)
+        return expr.poly.as_expr().xreplace({expr.poly.gen: a}), expr.fun(a), a
+    return tuple(expr.args)
+
+
+def _list(parts: list[str], language: _Language) -> str:
+    """A list or a tuple."""
+    before, after = language.lists
+    if language.name == "Julia" and parts:
+        after = ",)"
+    return before + ", ".join(parts) + after
+
+
+def _filled(own: str, arguments: list[str], language: _Language) -> str:
+    """A pattern with the arguments, or a name before all of them."""
+    if "{0}" not in own:
+        before, after = language.calls
+        return own + before + ", ".join(arguments) + after
+    for k, argument in enumerate(arguments):
+        own = own.replace(f"{{{k}}}", argument)
+    return own
+
+
+def _is_foreign(expr: Expr) -> bool:
+    """Is it a function without a rule, or what only SymPy has?"""
+    if isinstance(expr, sympy.Function):
+        return type(expr).__name__ not in _ELEMENTARY.split()
+    return isinstance(expr, sympy.CRootOf | sympy.RootSum | sympy.Integral | sympy.Derivative)
+
+
+def _in_julia(shown: Any, expr: Expr) -> str | None:
+    """What SymPy's printer gets wrong there: e, multiples of i such as i*pi, and roots of negative numbers."""
+    if expr is sympy.E:
+        return "exp(1)"
+    if expr.is_Mul and expr.is_number and expr.is_imaginary:
+        return f"({shown(expr / sympy.I)}) * im"
+    if expr.is_Pow and expr.base.is_negative and not expr.exp.is_integer:
+        return f"complex({shown(expr.base)}) ^ ({shown(expr.exp)})"
+    return None
