@@ -61,7 +61,8 @@ class _PowersForT:
         where = solution.where
         if conditions or not where:
             where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in conditions)
-        return PolynomialSolution(raised(solution.y), raised(solution.degree), conditions, where)
+        parameters = tuple(map(raised, solution.jacobi))
+        return PolynomialSolution(raised(solution.y), raised(solution.degree), conditions, where, parameters)
 
 
 def in_powers(S: RatFunc) -> InPowers | None:

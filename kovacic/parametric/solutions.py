@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from itertools import product
+from itertools import chain, count, product
 from typing import Any, NamedTuple
 
 import sympy
@@ -21,7 +21,9 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.product import Product
 from kovacic.closed_form.product import product as product_of_powers
+from kovacic.closed_form.structure import Diagonal, build
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem
 from kovacic.equation import Equation
@@ -31,6 +33,7 @@ from kovacic.numerals import as_text
 from kovacic.parametric import prose
 from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
+from kovacic.parametric.powers_of_factors import gathered
 from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
 from kovacic.writing.formula import caret
 
@@ -97,14 +100,15 @@ def _binomial(top: Any, k: Any) -> Any:
 class PolynomialSolution:
     """y solves the equation where `degree` is a natural number and all of the `conditions` vanish.
 
-    SymPy expressions in the variable and the parameters; `where` says the same in words.  Jacobi's polynomials can vanish
-    identically, see `jacobi`; where they do, another solution of the region doesn't.
+    SymPy expressions in the variable and the parameters; `where` says the same in words.  `jacobi` are the two parameters of a
+    polynomial of Jacobi's, which vanishes identically where `jacobi` says; there, another solution of the region doesn't.
     """
 
     y: Any
     degree: Any
     conditions: tuple[Any, ...] = ()
     where: str = ""
+    jacobi: tuple[Any, ...] = ()
 
     def at(self, values: Mapping[Any, Any]) -> Any:
         """y at values of the parameters, by symbol; None where it isn't one of the solutions there, or vanishes identically."""
@@ -117,8 +121,29 @@ class PolynomialSolution:
 
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
-        where = self.where or f"{caret(as_text(self.degree))} is a natural number"
+        where = self.where or self._degree_in_words()
         return f"y = {caret(as_text(self.y))} where {where}"
+
+    def _degree_in_words(self) -> str:
+        degree = caret(as_text(self.degree))
+        names = {symbol.name for symbol in self.y.free_symbols}
+        letter = next(letter for letter in chain("dDNM", map("d{}".format, count())) if letter not in names)
+        exclusion = self.exclusion(letter)
+        if exclusion and not self.degree.is_Symbol:
+            degree = f"{letter} = {degree}"
+        return f"{degree} is a natural number{exclusion}"
+
+    def exclusion(self, d: str) -> str:
+        """Where y vanishes identically for the degree d; "" where it never does."""
+        if not self.jacobi or any(a.is_number and not _is_negative_integer(a) for a in self.jacobi):
+            return ""
+        a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
+        name = str(self.degree) if self.degree.is_Symbol else d
+        return f", unless {a} and {b} are integers from -{name} to -1 with a sum below -{name}"
+
+
+def _is_negative_integer(number: Any) -> bool:
+    return bool(number.is_Integer and number < 0)
 
 
 #: From the degree d, if there is one to be chosen.
@@ -202,9 +227,10 @@ def _given(solution: PolynomialSolution, equation: Equation, zeros: tuple[Functi
 
 def translated(y: Any, equation: Equation) -> Any:
     """A solution of the normal form times the gauge factor, and in the user's variable."""
+    variable = sympy.Symbol(equation.variable)
     if equation.gauge:
-        y = y * display(product_of_powers(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
-    return solution_in_x(equation, y)
+        y = y * display(product_of_powers(equation.gauge), Atoms(variable))
+    return solution_in_x(equation, gathered(y, variable))
 
 
 def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
@@ -277,12 +303,12 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     for part in exponents.parts:
         exponent = sympy.factor(part.exponent.to_sympy(x))
         y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
-    conditions = [given.to_sympy(x), *(_product(factors, x) for factors in alternatives)]
+    conditions = [given.to_sympy(x), *(_product_of(factors, x) for factors in alternatives)]
     where = [prose.equation(given).text, *map(_one_vanishes, dict.fromkeys(map(tuple, alternatives)))]
     return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join(where))
 
 
-def _product(factors: Iterable[Poly], x: Any) -> Any:
+def _product_of(factors: Iterable[Poly], x: Any) -> Any:
     return sympy.Mul(*(factor.to_sympy(x) for factor in factors))
 
 
@@ -291,11 +317,12 @@ def _one_vanishes(factors: Iterable[Poly]) -> str:
 
 
 def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
-    """A solution with a rational omega where S has some, by the engine; its `degree` is that of the P in it.
+    """The solutions with a rational omega where S has some, by the engine; `degree` is that of the P in the first one.
 
     () where the constants in it are no square roots, or the exponents at conjugate points differ.
     """
-    riccati = decide(S, Budget()).riccati
+    decision = decide(S, Budget())
+    riccati = decision.riccati
     if riccati is None or riccati.degree > 1:
         return ()
     omega = -riccati.coefficients[0]
@@ -304,9 +331,21 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
     y = product_of_powers(omega)
     if constant is None or y.roots:
         return ()
+    degree = sympy.Integer(max(riccati.P.degree, 0))
+    where = "the region's statement holds"
+    found = [PolynomialSolution(_product(y, x, S.field, constant), degree, (), where)]
+    structure = build(S, decision, 0 * S) if omega.field == S.field else None
+    if isinstance(structure, Diagonal):
+        others = (other for other in (structure.first, structure.second) if other.logarithmic_derivative != omega)
+        found += [PolynomialSolution(_product(other, x, S.field, constant), degree, (), where) for other in others]
+    return tuple(found)
+
+
+def _product(y: Product, x: Any, field: Field, constant: Any) -> Any:
+    """A product of powers over the field, or over its extension by the constant."""
 
     def shown(polynomial: Poly) -> Any:
-        if polynomial.field == S.field:
+        if polynomial.field == field:
             return polynomial.to_sympy(x)
         return sympy.Add(*(part.to_sympy(x) * constant**k for k, part in enumerate(polynomial.parts)))
 
@@ -315,8 +354,7 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
         base = _without_constant(shown(power.base), x)
         factors.append(base ** sympy.factor(shown(power.exponent)))
     exponential = sympy.exp(sympy.expand(shown(y.exponential.num) / shown(y.exponential.den)))
-    degree = sympy.Integer(max(riccati.P.degree, 0))
-    return (PolynomialSolution(sympy.Mul(*factors, exponential), degree, (), "the region's statement holds"),)
+    return sympy.Mul(*factors, exponential)
 
 
 def _without_constant(base: Any, x: Any) -> Any:

@@ -64,6 +64,7 @@ from kovacic.parametric import restriction, riemann
 from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
+from kovacic.parametric.powers_of_factors import shorter_sum
 from kovacic.parametric.prose import phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
@@ -220,12 +221,13 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         f, g, h = signs
-        degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
+        degree = shorter_sum((-1 - f * first - g * second - h * third) / 2)
         e = sympy.expand((1 + f * first) / 2)
         e1 = sympy.expand((1 + g * second) / 2)
         powers = _power(base, n, c, e, -sympy.Rational(n - 1, 2)) * _positive(z, c1) ** e1
         powers *= last ** sympy.expand(1 - e - e1)
-        return PolynomialSolution(weight * powers * jacobi(degree, f * first, g * second, argument), degree)
+        y = weight * powers * jacobi(degree, f * first, g * second, argument)
+        return PolynomialSolution(y, degree, jacobi=(f * first, g * second))
 
     return by_signs
 
@@ -340,7 +342,7 @@ def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         e, f = signs
-        degree = sympy.expand((e * beta - f * delta - n) / (2 * n))
+        degree = shorter_sum((e * beta - f * delta - n) / (2 * n))
         u = sympy.expand(-2 * e * rate / n) * s**n
         y = s ** sympy.expand((1 + f * delta) / 2) * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
         return PolynomialSolution(weight * y, degree)

@@ -256,7 +256,9 @@ class _TheoremWriter:
         if y.has(letter):
             degree = _name(letter.name).equals(degree)
         yield Formula(self._named_solution(replace(solution, y=y)))
-        yield say("where ", degree, " is a natural number", *_chosen(self._signs_in(solution)), ".")
+        is_named = y.has(letter) and bool(solution.exclusion(letter.name))
+        exclusion = solution.exclusion(letter.name) if is_named else ""
+        yield say("where ", degree, f" is a natural number{exclusion}", *_chosen(self._signs_in(solution)), ".")
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
         """exp(int theta) P for the exponents of the region; P has the degree d."""
