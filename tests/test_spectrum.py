@@ -17,6 +17,7 @@ import kovacic
 
 x, n = sympy.symbols("x n")
 HALF = (0, "oo")
+LINE = ("-oo", "oo")
 QUICK, LONG = {"Coulomb"}, {"Scarf II", "isotonic oscillator", "exceptional Laguerre polynomials X_1"}
 
 
@@ -169,11 +170,8 @@ def test_every_l_of_coulomb_has_its_limit_circle() -> None:
     ("V", "domain"),
     [
         ("-x^4", ("-oo", "oo")),
-        ("x^2", HALF),
-        ("-1/x", HALF),
         ("-exp(2*x)", ("-oo", "oo")),
         ("-1/x^2 + x^2", HALF),
-        ("0", (0, 1)),
     ],
 )
 def test_without_a_boundary_condition_there_is_no_spectrum(V: str, domain: tuple[object, object]) -> None:
@@ -182,6 +180,56 @@ def test_without_a_boundary_condition_there_is_no_spectrum(V: str, domain: tuple
     assert not found.levels
     assert not found.complete
     assert "boundary condition" in found.text()
+
+
+@pytest.mark.parametrize(
+    ("V", "domain"), [("x^2", HALF), ("-1/x", HALF), ("x", HALF), ("0", (0, "L")), ("cos(x)", HALF)]
+)
+def test_friedrichs_condition_is_taken_where_the_operator_is_bounded_below(
+    V: str, domain: tuple[object, object]
+) -> None:
+    """The same answer as with the condition given, and a note that says so."""
+    found = kovacic.spectrum(V, domain=domain)
+    given = kovacic.spectrum(V, domain=domain, boundary="friedrichs")
+    assert found.boundary == "friedrichs"
+    assert (found.levels, found.algebraic, found.reason) == (given.levels, given.algebraic, given.reason)
+    assert "Friedrichs' boundary condition is taken" in found.text()
+
+
+#: Potentials with a level at the edge of the continuous spectrum, its function, and its norm.
+THRESHOLDS = [
+    ("2/x^2 - 4/x^3 + 1/x^4", HALF, "exp(-1/x)/x", sympy.Rational(1, 2)),
+    ("(6*x^2 - 2)/(1 + x^2)^2", LINE, "1/(x^2 + 1)", sympy.pi / 2),
+    ("(2*x^2 - 1)/(1 + x^2)^2", LINE, "1/sqrt(x^2 + 1)", sympy.pi),
+    ("5 + (12*x^2 - 3)/(1 + x^2)^2", LINE, "(x^2 + 1)^(-3/2)", 3 * sympy.pi / 8),
+]
+
+
+@parametrize(("V", "domain", "wave", "norm"), THRESHOLDS, ordinary=1)
+def test_a_level_at_the_edge_of_the_continuous_spectrum(V: str, domain: Any, wave: str, norm: Any) -> None:
+    found = kovacic.spectrum(V, domain=domain)
+    (state,) = found.states()
+    assert state.energy == (5 if V.startswith("5") else 0)
+    assert sympy.simplify(state.wave / read_expression(wave)).is_number
+    scale = sympy.simplify(state.wave / read_expression(wave)) ** 2
+    assert sympy.simplify(state.norm - scale * norm) == 0
+    assert found.closed_forms_complete or V.startswith("5")
+
+
+@parametrize(("V", "domain"), [("x^8 - 4*x^3", LINE), ("6/x^2 + 1/x^4", HALF), ("12/x^2 + 1/x^4", HALF)], ordinary=1)
+def test_a_closed_form_at_one_end_alone_is_no_level(V: str, domain: Any) -> None:
+    found = kovacic.spectrum(V, domain=domain)
+    assert found.closed_forms_complete
+    assert not found.states()
+    assert "is square integrable at one end" in found.reason
+
+
+def test_states_of_a_family_that_is_solvable_for_some_values() -> None:
+    found = kovacic.spectrum("g^2*x^6 - g*(4*k+3)*x^2", assume={"g": "positive"})
+    root = 2 * sympy.sqrt(2)
+    assert [(s.number, s.energy) for s in found.states({"g": 1, "k": 1})] == [(0, -root), (2, root)]
+    assert [(s.number, s.energy) for s in found.states({"g": 2, "k": 1})] == [(0, -4), (2, 4)]
+    assert found.states({"g": 1, "k": "1/3"}) == ()
 
 
 @parametrize(
@@ -237,13 +285,12 @@ def test_no_wave_function_is_liouvillian(V: str, domain: tuple[object, object]) 
 
 @parametrize("d", [1, 0, *range(2, 7)], ordinary=1, long=4)
 def test_all_levels_of_a_sextic_potential_that_are_liouvillian(d: int) -> None:
-    """x^6 + 2 a x^4 + (a^2 - 2 d - 3) x^2 has d // 2 + 1 of them, with polynomials of degree d; not all unless d is tried."""
+    """x^6 + 2 a x^4 + (a^2 - 2 d - 3) x^2 has d // 2 + 1 of them, with polynomials of degree d, which the exponents tell."""
     V = f"x^6 + 2*x^4 - {2 * d + 2}*x^2"
     found = kovacic.spectrum(V, max_degree=d)
     assert found.closed_forms_complete
     assert [state.number for state in found.states()] == list(range(d % 2, d + 1, 2))
-    if d > 0:
-        assert not kovacic.spectrum(V, max_degree=d - 1).is_decided
+    assert kovacic.spectrum(V, max_degree=0).states() == found.states()
 
 
 @parametrize(
@@ -404,8 +451,8 @@ def test_a_periodic_potential_on_the_line_has_no_poles(V: str, pole: str, shell:
 
 @pytest.mark.long
 def test_levels_of_a_periodic_potential_on_a_half_line_are_open() -> None:
-    assert kovacic.spectrum("cos(x)", domain=HALF).needs_boundary_condition
-    found = kovacic.spectrum("cos(x)", domain=HALF, boundary="friedrichs")
+    found = kovacic.spectrum("cos(x)", domain=HALF)
+    assert found.boundary == "friedrichs"
     assert not found.complete
     assert found.closed_forms_complete  # Mathieu's equation has no Liouvillian solution
     assert "V is periodic" in found.ends[1]
@@ -429,10 +476,10 @@ def test_hints_speak_the_language_of_the_door(capsys: pytest.CaptureFixture[str]
         kovacic.spectrum("-2/x + l*(l+1)/x^2")
     assert refused.value.hint == 'choose a domain without a pole inside: domain=(0, "oo")'
     assert refused.value.shell == "choose a domain without a pole inside: --from 0"
-    open_end = kovacic.spectrum("x^2", domain=HALF)
-    assert 'boundary="friedrichs" chooses it' in open_end.text()
-    assert run(["spectrum", "x^2", "--from", "0"]) == 0
-    assert "hint: --boundary friedrichs chooses it" in capsys.readouterr().out
+    higher = kovacic.spectrum("x^6 - (4*k + 3)*x^2")
+    assert "max_degree=" in higher.text()
+    assert run(["spectrum", "x^6 - (4*k + 3)*x^2"]) in (0, 3)
+    assert "--max-degree" in capsys.readouterr().out
 
 
 @pytest.mark.long

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 import sympy
 
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.bound_states.darboux import DarbouxStep, steps
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
@@ -23,8 +26,15 @@ from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, U
 from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.liouvillian import with_closed_forms
+from kovacic.bound_states.norms import norm_of
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
-from kovacic.bound_states.quasi import QuasiSolution, degree_beyond, found_of_degree, levels_of, zeros_inside
+from kovacic.bound_states.quasi import (
+    QuasiSolution,
+    constant_degrees,
+    degree_beyond,
+    found_at,
+    found_of_degree,
+)
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, read_question
 from kovacic.bound_states.ranges import tidied
 from kovacic.equation import ENERGY
@@ -34,6 +44,7 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limit
 from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
+from kovacic.parametric.functions import over_parameters
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.formula import caret
 
@@ -80,7 +91,8 @@ def spectrum(
         the conditions under which a solution is square integrable are part of the answer.
     boundary : str
         "friedrichs": at an end where both solutions are square integrable the smaller one is meant, which is y = 0 at a
-        regular end.  Without it, there is no spectrum where such a condition is needed.
+        regular end.  It is taken, with a note, where such a condition is needed and the operator is bounded below; where
+        solutions oscillate at an end no condition is distinguished, and there is no spectrum without one.
     max_degree : int
         Of a quasi-exactly solvable potential, the levels with a polynomial of at most this degree are given; 2 by default.
     limits : Limits
@@ -107,10 +119,11 @@ def spectrum(
     -Z**2/(4*(l + n + 1)**2)
     >>> coulomb.complete
     True
-    >>> kovacic.spectrum("x^2", domain=(0, "oo")).needs_boundary_condition
+    >>> half_line = kovacic.spectrum("x^2", domain=(0, "oo"))
+    >>> half_line.boundary, half_line.levels[0].energy
+    ('friedrichs', 4*n + 3)
+    >>> kovacic.spectrum("-x^4").needs_boundary_condition
     True
-    >>> print(kovacic.spectrum("x^2", domain=(0, "oo"), boundary="friedrichs").levels[0].energy)
-    4*n + 3
     >>> quartic = kovacic.spectrum("x^4")
     >>> quartic.complete, quartic.closed_forms_complete, quartic.levels
     (False, True, ())
@@ -130,7 +143,13 @@ def spectrum(
             found = _answered(question, most, budget)
         except (Uncovered, LimitExceeded) as reason:
             found = _Examined(question).spectrum(reason=f"undecided: {reason}")
-        found = with_closed_forms(found, question.parsed, question.known, limits)
+        found = with_closed_forms(
+            found,
+            question.parsed,
+            question.known,
+            limits,
+            lambda polynomial: _is_no_level(question, polynomial, budget),
+        )
     return in_their_meanings(found, meanings) if meanings else found
 
 
@@ -179,6 +198,8 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     right = end_of(real, question.domain, question.signs, is_right=True)
     examined = _examined(question, [left, right])
     if examined.needs_boundary_condition:
+        if not any(end.oscillates for end in examined.ends):
+            return _answered(question.with_friedrichs_condition(), max_degree, budget)
         return _without_condition(examined)
     oscillating = _oscillating_end(examined)
     if oscillating is not None:
@@ -228,15 +249,8 @@ def _examined(question: SpectralProblem, ends: Sequence[End]) -> _Examined:
 
 
 def _without_condition(examined: _Examined) -> Spectrum:
-    """Where a boundary condition is needed, and none was given."""
-    always = replace(examined, excluded=(sympy.true,))
-    if any(end.oscillates for end in examined.ends):
-        return always.spectrum(reason="none is distinguished")
-    return always.spectrum(
-        reason="Friedrichs' condition is the smaller solution",
-        hint=f'boundary="{FRIEDRICHS}" chooses it',
-        shell=f"--boundary {FRIEDRICHS} chooses it",
-    )
+    """Where solutions oscillate at an end, so that no boundary condition is distinguished, and none was given."""
+    return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
 
 
 def _at_a_wall(question: SpectralProblem, at: Any) -> str:
@@ -314,10 +328,14 @@ def _one_by_one(examined: _Examined, why: str, max_degree: int, budget: Budget) 
     found: list[Algebraic] = []
     higher = None
     try:
-        for d in range(max_degree + 1):
+        degrees = {*range(max_degree + 1)}
+        if not question.parameters:
+            degrees |= constant_degrees(question, budget)
+        for d in sorted(degrees):
             solutions = found_of_degree(question, d, examined.ends, demands, budget)
             levels = (_algebraic(question, solution) for solution in solutions)
             found += [one for one in levels if sympy.false not in one.conditions]
+        found += _at_thresholds(examined, demands, budget)
     except Uncovered as uncovered:
         why = f"{why}; {uncovered}"
     else:
@@ -333,6 +351,40 @@ def _one_by_one(examined: _Examined, why: str, max_degree: int, budget: Budget) 
     return examined.spectrum(algebraic=tuple(found), reason=reason, **hints)
 
 
+def _at_thresholds(examined: _Examined, demands: Ends, budget: Budget) -> Iterator[Algebraic]:
+    """The levels at the edges of the continuous spectrum, where solutions are powers of x at an infinite end."""
+    question = examined.question
+    if question.parameters:
+        return
+    for threshold in dict.fromkeys(end.threshold for end in examined.ends):
+        if threshold is not None and threshold.is_Rational:
+            factor = _in_energy(question, sympy.Symbol(question.energy) - threshold)
+            for level in found_at(question, factor, examined.ends, demands, budget).levels:
+                yield _algebraic(question, level)
+
+
+def _is_no_level(question: SpectralProblem, polynomial: Any, budget: Budget) -> bool:
+    """True if the zeros of an irreducible polynomial in E are proven to be no levels, of a potential without parameters."""
+    with suppress(Uncovered, LimitExceeded):
+        real = _in_real_variable(question)
+        ends = [end_of(real, question.domain, question.signs, is_right=is_right) for is_right in (False, True)]
+        factor = _in_energy(question, polynomial)
+        found = found_at(question, factor, ends, Ends(question.signs, question.friedrichs), budget)
+        return found.is_excluded and not found.levels
+    return False
+
+
+def _in_energy(question: SpectralProblem, polynomial: Any) -> FunctionPoly:
+    """A polynomial in E with rational coefficients, in the field of the equation."""
+    field = question.parsed.S.field
+    assert isinstance(field, FunctionField)
+    E = field.generator(question.energy)
+    total = 0 * E
+    for c in sympy.Poly(polynomial, sympy.Symbol(question.energy)).all_coeffs():
+        total = total * E + Fraction(int(c.p), int(c.q))
+    return over_parameters(total)
+
+
 def _hints_of_degree(higher: int) -> dict[str, str]:
     may = "there may be levels with a polynomial of degree"
     return {"hint": f"{may} {higher}: max_degree={higher}", "shell": f"{may} {higher}: --max-degree {higher}"}
@@ -341,22 +393,25 @@ def _hints_of_degree(higher: int) -> dict[str, str]:
 def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:
     """With the energies, and which levels they are, where there are no parameters."""
     conditions = tuple(map(question.plain, tidied(found.conditions, question.signs)))
-    states = tuple(_states(question, found))
-    return Algebraic(found.degree, found.constraint, found.polynomial, found.wave, conditions, states)
-
-
-def _states(question: SpectralProblem, found: QuasiSolution) -> Iterator[BoundState]:
-    """Those of which it is known how many zeros they have: where t is monotonic on the domain."""
     original = Original.of(question.parsed.equation, question.x, question.signs)
-    if question.parameters or original.turning_points(question.domain, question.signs):
-        return
-    E = sympy.Symbol(question.energy)
-    P = sympy.Poly(found.P, sympy.Symbol(question.parsed.variable))
-    limits_of_t = range_of(original, question.domain, question.signs)
-    for energy, ball in levels_of(found.polynomial, E):
-        number = zeros_inside(P, E, ball, limits_of_t)
-        if number is not None:
-            yield BoundState(number, energy, found.wave.subs(E, energy), number)
+    limits = None
+    with suppress(Uncovered):
+        if not original.turning_points(question.domain, question.signs):
+            limits = range_of(original, question.domain, question.signs)
+    levels = Algebraic(
+        found.degree,
+        found.constraint,
+        found.polynomial,
+        found.wave,
+        conditions,
+        P=sympy.Poly(found.P, sympy.Symbol(question.parsed.variable)),
+        range=limits,
+    )
+    if question.parameters:
+        return levels
+    x = sympy.Symbol(question.variable)
+    states = levels.states_at({}, question.energy)
+    return replace(levels, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
 
 
 def _in_real_variable(question: SpectralProblem) -> RealPotential:
@@ -399,7 +454,7 @@ def _on_periodic_line(question: SpectralProblem, real: RealPotential) -> Spectru
         return _Examined(question, tuple(ends)).spectrum(complete=True, reason=NO_LEVELS)
     examined = _examined(question, ends)
     if examined.needs_boundary_condition:
-        return _without_condition(examined)
+        examined = _examined(question.with_friedrichs_condition(), ends)
     reason = (
         "undecided: V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
     )

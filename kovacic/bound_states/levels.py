@@ -9,6 +9,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.bound_states.zeros import levels_of, zeros_inside
 from kovacic.errors import InputError
 from kovacic.exact import exact_text, whole
 from kovacic.numerals import as_latex, as_text
@@ -20,12 +21,16 @@ from kovacic.writing.formula import caret
 
 @dataclass(frozen=True)
 class BoundState:
-    """One level at given values of the parameters: its energy and its wave function, not normalised, with `zeros` inside."""
+    """One level at given values of the parameters: its energy and its wave function, not normalised, with `zeros` inside.
+
+    `norm` is the integral of the square of the wave function over the domain, None where it isn't known.
+    """
 
     number: int
     energy: Any
     wave: Any
     zeros: int
+    norm: Any = None
 
     def __str__(self) -> str:
         return f"E_{self.number} = {_text(self.energy)}, y = {_text(self.wave)}"
@@ -64,7 +69,9 @@ class Algebraic:
 
     They exist where `constraint` vanishes (a function of the parameters; 0 where it does anyway), and their energies are the
     zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy, square integrable where the
-    `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.
+    `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.  `P` is
+    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain (None for
+    an infinite one), both None if t isn't monotonic or not known.
     """
 
     degree: int
@@ -73,6 +80,25 @@ class Algebraic:
     wave: Any
     conditions: tuple[Any, ...] = ()
     states: tuple[BoundState, ...] = ()
+    P: Any = None
+    range: tuple[Any, Any] | None = None
+
+    def states_at(self, values: Mapping[Any, Any], energy: str) -> Iterator[BoundState]:
+        """The levels at rational values of the parameters: of each it is known how many zeros its function has."""
+        if self.P is None or self.range is None or self.constraint.xreplace(values) != 0:
+            return
+        if not all(_is_true(condition, values) for condition in self.conditions):
+            return
+        E = sympy.Symbol(energy)
+        low, high = (None if end is None else end.xreplace(values) for end in self.range)
+        P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
+        polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
+        if not {symbol.name for symbol in polynomial.free_symbols} <= {energy}:
+            return
+        for value, ball in levels_of(polynomial, E):
+            number = zeros_inside(P, E, ball, (low, high))
+            if number is not None:
+                yield BoundState(number, value, self.wave.xreplace(values).subs(E, value), number)
 
 
 @dataclass(frozen=True)
@@ -169,7 +195,8 @@ class Spectrum:
             for state in _states_of(levels, at, count):
                 found.setdefault(state.energy, state)
         for one in self.algebraic:
-            found.update((state.energy, state) for state in one.states)
+            states = one.states_at(at, self.energy) if self.parameters else one.states
+            found.update((state.energy, state) for state in states)
         return tuple(sorted(found.values(), key=lambda state: state.energy))
 
     def _check_admitted(self, at: Mapping[Any, Any]) -> None:
@@ -404,8 +431,13 @@ def _algebraic_dict(algebraic: Algebraic) -> dict[str, Any]:
         "polynomial": _text(algebraic.polynomial),
         "wave": _text(algebraic.wave),
         "conditions": [*map(_relation, algebraic.conditions)],
-        "states": [{"energy": _text(state.energy), "zeros": state.zeros} for state in algebraic.states],
+        "states": [*map(_state_dict, algebraic.states)],
     }
+
+
+def _state_dict(state: BoundState) -> dict[str, Any]:
+    norm = {} if state.norm is None else {"norm": _text(state.norm)}
+    return {"energy": _text(state.energy), "zeros": state.zeros, **norm}
 
 
 def _latex_rows(levels: Levels, energy: str) -> list[str]:
@@ -467,7 +499,8 @@ def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
     lines = [f"  {first}: {_text(algebraic.polynomial)} = 0", f"      y = {_text(algebraic.wave)}"]
     for state in algebraic.states:
         zeros = "1 zero" if state.zeros == 1 else f"{state.zeros} zeros"
-        lines.append(f"      {energy} = {_text(state.energy)}: {zeros}")
+        norm = "" if state.norm is None else f", norm^2 = {_text(state.norm)}"
+        lines.append(f"      {energy} = {_text(state.energy)}: {zeros}{norm}")
     return lines
 
 

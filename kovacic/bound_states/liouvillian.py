@@ -5,16 +5,17 @@ parameters under which there is one, where they are proven to be complete, say w
 
 - no value admits one: no level has a closed form;
 - there are no parameters, and E is a zero of one of finitely many polynomials: where each one with a real zero was found to
-  give levels, these are all levels with a closed form;
+  give levels, or to give none, these are all levels with a closed form.  It gives none where a solution exp(int theta) P is the
+  only square integrable one at an end (limit point), and isn't square integrable at the other;
 - each value is of case 1: then omega is rational, and each level with a closed form has a polynomial of some degree d.
 
-The conditions are asked for where all poles of V, in the variable of the equation, are in the field of the parameters: at
-others they may take minutes.
+The conditions are asked for where all poles of V, in the variable of the equation, are in the field of the parameters, but for
+one pair of conjugate ones: with more they may take minutes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -24,22 +25,36 @@ from kovacic.bound_states.levels import Spectrum
 from kovacic.equation import Parsed
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Limits
+from kovacic.numerals import as_text
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.statements import Either, Statement, Vanishes
+from kovacic.writing.formula import caret
 
 
-def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limits: Limits) -> Spectrum:
-    """The same spectrum, with what is proven of the levels that have a closed form, where the others aren't known."""
-    if found.complete or found.needs_boundary_condition or not _has_rational_poles(parsed):
+def with_closed_forms(
+    found: Spectrum,
+    parsed: Parsed,
+    known: Assumptions,
+    limits: Limits,
+    is_excluded: Callable[[Any], bool],
+) -> Spectrum:
+    """The same spectrum, with what is proven of the levels that have a closed form, where the others aren't known.
+
+    `is_excluded` tells of a zero of an irreducible polynomial in E whether it is proven to be no level.
+    """
+    if found.complete or found.needs_boundary_condition or not _has_simple_poles(parsed):
         return found
     conditions = _conditions(parsed, known, limits)
     if conditions is None:
         return found
     possible = _possible(found, conditions)
-    if possible is not None and possible <= _listed(found):
-        return replace(found, closed_forms_complete=True, reason=_reason(found, conditions), hint="", shell="")
+    if possible is not None:
+        others = possible - _listed(found)
+        if all(map(is_excluded, others)):
+            reason = _reason(found, conditions, others)
+            return replace(found, closed_forms_complete=True, reason=reason, hint="", shell="")
     is_rational = all(region.case == 1 for region in conditions.regions)
     if found.algebraic and is_rational:
         shown = found.reason.partition(";")[0]
@@ -48,13 +63,14 @@ def with_closed_forms(found: Spectrum, parsed: Parsed, known: Assumptions, limit
     return found
 
 
-def _has_rational_poles(parsed: Parsed) -> bool:
-    """Not where there isn't the time to find them, either."""
+def _has_simple_poles(parsed: Parsed) -> bool:
+    """True if the poles are in the field of the parameters, but for one pair, and there is the time to find them."""
     try:
         factors = parsed.S.field.factor(parsed.S.den)
     except LimitExceeded:
         return False
-    return all(factor.degree == 1 for factor, _ in factors)
+    degrees = sorted(factor.degree for factor, _ in factors)
+    return not degrees or (degrees[-1] <= 2 and degrees.count(2) <= 1)
 
 
 def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> ParametricAnswer | None:
@@ -125,9 +141,16 @@ def _polynomials(functions: Iterable[Any], energy: str) -> set[Any]:
     return factors
 
 
-def _reason(found: Spectrum, conditions: ParametricAnswer) -> str:
+def _reason(found: Spectrum, conditions: ParametricAnswer, excluded: set[Any]) -> str:
     """Why no level with a closed form is missing."""
+    E = sympy.Symbol(found.energy)
+    others = ""
+    if excluded:
+        zeros = " or ".join(f"{caret(as_text(polynomial))} = 0" for polynomial in sorted(excluded, key=str))
+        others = f"at {zeros} the solution that is square integrable at one end isn't at the other; "
     if found.algebraic:
-        return f"a level with k zeros is number k (Sturm); {conditions.theory}"
-    energies = "any real E" if conditions.regions else "any E"
+        return f"a level with k zeros is number k (Sturm); {others}{conditions.theory}"
+    if excluded:
+        return f"{others}the equation has no Liouvillian solution for any other real {E}: {conditions.theory}"
+    energies = f"any real {E}" if conditions.regions else f"any {E}"
     return f"the equation has no Liouvillian solution for {energies}: {conditions.theory}"

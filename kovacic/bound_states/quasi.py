@@ -4,8 +4,7 @@ A solution exp(int theta) P, P of degree d, needs exponents at each singular poi
 solutions.  The degree, a function of the parameters and maybe of E, is d on a hypersurface; there P follows from its highest
 coefficient down, and what is left of the linear system vanishes exactly for the energies: Delta_d(E) = 0.
 
-Which level it is says Sturm's theorem: a square integrable solution with k zeros is the k-th level.  Zeros of P are counted in
-balls that contain one root each: a root whose ball meets the real axis is real, since its conjugate is a root as well.
+Which level it is says Sturm's theorem: a square integrable solution with k zeros is the k-th level; `zeros` counts them.
 
 References: A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467; A. G. Ushveridze, Quasi-exactly Solvable Models (1994);
 M. Razavy, Amer. J. Phys. 48 (1980) 285.
@@ -14,16 +13,15 @@ M. Razavy, Amer. J. Phys. 48 (1980) 285.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import prod
 from typing import Any
 
 import sympy
-from flint import acb, acb_poly, arb, fmpq, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.bound_states.ends import End
@@ -41,8 +39,6 @@ from kovacic.parametric.solutions import has_radicals, solution_of_degree, trans
 
 #: Higher degrees aren't proposed.
 _HIGHEST = 50
-#: The distance of a zero from an end that is at infinity.
-_INSIDE = arb(1)
 #: Conjugate poles that are used beside parameters.
 _CONJUGATES = 2
 
@@ -88,6 +84,55 @@ def found_of_degree(
                 if found.key not in seen:
                     seen.add(found.key)
                     yield found
+
+
+def constant_degrees(question: SpectralProblem, budget: Budget) -> set[int]:
+    """The degrees of P that the exponents allow for every E: natural numbers, of which none is above `_HIGHEST`."""
+    problem = analyse(question.parsed.S, budget)
+    found = set[int]()
+    with suppress(Uncovered):
+        for degree in _degrees(problem, question.energy):
+            value = problem.field.rational_value(degree)
+            if value is not None and value.denominator == 1 and 0 <= value <= _HIGHEST:
+                found.add(int(value))
+    return found
+
+
+@dataclass(frozen=True)
+class AtEnergy:
+    """What is known at one energy of a potential without parameters: levels, or that it is none.
+
+    `is_excluded`: a solution exp(int theta) P is square integrable at an end where no other one is, and not at the other end.
+    """
+
+    levels: tuple[QuasiSolution, ...]
+    is_excluded: bool
+
+
+def found_at(
+    question: SpectralProblem, factor: FunctionPoly, ends: Sequence[End], demands: Ends, budget: Budget
+) -> AtEnergy:
+    """The levels at the E where an irreducible `factor` vanishes, by the exponents that the equation has at this E."""
+    surface = hypersurface(factor)
+    where = _Restricted(factor, surface.restricted(question.parsed.S))
+    problem = analyse(where.S, budget)
+    levels = []
+    is_excluded = False
+    for choice in choices(problem) or ():
+        value = choice.field.rational_value(choice.degree)
+        if value is None or value.denominator != 1 or not 0 <= value <= _HIGHEST:
+            continue
+        d = int(value)
+        if solution_of_degree(choice, d, question.parsed.variable, factor) is None:
+            continue
+        fits = [possible(_decay(choice, end, demands), demands.signs) for end in ends]
+        if all(fits):
+            found = _found(question, choice, d, factor, ())
+            if found is not None:
+                levels.append(found)
+        elif any(fit and end.circle is False for fit, end in zip(fits, ends, strict=True)):
+            is_excluded = True
+    return AtEnergy(tuple(levels), is_excluded)
 
 
 def _found_on(
@@ -307,69 +352,3 @@ def _product(bases: list[Any]) -> Any:
         return bases[0]
     *others, first, second = bases
     return sympy.Mul(*others, sympy.expand(first * second))
-
-
-def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
-    """The real zeros of a polynomial with rational coefficients, as SymPy's numbers and as balls."""
-    for factor, _ in sympy.factor_list(polynomial, E)[1]:
-        exact = sympy.Poly(factor, E)
-        yield from zip(exact.real_roots(), _real_zeros_in_balls(exact), strict=True)
-
-
-def _real_zeros_in_balls(polynomial: Any) -> list[arb]:
-    """The real zeros of an irreducible polynomial, from left to right."""
-    scaled = polynomial
-    if polynomial.domain.is_QQ:
-        _, scaled = polynomial.clear_denoms()
-    balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
-    real = [ball.real for ball, _ in balls if ball.imag == 0]
-    return sorted(real, key=lambda ball: float(ball.mid()))
-
-
-def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
-    """How many zeros the polynomial P has between two bounds, each None where there is none, at the E in the ball.
-
-    None where the balls are too large.
-    """
-    coefficients = [_value(c, E, ball) for c in reversed(P.all_coeffs())]
-    if len(coefficients) < 2:
-        return 0
-    count = 0
-    for root in acb_poly(coefficients).roots():
-        if root.imag.contains(0):
-            is_inside = _is_inside(root.real, bounds)
-            if is_inside is None:
-                return None
-            count += is_inside
-    return count
-
-
-def _is_inside(x: arb, bounds: tuple[Any, Any]) -> bool | None:
-    """Is a ball between the bounds?  None where it meets one."""
-    low, high = bounds
-    above = _INSIDE if low is None else x - _as_ball(low)
-    below = _INSIDE if high is None else _as_ball(high) - x
-    if above.contains(0) or below.contains(0):
-        return None
-    return bool(above > 0 and below > 0)
-
-
-def _as_ball(bound: Any) -> arb:
-    return arb(str(sympy.N(bound, 30)))
-
-
-def _value(coefficient: Any, E: Any, ball: arb) -> acb:
-    """A rational function of E over Q at a ball."""
-    num, den = sympy.fraction(sympy.together(coefficient))
-    above = _horner(sympy.Poly(num, E), ball)
-    below = _horner(sympy.Poly(den, E), ball)
-    return above / below
-
-
-def _horner(polynomial: Any, ball: arb) -> acb:
-    total = acb(0)
-    for c in polynomial.all_coeffs():
-        if not c.is_Rational:
-            raise Uncovered("the polynomials have coefficients that aren't rational")
-        total = total * ball + acb(arb(fmpq(int(c.p), int(c.q))))
-    return total

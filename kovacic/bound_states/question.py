@@ -61,6 +61,13 @@ class SpectralProblem:
         """pi and e among the parameters, by the names for which they stand."""
         return _constants(self.V, self.signs.symbols)
 
+    def with_friedrichs_condition(self) -> SpectralProblem:
+        """The same with the boundary condition that wasn't given, and a note that says so."""
+        note = (
+            "a boundary condition is needed: Friedrichs' boundary condition is taken, the smaller solution at the end"
+        )
+        return replace(self, friedrichs=True, notices=(*self.notices, note))
+
     def with_potential(self, V: Any) -> SpectralProblem:
         """The same for another potential, in real symbols."""
         plain = self.plain(V)

@@ -1,0 +1,84 @@
+"""Energies that are zeros of a polynomial, and the zeros of their solutions, in balls.
+
+Zeros of P are counted in balls that contain one root each: a root whose ball meets the real axis is real, since its conjugate
+is a root as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import sympy
+from flint import acb, acb_poly, arb, fmpq, fmpz_poly
+
+from kovacic.algebra.isolation import complex_zeros
+
+#: The distance of a zero from an end that is at infinity.
+_INSIDE = arb(1)
+
+
+def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
+    """The real zeros of a polynomial with rational coefficients, as SymPy's numbers and as balls."""
+    for factor, _ in sympy.factor_list(polynomial, E)[1]:
+        exact = sympy.Poly(factor, E)
+        yield from zip(exact.real_roots(), _real_zeros_in_balls(exact), strict=True)
+
+
+def _real_zeros_in_balls(polynomial: Any) -> list[arb]:
+    """The real zeros of an irreducible polynomial, from left to right."""
+    scaled = polynomial
+    if polynomial.domain.is_QQ:
+        _, scaled = polynomial.clear_denoms()
+    balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
+    real = [ball.real for ball, _ in balls if ball.imag == 0]
+    return sorted(real, key=lambda ball: float(ball.mid()))
+
+
+def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
+    """How many zeros the polynomial P has between two bounds, each None where there is none, at the E in the ball.
+
+    None where the balls are too large.
+    """
+    coefficients = [_value(c, E, ball) for c in reversed(P.all_coeffs())]
+    if len(coefficients) < 2:
+        return 0
+    count = 0
+    for root in acb_poly(coefficients).roots():
+        if root.imag.contains(0):
+            is_inside = _is_inside(root.real, bounds)
+            if is_inside is None:
+                return None
+            count += is_inside
+    return count
+
+
+def _is_inside(x: arb, bounds: tuple[Any, Any]) -> bool | None:
+    """Is a ball between the bounds?  None where it meets one."""
+    low, high = bounds
+    above = _INSIDE if low is None else x - _as_ball(low)
+    below = _INSIDE if high is None else _as_ball(high) - x
+    if above.contains(0) or below.contains(0):
+        return None
+    return bool(above > 0 and below > 0)
+
+
+def _as_ball(bound: Any) -> arb:
+    return arb(str(sympy.N(bound, 30)))
+
+
+def _value(coefficient: Any, E: Any, ball: arb) -> acb:
+    """A rational function of E over Q at a ball."""
+    num, den = sympy.fraction(sympy.together(coefficient))
+    above = _horner(sympy.Poly(num, E), ball)
+    below = _horner(sympy.Poly(den, E), ball)
+    return above / below
+
+
+def _horner(polynomial: Any, ball: arb) -> acb:
+    total = acb(0)
+    for c in polynomial.all_coeffs():
+        if not c.is_Rational:
+            raise ValueError(f"{c} isn't rational")
+        total = total * ball + acb(arb(fmpq(int(c.p), int(c.q))))
+    return total
