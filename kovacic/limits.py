@@ -129,23 +129,20 @@ class Clock:
     7.0
     """
 
-    __slots__ = ("_source",)
+    __slots__ = ("now",)
 
     def __init__(self) -> None:
-        self._source: Callable[[], float] = time.monotonic
-
-    def now(self) -> float:
-        return self._source()
+        self.now: Callable[[], float] = time.monotonic
 
     @contextmanager
     def read_from(self, source: Callable[[], float]) -> Iterator[None]:
         """Inside `with`, the time is what `source()` returns, in all threads: for tests and measurements."""
-        before = self._source
-        self._source = source
+        before = self.now
+        self.now = source
         try:
             yield
         finally:
-            self._source = before
+            self.now = before
 
 
 #: The only clock of the package on which a result can depend.
@@ -171,7 +168,10 @@ class Budget:
 
     def check(self) -> None:
         if CLOCK.now() > self._deadline:
-            raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
+            raise self._used_up()
+
+    def _used_up(self) -> LimitExceeded:
+        return LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
 
     @property
     def seconds(self) -> float:
@@ -275,8 +275,8 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
 def check_time() -> None:
     """Raises `LimitExceeded` where a budget is watched and its time is over."""
     budget = _WATCHED.get()
-    if budget is not None:
-        budget.check()
+    if budget is not None and CLOCK.now() > budget._deadline:
+        raise budget._used_up()
 
 
 def watched_seconds(most: float) -> float:

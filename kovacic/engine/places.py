@@ -129,7 +129,7 @@ class Place:
         """The factor as a text, or "infinity"."""
         return "infinity" if self.at_infinity else str(self.factor)
 
-    @property
+    @cached_property
     def kind(self) -> Kind:
         if self.order == 0:
             return Kind.ORDINARY

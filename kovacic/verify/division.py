@@ -20,9 +20,3 @@ def inverse(value: Poly, modulus: Poly) -> Poly:
     if (found * value - 1) % modulus:
         raise VerificationFailed(f"the inverse of {value} modulo {modulus} was found as {found}")
     return found
-
-
-def backwards(polynomial: Poly, shift: int) -> Poly:
-    """x^(shift + degree) times the polynomial in 1/x."""
-    coefficients = [polynomial[k] for k in range(polynomial.degree, -1, -1)]
-    return polynomial.field.poly([*[0] * shift, *coefficients])

@@ -18,11 +18,15 @@ from flint import nmod_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget, check_time
-from kovacic.verify.division import backwards, quotient
+from kovacic.verify.division import quotient
 from kovacic.verify.factors import factors_of, product
 from kovacic.verify.primes import homomorphisms, roots_modulo, translated
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import solution_at_singular_point
+
+
+#: Up to this number of points each is expanded alone: the products for all of them cost more.
+_FEW = 4
 
 
 @dataclass(frozen=True)
@@ -146,8 +150,8 @@ def _infinity(S: RatFunc, budget: Budget) -> Point:
     """
     k = S.num.degree - S.den.degree + 4 if S.num else 0
     order = max(k, 0)
-    num = backwards(S.num, max(-k, 0))
-    den = backwards(S.den, order)
+    num = S.num.reversed(max(-k, 0))
+    den = S.den.reversed(order)
     z = S.field.poly([0, 1])
     return Point(z, order, num, den, budget, at_infinity=True)
 
@@ -162,7 +166,7 @@ def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
 class Expansions:
     """What the points at some factors of the denominator, with these orders, have in common.
 
-    `_near` is computed for the first one alone, which is often enough, and for the others together.  A claim at irregular
+    `_near` is computed for the first one alone, which is often enough, and for many others together.  A claim at irregular
     points, where there are many digits, may need one of them, or all.
     """
 
@@ -170,8 +174,11 @@ class Expansions:
     factors: list[tuple[Poly, int]]
 
     def at(self, factor: Poly) -> tuple[Poly, Poly]:
-        p, order = self.factors[0]
-        return _near(self.S.num, self.S.den, p, order) if factor == p else self.together[factor]
+        alone = self.factors if len(self.factors) <= _FEW else self.factors[:1]
+        for p, order in alone:
+            if p == factor:
+                return _near(self.S.num, self.S.den, p, order)
+        return self.together[factor]
 
     def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
         """Numerator and denominator modulo a prime."""

@@ -83,22 +83,24 @@ def _is_one_rational_point(point: Point) -> bool:
 
 def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
     """None where the exponents at some point aren't rational over K[x]/p, so that no omega is rational over K."""
-    total = Fraction(1)
+    twice = 2
     choices = []
     for point in all_points:
         if point.order == 0:
             continue
         if point.order > 2 and point.order % 2:  # ramified
             return None
-        total -= Fraction(point.factor.degree * _double_mean(point), 2)
+        twice -= point.factor.degree * _double_mean(point)
         half = _half_difference(point)
         if half is None:
             return None
-        if point.logarithm:  # omega belongs to the solution without one, which has the larger exponent
-            total -= half
+        if (
+            point.logarithm
+        ):  # omega belongs to the solution without one, which has the larger exponent; Delta is natural
+            twice -= int(2 * half)
         else:
             choices.append((point, half))
-    return ZeroCounts(total, tuple(choices))
+    return ZeroCounts(Fraction(twice, 2), tuple(choices))
 
 
 def is_proven_irrational(point: Point) -> bool:
@@ -118,7 +120,7 @@ def _half_difference(point: Point) -> Fraction | None:
     """
     p = point.factor
     if point.difference is not None:  # the same rational number at all roots
-        return p.degree * point.difference / 2
+        return Fraction(p.degree * point.difference.numerator, 2 * point.difference.denominator)
     radicand = _radicand(point)
     if is_no_square(radicand, p):
         return None
@@ -217,12 +219,12 @@ def largest_natural_sum(total: Fraction, choices: list[Fraction]) -> int:
     each fractional part that is left.  With too many of these the largest sum of all, rounded down, is an upper bound.
     """
     unit = math.lcm(total.denominator, *(choice.denominator for choice in choices))  # all in units of 1/unit
-    largest = int((total + sum(map(abs, choices))) * unit)
+    sizes = [abs(choice.numerator) * (unit // choice.denominator) for choice in choices]
+    largest = total.numerator * (unit // total.denominator) + sum(sizes)
     losses = {largest % unit: 0}
-    for choice in choices:
-        twice = int(2 * abs(choice) * unit)
+    for size in sizes:
         for loss in [*losses.values()]:
-            more = loss + twice
+            more = loss + 2 * size
             part = (largest - more) % unit
             losses[part] = min(more, losses.get(part, more))
         if len(losses) > _FRACTIONAL_PARTS:
