@@ -24,7 +24,6 @@ from kovacic.verify.primes import homomorphisms, roots_modulo, translated
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import solution_at_singular_point
 
-
 #: Up to this number of points each is expanded alone: the products for all of them cost more.
 _FEW = 4
 
