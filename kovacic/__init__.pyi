@@ -3,6 +3,7 @@ from kovacic.api import Verdict as Verdict
 from kovacic.api import decide as decide
 from kovacic.batch import solve_many as solve_many
 from kovacic.bound_states.api import spectrum as spectrum
+from kovacic.boundary_problems import eigenvalues as eigenvalues
 from kovacic.decision import Status as Status
 from kovacic.decision import Structure as Structure
 from kovacic.doubles.tabulate import tabulate as tabulate

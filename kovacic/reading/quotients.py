@@ -91,7 +91,9 @@ class _TextReader(SymbolicReader):
         return self.arithmetic.expression(arguments[0]).diff(self.x, order)
 
     def _order(self, arguments: list[Any]) -> int | None:
-        """1 or 2, where the arguments are an expression, x, and maybe the order; else None."""
+        """1 or 2, where the arguments are an expression, x, and maybe the order; 1 for (...)'; else None."""
+        if len(arguments) == 1:
+            return 1
         if any(isinstance(argument, tuple) for argument in arguments):
             return None
         _, *by = (self.arithmetic.expression(argument) for argument in arguments)

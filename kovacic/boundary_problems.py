@@ -1,0 +1,282 @@
+"""`kovacic.eigenvalues`: the numbers E for which a boundary problem has solutions, as proven numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from sympy.core.function import AppliedUndef
+
+from kovacic.errors import InputError
+from kovacic.exact import exact_text, whole
+from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.reading.quotients import expression_of
+from kovacic.reading.source import source_of
+from kovacic.reading.symbolic import is_sympy_equation, read_expression
+from kovacic.sturm_liouville.levels import Eigenvalues
+from kovacic.sturm_liouville.problem import Bounded, Problem, Robin, Wish, ball, normal_form
+from kovacic.sturm_liouville.solve import Eigenproblem
+
+Expr = Any
+PARAMETER = "lambda"
+_INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+
+
+@limited
+def eigenvalues(
+    equation: Any,
+    conditions: Mapping[Any, Any] | str | None = None,
+    *,
+    parameter: str = PARAMETER,
+    domain: Sequence[Any] | None = None,
+    count: int = 5,
+    digits: int = 15,
+    var: str | None = None,
+    params: Mapping[Any, Any] | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Eigenvalues:
+    """The lowest eigenvalues of a Sturm-Liouville problem, each in a proven ball, none left out.
+
+    The equation is a y'' + b y' + (c0 + lambda c1) y = 0 with real coefficients, c1/a positive or negative, and
+    without singular points inside the interval.  Eigenvalue number k is proven by counts of zeros (Sturm) in ball
+    arithmetic: below the lower end of its ball are k eigenvalues, and below the upper end k + 1.
+
+    Parameters
+    ----------
+    equation : str or sympy.Expr
+        The equation, linear in the parameter: "y'' + lambda*y = 0", "-y'' + x^4*y = E*y".  Coefficients are elementary
+        functions of x; absolute values, steps and cases are taken apart.
+    conditions : str or mapping, optional
+        Homogeneous ones at the two ends, as for `dsolve`: "y(0)=0, y(1)+y'(1)=0"; periodic ones, "y(0)=y(1),
+        y'(0)=y'(1)", or antiperiodic ones.  At a singular or infinite end none is needed: the solution is meant that
+        is smaller than all others; y(0) = 0, y(0) = "bounded", y(oo) = 0 say the same where they do.
+    parameter : str
+        The name of the eigenvalue.
+    domain : pair, optional
+        The ends, if the conditions don't name both; the whole line without any.
+    count : int
+        So many eigenvalues, if there are as many.
+    digits : int
+        Proven digits of each, relative to it, or to a thousandth of the mean distance of eigenvalues where that is
+        larger.
+    var : str, optional
+        The name of the variable.
+    params : mapping, optional
+        Values of the other parameters.
+    limits : Limits
+        Bounds on the input and on the work.
+
+    Returns
+    -------
+    Eigenvalues
+        A sequence of `Level`, each with its `value`, a `Ball`, and the number of `zeros` of its eigenfunction.
+        `complete` says that there are no others; `notes` what was assumed, and what isn't proven.
+
+    Raises
+    ------
+    InputError
+        For what isn't such a problem: a singular point inside, an end with two square integrable solutions and no
+        condition (limit circle), a potential that isn't bounded below.
+    LimitExceeded
+        Where levels aren't found or told apart within the limits.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> print(kovacic.eigenvalues("-y'' + x^4*y = E*y", parameter="E", count=2, digits=10))
+    E = 1.06036209048 ± 3.1e-11  (0 zeros)
+    E = 3.79967302980 ± 9.7e-11  (1 zero)
+    >>> kovacic.eigenvalues("y'' + lambda*y = 0", "y(0)=y(1), y'(0)=y'(1)", count=3)[2].alone
+    False
+
+    References: A. Zettl, Sturm-Liouville Theory, AMS 2005; J. D. Pryce, Numerical Solution of Sturm-Liouville
+    Problems, 1993.
+    """
+    problem = read_eigenproblem(
+        equation, conditions, parameter=parameter, domain=domain, var=var, params=params, limits=limits
+    )
+    for _ in problem.levels(whole(count, "count", least=1), whole(digits, "digits", least=1)):
+        pass
+    return problem.answer()
+
+
+def read_eigenproblem(
+    equation: Any,
+    conditions: Mapping[Any, Any] | str | None = None,
+    *,
+    parameter: str = PARAMETER,
+    domain: Sequence[Any] | None = None,
+    var: str | None = None,
+    params: Mapping[Any, Any] | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Eigenproblem:
+    """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
+    linear = _linear(equation, var, parameter, dict(params or {}), limits)
+    reader = ConditionReader(linear.function, linear.function.func.__name__)
+    given = [reader.read(key, value) for key, value in as_mapping(conditions).items()]
+    ends = _ends(given, domain)
+    wrap, wishes = _wishes(given, ends)
+    pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
+    problem = Problem(linear.x, pieces, wishes, wrap, B, sign)
+    if wrap:
+        _check_periodic(problem)
+    return Eigenproblem(problem, parameter)
+
+
+@dataclass(frozen=True)
+class _Linear:
+    """a y'' + b y' + (c0 + parameter c1) y = 0: the function y(x), and a, b, c0, c1."""
+
+    function: Expr
+    coefficients: tuple[Expr, Expr, Expr, Expr]
+
+    @property
+    def x(self) -> Expr:
+        return self.function.args[0]
+
+
+def _linear(equation: Any, var: str | None, parameter: str, params: dict[Any, Any], limits: Limits) -> _Linear:
+    expression, function = _expression(equation, var, limits)
+    x = function.args[0]
+    values = {str(name): read_expression(exact_text(value, str(name))) for name, value in params.items()}
+    named = {s: values[s.name] for s in expression.free_symbols if s.name in values}
+    expression = expression.xreplace(named)
+    symbol = next((s for s in expression.free_symbols if s.name == parameter and s != x), None)
+    if symbol is None:
+        names = ", ".join(sorted(s.name for s in expression.free_symbols - {x})) or "none"
+        raise InputError(
+            f"the parameter {parameter} doesn't occur in the equation",
+            hint=f'names in it: {names}; parameter="E" names another',
+        )
+    others = expression.free_symbols - {x, symbol}
+    if others:
+        names = ", ".join(sorted(s.name for s in others))
+        raise InputError(f"eigenvalues are numbers: values are needed for {names}", hint="params={...} gives them")
+    unknown = [sympy.Dummy("y2"), sympy.Dummy("y1"), sympy.Dummy("y0")]
+    derivatives = [function.diff(x, 2), function.diff(x), function]
+    plain = expression.doit().xreplace(dict(zip(derivatives, unknown, strict=True)))
+    a, b, c = (sympy.expand(plain.diff(u)) for u in unknown)
+    rest = sympy.expand(plain - sum(k * u for k, u in zip((a, b, c), unknown, strict=True)))
+    c1 = sympy.simplify(c.diff(symbol))
+    is_linear = rest == 0 and not (a.has(symbol) or b.has(symbol) or c1.has(symbol)) and a != 0
+    if not is_linear or plain.atoms(AppliedUndef):
+        raise InputError(
+            f"a y'' + b y' + (c0 + {parameter} c1) y = 0 is expected, linear in y and in {parameter}",
+            hint=f"where {parameter}^2 stands, call that {parameter}",
+        )
+    if c1 == 0:
+        raise InputError(f"the parameter {parameter} cancels out of the equation")
+    return _Linear(function, (a, b, sympy.expand(c - symbol * c1), c1))
+
+
+def _expression(equation: Any, var: str | None, limits: Limits) -> tuple[Expr, Expr]:
+    """What is zero, and y(x)."""
+    if isinstance(equation, str):
+        source = source_of(equation, var, limits, equation=True)
+        x = sympy.Symbol(source.variable)
+        return expression_of(source, limits), sympy.Function(source.unknown)(x)
+    if not isinstance(equation, sympy.Basic):
+        raise InputError(f"an equation is a text or an expression of SymPy, not {type(equation).__name__}")
+    expression = equation.lhs - equation.rhs if is_sympy_equation(equation) else equation
+    functions = {f for f in expression.atoms(AppliedUndef) if len(f.args) == 1 and f.args[0].is_Symbol}
+    if len(functions) != 1:
+        raise InputError("an equation for one function y(x) is expected")
+    function = functions.pop()
+    x = function.args[0]
+    plain = {s: sympy.Symbol(s.name) for s in expression.free_symbols}
+    return expression.doit().xreplace(plain), function.func(plain[x])
+
+
+def _ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tuple[Expr, Expr]:
+    """The ends of the interval, from the points of the conditions and from what was given."""
+    points = {point for condition in conditions for point in condition.points}
+    for point in points:
+        if point.free_symbols:
+            raise InputError(f"eigenvalues are numbers: the end {point} isn't one", hint="params={...} gives values")
+    if domain is not None:
+        if isinstance(domain, str) or len(domain) != 2:
+            raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+        ends = [_end(value) for value in domain]
+        if not points <= {*ends}:
+            raise InputError("the conditions are at points that aren't the ends of the domain")
+    elif not points:
+        ends = [-sympy.oo, sympy.oo]
+    else:
+        ends = [*points]
+    if len(ends) != 2:
+        raise InputError(
+            f"the conditions name {len(ends)} points, and an interval has two ends", hint='domain=(0, "oo") gives both'
+        )
+    low, high = sorted(ends, key=_place)
+    if not _place(low) < _place(high):
+        raise InputError("the interval is empty")
+    return low, high
+
+
+def _place(end: Expr) -> float:
+    if end.is_infinite:
+        return float("inf") if end is sympy.oo else -float("inf")
+    return float(ball(end).mid())
+
+
+def _end(value: Any) -> Expr:
+    text = exact_text(value, "an end of the domain")
+    return _INFINITE.get(text) or read_expression(text, what="an end of the domain")
+
+
+def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[int, tuple[Wish, Wish]]:
+    """Whether the conditions are periodic (1), antiperiodic (-1) or separated (0), and those at the two ends."""
+    for condition in conditions:
+        if condition.value not in (None, 0):
+            raise InputError(
+                f"{condition.text}: the conditions of eigenvalue problems are homogeneous, with 0 on one side"
+            )
+    if any(len(set(condition.points)) > 1 for condition in conditions):
+        return _wrap(conditions, ends), (None, None)
+    wishes: list[Wish] = [None, None]
+    for condition in conditions:
+        side = ends.index(condition.points[0])
+        if wishes[side] is not None:
+            raise InputError(f"two conditions at {condition.points[0]}", hint="one at each end is needed")
+        wishes[side] = _wish(condition)
+    return 0, (wishes[0], wishes[1])
+
+
+def _wish(condition: Condition) -> Wish:
+    if condition.value is None:
+        return Bounded()
+    parts = [sympy.Integer(0), sympy.Integer(0)]
+    for term in condition.terms:
+        parts[term.order] += term.coefficient
+    if any(part.free_symbols for part in parts):
+        raise InputError(f"{condition.text}: numbers are expected in it")
+    return Robin(*parts)
+
+
+def _wrap(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
+    """1 for y(a) = y(b), y'(a) = y'(b), and -1 for the same with a sign.  Raises `InputError` for others."""
+    quotients = {}
+    for condition in conditions:
+        orders = {term.order for term in condition.terms}
+        at = {term.point: term.coefficient for term in condition.terms}
+        if len(orders) == 1 and len(at) == 2:
+            quotients[orders.pop()] = sympy.simplify(-at[ends[1]] / at[ends[0]])
+    if len(conditions) == 2 and quotients in ({0: 1, 1: 1}, {0: -1, 1: -1}):
+        return int(quotients[0])
+    a, b = ends
+    raise InputError(
+        "conditions on both ends together are periodic or antiperiodic ones",
+        hint=f"y({a}) = y({b}), y'({a}) = y'({b}), or both with a minus sign",
+    )
+
+
+def _check_periodic(problem: Problem) -> None:
+    """Raises `InputError` where the ends aren't regular, or p isn't the same at both of them."""
+    low, high = problem.ends
+    if low.is_infinite or high.is_infinite:
+        raise InputError("periodic conditions need a finite interval")
+    if problem.B != 0 and sympy.simplify(sympy.integrate(problem.B, (problem.x, low, high))) != 0:
+        raise InputError("with p(a) different from p(b) periodic conditions don't belong to a symmetric problem")

@@ -1,0 +1,235 @@
+"""Solutions of Y'' = (Q - E W) Y along the axis, in balls: Taylor series about a point, with a proven bound of what is
+left out.
+
+In |x - x0| <= R let |Q| + |E| |W| <= k^2.  Then |Y| <= (|Y(x0)| + R |Y'(x0)|) exp(k R) =: M there, so the coefficients
+are at most M/R^n (Cauchy), and with r = |t|/R <= 1/8 the terms from the N-th on sum up to at most M r^N/(1 - r), those
+of t Y' to at most N M r^N/(1 - r)^2.  Two zeros of a solution are at least pi/k apart (Sturm), where k^2 bounds E W -
+Q on the axis: while k |t| sums up to less than pi there is at most one zero, and the signs at both ends tell whether
+there is one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from operator import mul
+from typing import Any
+
+import sympy
+from flint import acb, acb_series, arb, ctx
+
+from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.points import working_precision
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import check_time, count_work
+from kovacic.sturm_liouville.problem import Piece, Problem, Span, ball
+
+Expr = Any
+#: The most that k R is, and R over the step.
+_STEEPEST = 24
+_SHARE = 8
+_TURN = arb(157) / 50
+"""Below pi."""
+_COLUMNS = 4
+_WITH_POLES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cosh, sympy.sinh, sympy.tanh)
+_MAX_STEPS = 20_000
+_SMALLEST = arb(1) / 2**80
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Y and Y' at a point, and the zeros of Y that were passed since the start."""
+
+    u: Any
+    v: Any
+    zeros: int
+
+
+@dataclass(frozen=True)
+class Step:
+    """From x0 to x0 + t: the Taylor coefficients of Q and W, times t^(k+2)."""
+
+    t: Any
+    radius: Any
+    q: list[Any]
+    w: list[Any]
+    terms: int
+    tail: Any
+    turn: Any
+
+    def advance(self, u: Any, v: Any, E: Any) -> tuple[Any, Any]:
+        """(Y, Y') at the other end, for |E| at most what the step was made for."""
+        S = self.q[:]
+        for k, w in enumerate(self.w):
+            S[k] -= E * w
+        a = [u, v * self.t]
+        for n in range(self.terms - 2):  # (n+1)(n+2) a_(n+2) = sum of S_k a_(n-k)
+            a.append(sum(map(mul, S, a[n::-1])) / ((n + 1) * (n + 2)))
+        error = arb(0, ((abs(u) + self.radius * abs(v)) * self.tail).upper())
+        slopes = sum(n * c for n, c in enumerate(a))
+        return sum(a) + error, (slopes + error) / self.t
+
+
+def march(steps: Sequence[Step], u: Any, v: Any, E: Any) -> Motion | None:
+    """The solution at the end of the steps; None where the balls are too wide to tell how many zeros it has."""
+    sign = _sign(u)
+    if u == 0:
+        sign = _sign(v) * _sign(steps[0].t)
+    zeros = 0
+    turned = arb(0)
+    for step in steps:
+        u, v = step.advance(u, v, E)
+        turned += step.turn
+        now = _sign(u)
+        if now == 0:
+            continue
+        if sign == 0 or not turned <= _TURN:
+            return None
+        zeros += int(now != sign)
+        sign = now
+        turned = arb(0)
+    return None if turned != 0 else Motion(u, v, zeros)
+
+
+def _sign(value: Any) -> int:
+    """1 or -1; 0 where it isn't known."""
+    return int(value > 0) - int(value < 0)
+
+
+@contextmanager
+def series_of(terms: int) -> Iterator[None]:
+    """With so many terms."""
+    before = ctx.cap
+    ctx.cap = terms
+    try:
+        yield
+    finally:
+        ctx.cap = before
+
+
+def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
+    """The Taylor coefficients of e about x0, without zeros at the end.  Raises `InputError` where they aren't real."""
+    with series_of(terms):
+        try:
+            value = BallEvaluator({x: acb_series([acb(x0), 1])})(e)
+        except (ValueError, ZeroDivisionError) as error:
+            raise not_analytic(x, x0) from error
+        found = list(value) if isinstance(value, acb_series) else [value]
+    if not all(c.imag.is_zero() for c in found):
+        raise InputError(f"{e} isn't known to be real near {x} = {x0.mid().str(8, radius=False)}")
+    real = [c.real for c in found]
+    while len(real) > 1 and real[-1] == 0:
+        real.pop()
+    return real
+
+
+def not_analytic(x: Expr, x0: Any) -> InputError:
+    """There may be a singular point."""
+    return InputError(f"the coefficients aren't known to be analytic near {x} = {x0.mid().str(10, radius=False)}")
+
+
+def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
+    """An upper bound of |e| in a disc in which e is analytic; not finite where that isn't known.
+
+    Where one box isn't enough, as for 1/cosh(x), the upper half of the disc is in several: e(conj x) = conj e(x).
+    """
+    box = acb(x0 + arb(0, radius), arb(0, radius))
+    whole = abs(BallEvaluator({x: box}, analytic=True)(e)).upper()
+    if whole.is_finite() or not e.has(*_WITH_POLES):
+        return whole
+    half = radius / (2 * _COLUMNS)
+    largest = arb(0)
+    for row in range(1, 2 * _COLUMNS, 2):
+        for column in range(1, 2 * _COLUMNS, 2):
+            centre = x0 + half * (2 * column - 2 * _COLUMNS)
+            box = acb(centre + arb(0, 2 * half), half * row + arb(0, half))
+            largest = largest.max(abs(BallEvaluator({x: box}, analytic=True)(e)).upper())
+            if not largest.is_finite():
+                return largest
+    return largest
+
+
+class Road:
+    """The pieces of a problem, and steps along them for a range of E."""
+
+    def __init__(self, problem: Problem, span: Span) -> None:
+        self.x = problem.x
+        self.pieces = problem.pieces
+        self.span = span
+        self._known: dict[tuple[Any, Any, int], tuple[Step, ...]] = {}
+
+    def value(self, x: Any, E: Any) -> Any:
+        """Q - E W near x: only to find good points."""
+        for piece in self.pieces:
+            if piece.high.is_infinite or x < ball(piece.high):
+                break
+        at = BallEvaluator({self.x: acb(x)})
+        return (at(piece.Q) - E * at(piece.W)).real.mid()
+
+    def steps(self, start: Any, stop: Any, prec: int) -> tuple[Step, ...]:
+        """From one point to another, which may be balls around the exact ones."""
+        key = (start.str(30), stop.str(30), prec)
+        if key not in self._known:
+            with working_precision(prec):
+                self._known[key] = tuple(self._steps(start, stop, prec))
+        return self._known[key]
+
+    def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[Step]:
+        here = start
+        radius = _SHARE * abs(stop - start).upper()
+        for piece, last in self._parts(start, stop):
+            for _ in range(_MAX_STEPS):
+                check_time()
+                count_work(prec)
+                step, is_last = self._step(piece, here, last, radius, prec)
+                yield step
+                radius = step.radius * 3 / 2
+                here = last if is_last else here + step.t
+                if is_last:
+                    break
+            else:
+                raise LimitExceeded(f"more than {_MAX_STEPS} steps are needed", limit="unknown_degree")
+
+    def _parts(self, start: Any, stop: Any) -> Iterator[tuple[Piece, Any]]:
+        """The pieces on the way, each with the point at which it is left."""
+        forwards = start < stop
+        for piece in self.pieces if forwards else self.pieces[::-1]:
+            end = piece.high if forwards else piece.low
+            far = None if end.is_infinite else ball(end)
+            if far is not None and not (start < far if forwards else far < start):
+                continue
+            leaves = far is None or not (far < stop if forwards else stop < far)
+            yield piece, stop if leaves else far
+            if leaves:
+                return
+
+    def _step(self, piece: Piece, here: Any, last: Any, radius: Any, prec: int) -> tuple[Step, bool]:
+        """The largest one whose radius is `radius` over a power of 2, and whether it leads to `last`."""
+        distance = last - here
+        whole = _SHARE * abs(distance).upper()
+        radius = min(radius, whole)
+        while True:
+            q = size(piece.Q, self.x, here, radius)
+            w = size(piece.W, self.x, here, radius)
+            k = (q + self.span.size * w).sqrt()
+            if (k * radius).is_finite() and k * radius <= _STEEPEST:
+                break
+            radius = radius * 3 / 4
+            if radius < abs(distance) * _SMALLEST:
+                raise not_analytic(self.x, here)
+        is_last = radius == whole
+        t = distance if is_last else radius / _SHARE * (1 if distance > 0 else -1)
+        growth = (k * radius).exp()
+        terms = 16 + prec // 3  # 8^12 is above exp(24)
+        ratio = abs(t) / radius
+        tail = (growth * ratio**terms * terms / (1 - ratio) ** 2).upper()
+        series = (coefficients(e, self.x, here, terms) for e in (piece.Q, piece.W))
+        q_t, w_t = ([c * t ** (n + 2) for n, c in enumerate(s)] for s in series)
+        q_t += [arb(0)] * (len(w_t) - len(q_t))
+        return Step(t, radius, q_t, w_t, terms, tail, self._turn(piece, here, t)), is_last
+
+    def _turn(self, piece: Piece, here: Any, t: Any) -> Any:
+        at = BallEvaluator({self.x: acb(here.union(here + t))})
+        depth = (self.span.high * at(piece.W) - at(piece.Q)).real.upper()
+        return (depth.sqrt() * abs(t)).upper() if depth > 0 else arb(0)

@@ -1,0 +1,366 @@
+"""How the solution of an end begins: with values at the end, with a Frobenius series, or between two values at a cut.
+
+At a regular end the condition gives Y and Y'.  At a regular singular one, where t^2 (Q - E W) = G(t) is analytic in the
+distance t, the principal solution is t^s (1 + a_1 t + ...) with s = 1/2 + sqrt(1/4 + G(0)).  At all others Q - E W is
+to be positive from the end to a cut: there the principal solution has Y'/Y between 0 and the direction of growth,
+infinitely steep, and between sqrt(m) and sqrt(M) in that direction where m <= Q - E W <= M is known.  So its angle
+lies between those of two solutions, and the counts that belong to these are an upper and a lower bound of the count
+(the angle at the other end is monotonic in the one at the cut).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy
+from flint import acb, arb, ctx
+
+from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.points import working_precision
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.sturm_liouville.bounds import lower_bound
+from kovacic.sturm_liouville.discs import coefficients, size
+from kovacic.sturm_liouville.problem import Piece, Problem, Robin, Span, Wish, ball, plain
+
+Expr = Any
+State = tuple[Any, Any]
+_HALVINGS = 200
+_REACH = 60
+"""Doublings of the distance at which the potential is looked at."""
+
+
+@dataclass(frozen=True)
+class RegularEnd:
+    """alpha Y + beta Y' = 0 at a point at which Q and W are analytic; `inwards` is the sign of the direction."""
+
+    at: Expr
+    alpha: Expr
+    beta: Expr
+    inwards: int
+    threshold = None
+
+    def position(self, span: Span, digits: int) -> Any:
+        return ball(self.at)
+
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+        """(beta, -alpha) up to a sign, with Y >= 0 near the end."""
+        u, v = ball(self.beta), -ball(self.alpha)
+        sign = -1 if u < 0 or (u == 0 and v * self.inwards < 0) else 1
+        return sign * u, sign * v
+
+
+@dataclass(frozen=True)
+class SingularEnd:
+    """The principal solution at a regular singular point: G is t^2 Q, H is t^2 W, with H(0) = 0."""
+
+    at: Expr
+    t: Expr
+    G: Expr
+    H: Expr
+    inwards: int
+    threshold = None
+
+    @cached_property
+    def square(self) -> Expr:
+        """nu^2 = 1/4 + G(0), exactly; the exponents are 1/2 +- nu."""
+        return sympy.simplify(self.G.subs(self.t, 0) + sympy.Rational(1, 4))
+
+    def _radius(self, top: Any) -> Any:
+        """R with pi sqrt(M) <= 2, where M bounds |G - G(0)| + |E H| in the disc."""
+        radius = arb(1) * 2**20
+        for _ in range(_HALVINGS):
+            M = self._variation(radius, top)
+            if M.is_finite() and 5 * M <= 2:
+                return radius
+            radius = radius / 2
+        raise InputError(f"the coefficients aren't known to be meromorphic at {self.at}")
+
+    def _variation(self, radius: Any, top: Any) -> Any:
+        G = self.G - self.G.subs(self.t, 0)
+        return size(G, self.t, arb(0), radius) + top * size(self.H, self.t, arb(0), radius)
+
+    def position(self, span: Span, digits: int) -> Any:
+        return ball(self.at) + self.inwards * self._radius(span.size) / 4
+
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+        """Without the factor t^s.  n (n + 2 nu) a_n = sum of (G - E H)_k a_(n-k) over k > 0, and n (n + 2 nu) >= n^2.
+
+        |a_n| R^n =: b_n <= (M/n^2) (b_0 + ... + b_(n-1)), and the product of all 1 + M/n^2 is at most exp(pi sqrt M).
+        With pi sqrt(M) <= 2 the terms beside 1 sum up to less than 1 at t = R/4, so that there is no zero up to there.
+        """
+        radius = self._radius(span.size)
+        t = radius / 4
+        terms = ctx.prec // 2 + 20
+        G = coefficients(self.G, self.t, arb(0), terms)
+        H = coefficients(self.H, self.t, arb(0), terms)
+        nu = ball(self.square).sqrt() if self.square != 0 else arb(0)
+        S = [arb(0)] * max(len(G), len(H))
+        for k in range(1, len(G)):
+            S[k] += G[k] * t**k
+        for k in range(1, len(H)):
+            S[k] -= E * H[k] * t**k
+        a = [arb(1)]
+        for n in range(1, terms):
+            a.append(sum(S[k] * a[n - k] for k in range(1, min(n, len(S) - 1) + 1)) / (n * (n + 2 * nu)))
+        rest = arb(0, (8 * self._variation(radius, span.size) / arb(4) ** terms).upper())  # (4/3) M exp(2) / N < 8 M
+        u = sum(a) + rest
+        v = (arb(1) / 2 + nu) * u + sum(n * c for n, c in enumerate(a)) + rest
+        return u, v / t * self.inwards
+
+
+@dataclass(frozen=True)
+class CutEnd:
+    """An infinite end, or an irregular singular one: tau grows to oo towards it, and x = point(tau)."""
+
+    x: Expr
+    tau: Expr
+    place: Expr
+    piece: Piece
+    inwards: int
+    threshold: Expr | None
+    origin: Any
+
+    @cached_property
+    def of_tau(self) -> tuple[Expr, Expr]:
+        Q, W = (e.subs(self.x, self.place) for e in (self.piece.Q, self.piece.W))
+        return plain(Q, self.tau), plain(W, self.tau)
+
+    @cached_property
+    def _cuts(self) -> dict[Any, Any]:
+        return {}
+
+    def position(self, span: Span, digits: int) -> Any:
+        """Where the solution begins for all E <= top; beyond, half of the digits are lost twice over."""
+        key = (span.high.man_exp(), digits)
+        if key not in self._cuts:
+            self._cuts[key] = self._cut(span.high, digits)
+        return self._cuts[key]
+
+    def _cut(self, top: Any, digits: int) -> Any:
+        first = self._positive_from(top)
+        action = arb(0)
+        tau = first
+        needed = 1.16 * (digits + 3)
+        for _ in range(100_000):
+            root = self._S(tau, top).sqrt()
+            if not root > 0:
+                break
+            step = min(abs(tau) / 16 + arb(1) / 256, 1 / (2 * root)) if self.place.is_polynomial(self.tau) else tau / 32
+            after = (tau + step).mid()
+            action += root * abs(self._x(after) - self._x(tau))
+            tau = after
+            if action > needed - self._saved(tau, root):
+                return self._x(tau)
+        raise LimitExceeded(f"the solutions don't decay fast enough towards {self._name()}", limit="unknown_degree")
+
+    def _saved(self, tau: Any, root: Any) -> Any:
+        """Half the logarithm of S over what S varies by beyond: so much less decay is needed where that is known."""
+        if self.threshold is None:
+            return 0
+        variation = abs(self._S(tau, ball(self.threshold)))
+        return ((root * root / variation).log() / 2).max(arb(0)) if variation > 0 else 1000
+
+    @cached_property
+    def _bounds(self) -> dict[Any, tuple[Any, Any]]:
+        return {}
+
+    def _potential_beyond(self, x: Any) -> tuple[Any, Any]:
+        """Bounds of Q from x on, where W = 1 and the potential has a limit."""
+        key = x.str(30)
+        if key not in self._bounds:
+            Q, W = self.of_tau
+            low, high = -arb.pos_inf(), arb.pos_inf()
+            if self.threshold is not None and W == 1:
+                tau = _rational((-self.inwards * x).lower())
+                low, high = lower_bound(Q, self.tau, tau), -lower_bound(-Q, self.tau, tau)
+            self._bounds[key] = low, high
+        return self._bounds[key]
+
+    def _name(self) -> str:
+        return "infinity" if self.place.is_polynomial(self.tau) else f"{self.x} = {self.place.subs(self.tau, sympy.oo)}"
+
+    def _x(self, tau: Any) -> Any:
+        return BallEvaluator({self.tau: acb(tau)})(self.place).real
+
+    def _S(self, tau: Any, E: Any) -> Any:
+        Q, W = self.of_tau
+        value = BallEvaluator({self.tau: acb(tau)})
+        return (value(Q) - E * value(W)).real.mid()
+
+    def _positive_from(self, top: Any) -> Any:
+        """A number from which on Q - top W > 0 is proven."""
+        candidates = [self.origin + arb(2) ** k for k in range(-3, _REACH)]
+        signs = [bool(self._S(tau, top) > 0) for tau in candidates]
+        for k, tau in enumerate(candidates):
+            if all(signs[k : k + 12]) and self._is_positive(tau, top):
+                return tau
+        raise InputError(
+            f"it isn't proven that the potential is above {top.str(6, radius=False)} towards {self._name()}"
+        )
+
+    def _is_positive(self, tau: Any, top: Any) -> bool:
+        Q, W = self.of_tau
+        start = _rational(tau)
+        if self._rises_from is not None and tau >= self._rises_from:
+            return bool((ball(Q.subs(self.tau, start)) - top * ball(W.subs(self.tau, start))) > 0)
+        return bool(lower_bound(Q - _rational(top) * W, self.tau, start) > 0)
+
+    @cached_property
+    def _rises_from(self) -> Any:
+        """From where on Q is increasing and W constant, if that was proven for a power of 2."""
+        Q, W = self.of_tau
+        if W.has(self.tau):
+            return None
+        for k in range(5):
+            tau = (self.origin + arb(2) ** k).mid()
+            if lower_bound(Q.diff(self.tau), self.tau, _rational(tau), derivatives=2) >= 0:
+                return tau
+        return None
+
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+        """The steeper one, with Y = 0 if need be, which gives the lower count, or the other, with Y' = 0 if need be."""
+        low, above = self._potential_beyond(at)
+        if high:
+            return arb(1), self.inwards * (low - E).sqrt() if low > E else arb(0)
+        if above.is_finite():
+            return arb(1), self.inwards * (above - E).sqrt()
+        return arb(0), arb(self.inwards)
+
+
+@dataclass(frozen=True)
+class ThresholdEnd:
+    """An infinite end where Q - E W >= -1/(4 tau^2) beyond a cut, for all E below the essential spectrum.
+
+    There the decaying solution has Y'/Y <= 1/(2 tau): else its quotient with sqrt(tau) would grow as log(tau).  So the
+    count with equality is an upper bound for all these E.
+    """
+
+    at: Any
+    inwards: int
+    threshold = None
+
+    def position(self, span: Span, digits: int) -> Any:
+        return self.at
+
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+        return arb(1), -self.inwards / (2 * abs(self.at))
+
+
+End = RegularEnd | SingularEnd | CutEnd | ThresholdEnd
+
+
+def at_threshold(end: End, threshold: Expr) -> End | None:
+    """The end for the bottom of the essential spectrum; None where no such bound is proven."""
+    if not isinstance(end, CutEnd) or end.threshold is None or end.threshold != threshold:
+        return end
+    Q, W = end.of_tau
+    excess = sympy.expand((Q - threshold * W) * end.tau**2)
+    for k in range(8):
+        tau = (abs(end.origin) + arb(2) ** k).mid()
+        if lower_bound(excess, end.tau, _rational(tau), derivatives=1) >= -arb(1) / 4:
+            return ThresholdEnd(-end.inwards * tau, end.inwards)
+    return None
+
+
+def _rational(value: Any) -> Expr:
+    mantissa, exponent = value.mid().man_exp()
+    return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
+
+
+def end_of(problem: Problem, side: int) -> End:
+    """The left end for side 0, the right one for 1.  Raises `InputError` where it isn't known what is to be computed there."""
+    piece = problem.pieces[-side]
+    at = problem.ends[side]
+    wish = problem.conditions[side]
+    inwards = 1 - 2 * side
+    if isinstance(wish, Robin) and not wish.is_zero and not _is_regular(piece, problem, at):
+        raise InputError(
+            f"at {problem.x} = {at} the condition is y = 0, or that y is bounded: there is no value of y' there"
+        )
+    if at.is_infinite:
+        return _infinite_end(problem.x, piece, at, inwards)
+    if _is_regular(piece, problem, at):
+        if not isinstance(wish, Robin):
+            raise InputError(f"a condition is needed at {problem.x} = {at}", hint=f'for example "y({at}) = 0"')
+        slope = problem.slope(at) if wish.beta != 0 else 0
+        return RegularEnd(at, wish.alpha - wish.beta * slope, wish.beta, inwards)
+    t = sympy.Dummy("t", positive=True)
+    Q, W = (_reduced(e.subs(problem.x, at + inwards * t) * t**2, t) for e in (piece.Q, piece.W))
+    found = SingularEnd(at, t, Q, W, inwards)
+    if _is_analytic(Q, t) and _is_analytic(W, t) and W.subs(t, 0) == 0:
+        _check_exponents(found, problem.x)
+        _check_wish(found, problem, wish)
+        return found
+    tau = sympy.Dummy("tau", positive=True)
+    return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, arb(1))
+
+
+def _reduced(e: Expr, t: Expr) -> Expr:
+    return plain(e, t) if e.is_rational_function(t) else sympy.expand(e)
+
+
+def _is_regular(piece: Piece, problem: Problem, at: Expr) -> bool:
+    if at.is_infinite:
+        return False
+    with working_precision(64):
+        sizes = [size(e, problem.x, ball(at), arb(1) / 2**40) for e in (piece.Q, piece.W, problem.B)]
+    return all(bound.is_finite() for bound in sizes)
+
+
+def _is_analytic(e: Expr, t: Expr) -> bool:
+    return bool(size(e, t, arb(0), arb(1) / 2**40).is_finite())
+
+
+def _check_exponents(end: SingularEnd, x: Expr) -> None:
+    """Raises `InputError` where the exponents aren't real, or it isn't known."""
+    square = end.square
+    if square == 0 or ball(square) > 0:
+        return
+    said = f"at {x} = {end.at} the exponents are 1/2 ± sqrt({square}), not known to be real"
+    raise InputError(f"{said}: then solutions oscillate, and there is no lowest level")
+
+
+def _check_wish(end: SingularEnd, problem: Problem, wish: Wish) -> None:
+    """Raises `InputError` where the condition doesn't mean the principal solution, y ~ t^(larger exponent)."""
+    if wish is None or end.square >= 1:  # the other one isn't square integrable
+        return
+    rate = sympy.limit(end.inwards * end.t * problem.B.subs(problem.x, end.at + end.inwards * end.t), end.t, 0)
+    nu = sympy.sqrt(end.square)
+    larger, smaller = (sympy.Rational(1, 2) + side * nu - rate / 2 for side in (1, -1))
+    is_meant = larger > 0 >= smaller if wish.is_zero else larger >= 0 and (smaller < 0 or nu == 0)
+    if not is_meant:
+        said = f"at {problem.x} = {end.at} solutions behave like powers with the exponents {larger} and {smaller}"
+        raise InputError(
+            f"{said}: the condition there doesn't single out the first", hint="leave it out to mean that one"
+        )
+
+
+def _infinite_end(x: Expr, piece: Piece, at: Expr, inwards: int) -> CutEnd:
+    tau = sympy.Dummy("tau", positive=True)
+    place = -inwards * tau
+    Q, W = (e.subs(x, place) for e in (piece.Q, piece.W))
+    limit = sympy.limit(Q / W, tau, sympy.oo)
+    if limit is sympy.oo:
+        threshold = None
+    elif limit.is_finite and limit.is_number and limit.is_real:
+        threshold = limit
+    elif limit is -sympy.oo:
+        raise InputError(_said_of_oscillation(Q, tau, x, at))
+    else:
+        raise InputError(f"{Q.subs(tau, x)} has no limit at {at}: whether there are levels isn't known here")
+    if W.has(tau) and not lower_bound(W, tau, sympy.Integer(10)) > 0:
+        raise InputError(f"the weight isn't known to stay positive at {at}")
+    other = piece.low if at is sympy.oo else piece.high
+    origin = arb(0) if other.is_infinite else (-inwards * ball(other)).mid()
+    return CutEnd(x, tau, place, piece, inwards, threshold, origin)
+
+
+def _said_of_oscillation(Q: Expr, tau: Expr, x: Expr, at: Expr) -> str:
+    """Where Q -> -oo: the limit circle if int |Q|^(-1/2) converges."""
+    said = f"the potential tends to -oo at {x} = {at}"
+    if sympy.limit(Q / tau ** sympy.Rational(21, 10), tau, sympy.oo) is -sympy.oo:
+        circle = "where all solutions oscillate and are square integrable (limit circle)"
+        return f"{said}, {circle}: a boundary condition is needed"
+    return f"{said}, where all solutions oscillate: there is no lowest level"

@@ -1,0 +1,251 @@
+"""The problem in normal form, Y'' = (Q - E W) Y with W >= 0, on intervals in each of which Q and W are analytic.
+
+a y'' + b y' + (c0 + E c1) y = 0 becomes this for Y = y exp(int b/(2a)): with B = b/a, Q = B^2/4 + B'/2 - c0/a and W =
+c1/a. Zeros stay where they are, and alpha y + beta y' = 0 becomes (alpha - beta B/2) Y + beta Y' = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import sympy
+from flint import acb, arb, fmpq
+from sympy.core.relational import Relational
+
+from kovacic.closed_form.balls import BallEvaluator
+from kovacic.errors import InputError
+
+Expr = Any
+_STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max)
+_HALVINGS = 14
+"""Of an interval, on which the weight is shown to be positive."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """The numbers E that are to be looked at: E <= high and |E| <= size, exact."""
+
+    high: Any
+    size: Any
+
+    @property
+    def key(self) -> tuple[Any, Any]:
+        """What tells two of them apart."""
+        return self.high.man_exp(), self.size.man_exp()
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Q and W on an interval."""
+
+    low: Expr
+    high: Expr
+    Q: Expr
+    W: Expr
+
+
+@dataclass(frozen=True)
+class Robin:
+    """alpha y + beta y' = 0, not both zero."""
+
+    alpha: Expr
+    beta: Expr
+
+    @property
+    def is_zero(self) -> bool:
+        """Is it y = 0?"""
+        return bool(self.beta == 0)
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """y is bounded."""
+
+    is_zero = False
+
+
+Wish = Robin | Bounded | None
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Conditions are those on y; None where the solution is meant that is smaller than all others at that end.
+
+    `wrap` is 0 for separated conditions, 1 for periodic and -1 for antiperiodic ones; `sign` is -1 where the user's
+    parameter is -E.
+    """
+
+    x: Expr
+    pieces: tuple[Piece, ...]
+    conditions: tuple[Wish, Wish] = (None, None)
+    wrap: int = 0
+    B: Expr = sympy.S.Zero
+    sign: int = 1
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return self.pieces[0].low, self.pieces[-1].high
+
+    def slope(self, at: Expr) -> Expr:
+        """B/2 at a point: y'/y = Y'/Y - B/2."""
+        return (self.B / 2).subs(self.x, at)
+
+
+def ball(e: Expr) -> Any:
+    """The value of a constant, a real ball.  Raises `InputError` where it isn't known to be real."""
+    found = BallEvaluator({})(e)
+    if not found.imag.is_zero():
+        raise InputError(f"{e} isn't known to be real")
+    return found.real
+
+
+def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Piece, ...]:
+    """Q and W between the points at which an absolute value, a step or a case of theirs changes.
+
+    Raises `InputError` where these points can't be found, or W is somewhere negative.
+    """
+    places = [domain[0], *_breaks(Q + x * W, x, domain), domain[1]]
+    found = []
+    for low, high in pairwise(places):
+        inside = _inside(low, high)
+        piece = Piece(low, high, *(_resolved(e, x, inside) for e in (Q, W)))
+        _check_weight(piece, x, inside)
+        found.append(piece)
+    return tuple(found)
+
+
+def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
+    """The points strictly inside the domain, in order."""
+    switches = set()
+    for step in e.atoms(*_STEPS):
+        if not step.has(x):
+            continue
+        if isinstance(step, sympy.Piecewise):
+            switches |= {r.lhs - r.rhs for _, condition in step.args for r in condition.atoms(Relational)}
+        elif isinstance(step, (sympy.Min, sympy.Max)):
+            switches |= {a - b for a in step.args for b in step.args if a is not b}
+        else:
+            switches.add(step.args[0])
+    points = set()
+    for switch in switches:
+        if not switch.is_polynomial(x):
+            raise InputError(f"it isn't known where {switch} changes its sign")
+        points |= set(sympy.real_roots(sympy.Poly(switch, x)))
+    inside = [point for point in points if _is_below(domain[0], point) and _is_below(point, domain[1])]
+    return sorted(inside, key=lambda point: float(ball(point).mid()))
+
+
+def _is_below(a: Expr, b: Expr) -> bool:
+    if a.is_infinite or b.is_infinite:
+        return bool(a < b)
+    return bool(ball(a) < ball(b))
+
+
+def _inside(low: Expr, high: Expr) -> Expr:
+    """A rational number between two ends, and not at a place where something is likely to vanish."""
+    if low.is_infinite and high.is_infinite:
+        return sympy.Rational(3, 7)
+    if low.is_infinite:
+        return sympy.floor(high) - sympy.Rational(10, 7)
+    if high.is_infinite:
+        return sympy.ceiling(low) + sympy.Rational(10, 7)
+    width = ball(high) - ball(low)
+    if not width > 0:
+        raise InputError(f"the interval is empty: {low} isn't below {high}")
+    middle = (ball(low) + width * fmpq(3, 7)).mid()
+    mantissa, exponent = middle.man_exp()
+    return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
+
+
+def _resolved(e: Expr, x: Expr, inside: Expr) -> Expr:
+    """Without absolute values, signs, steps and cases, as they are around a point."""
+    while True:
+        steps = [step for step in e.atoms(*_STEPS) if step.has(x)]
+        if not steps:
+            return e
+        innermost = min(steps, key=sympy.count_ops)
+        e = e.xreplace({innermost: _value_of_step(innermost, x, inside)})
+
+
+def _value_of_step(step: Expr, x: Expr, inside: Expr) -> Expr:
+    if isinstance(step, sympy.Piecewise):
+        return next((e for e, condition in step.args if condition.subs(x, inside) == sympy.true), sympy.nan)
+    if isinstance(step, (sympy.Min, sympy.Max)):
+        return next(e for e in step.args if step.subs(x, inside) == e.subs(x, inside))
+    is_positive = ball(step.args[0].subs(x, inside)) > 0
+    if isinstance(step, sympy.Abs):
+        return step.args[0] if is_positive else -step.args[0]
+    if isinstance(step, sympy.sign):
+        return sympy.Integer(1) if is_positive else sympy.Integer(-1)
+    return sympy.Integer(1) if is_positive else sympy.Integer(0)
+
+
+def _check_weight(piece: Piece, x: Expr, inside: Expr) -> None:
+    """Raises `InputError` where it isn't shown that W >= 0, with isolated zeros."""
+    W = piece.W
+    real = sympy.Dummy(real=True)
+    if not W.has(x) and ball(W) > 0:
+        return
+    if W.xreplace({x: real}).is_positive or _is_without_roots(piece, x, inside):
+        return
+    low, high = piece.low, piece.high
+    if low.is_finite and high.is_finite and _is_positive(W, x, ball(low), ball(high), _HALVINGS):
+        return
+    raise InputError(
+        f"the coefficient of the parameter isn't known to be positive: {W}",
+        hint="write the equation so that y'' and the parameter times y have positive coefficients on one side",
+    )
+
+
+def _is_without_roots(piece: Piece, x: Expr, inside: Expr) -> bool:
+    """W is rational, positive at a point, and has neither zeros nor poles inside."""
+    num, den = sympy.fraction(sympy.cancel(sympy.together(piece.W)))
+    polynomial = num * den
+    if not polynomial.is_polynomial(x) or not all(c.is_Rational for c in sympy.Poly(polynomial, x).coeffs()):
+        return False
+    if not ball(piece.W.subs(x, inside)) > 0:
+        return False
+    roots = sympy.real_roots(sympy.Poly(polynomial, x)) if polynomial.has(x) else []
+    return not any(_is_below(piece.low, root) and _is_below(root, piece.high) for root in roots)
+
+
+def _is_positive(W: Expr, x: Expr, low: arb, high: arb, halvings: int) -> bool:
+    """In balls; an end where W vanishes is left out by the caller's interval only if its derivative has a sign."""
+    whole = acb(low.union(high))
+    if BallEvaluator({x: whole}, analytic=True)(W).real > 0:
+        return True
+    slope = BallEvaluator({x: whole}, analytic=True)(W.diff(x)).real
+    values = [BallEvaluator({x: acb(end)})(W).real for end in (low, high)]
+    rising = slope > 0 and not values[0] < 0 and values[0].contains(0) and values[0].is_exact()
+    falling = slope < 0 and not values[1] < 0 and values[1].contains(0) and values[1].is_exact()
+    if rising or falling:
+        return True
+    if halvings == 0:
+        return False
+    middle = ((low + high) / 2).mid()
+    return _is_positive(W, x, low, middle, halvings - 1) and _is_positive(W, x, middle, high, halvings - 1)
+
+
+def normal_form(
+    x: Expr, coefficients: Sequence[Expr], domain: tuple[Expr, Expr]
+) -> tuple[tuple[Piece, ...], Expr, int]:
+    """The pieces, B, and the sign of E, from a, b, c0 and c1.  Raises `InputError`."""
+    a, b, c0, c1 = coefficients
+    if any(e.has(sympy.I) for e in coefficients):
+        raise InputError("the coefficients aren't real")
+    B = sympy.cancel(b / a) if (b / a).is_rational_function(x) else sympy.simplify(b / a)
+    if B.has(*_STEPS):
+        raise InputError("the coefficient of y' is a function in pieces, for which eigenvalues aren't computed")
+    Q = plain(B**2 / 4 + B.diff(x) / 2 - c0 / a, x)
+    W = plain(c1 / a, x)
+    inside = _inside(*domain)
+    sign = 1 if ball(_resolved(W, x, inside).subs(x, inside)) > 0 else -1
+    return pieces_of(Q, sign * W, x, domain), B, sign
+
+
+def plain(e: Expr, x: Expr) -> Expr:
+    """In lowest terms where it is rational, and in factors: near a pole an expanded denominator has too wide a ball."""
+    return sympy.factor(sympy.cancel(sympy.together(e))) if e.is_rational_function(x) else e

@@ -1,0 +1,113 @@
+"""The levels of a problem: which counter, which range, and what is said beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from flint import arb
+
+from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.points import working_precision
+from kovacic.sturm_liouville.count import SeparatedCounter
+from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
+from kovacic.sturm_liouville.hill import PeriodicCounter
+from kovacic.sturm_liouville.levels import Eigenvalues, Level
+from kovacic.sturm_liouville.problem import Piece, Problem, Span, ball
+from kovacic.sturm_liouville.search import Search
+
+_ROUGH = 6
+_PREC = 128
+_PERIODIC_SEPARATIONS = 2
+"""Pairs of periodic levels often coincide: twice the digits are tried, not more."""
+
+
+@dataclass(frozen=True)
+class Eigenproblem:
+    """A problem that was read; `levels` computes its lowest levels, one after the other."""
+
+    problem: Problem
+    parameter: str
+    notes: tuple[str, ...] = ()
+    _found: list[Level] = field(default_factory=list, compare=False, repr=False)
+
+    @cached_property
+    def ends(self) -> tuple[End, End]:
+        """The ends of separated conditions.  Raises `InputError` where none can be made of what was given."""
+        return end_of(self.problem, 0), end_of(self.problem, 1)
+
+    @cached_property
+    def threshold(self) -> Any:
+        """The bottom of the essential spectrum; None where there is none."""
+        if self.problem.wrap:
+            return None
+        finite = [end.threshold for end in self.ends if end.threshold is not None]
+        return min(finite, key=lambda e: float(ball(e).mid())) if finite else None
+
+    @cached_property
+    def search(self) -> Search:
+        """Where the levels come from."""
+        if self.problem.wrap:
+            return Search(self._periodic, self._scale(), separations=_PERIODIC_SEPARATIONS)
+        threshold = None if self.threshold is None else ball(self.threshold)
+        return Search(self._separated, self._scale(), threshold=threshold, total=self._total)
+
+    def _periodic(self, span: Span, digits: int) -> PeriodicCounter:
+        return PeriodicCounter(self.problem, span, digits)
+
+    def _separated(self, span: Span, digits: int) -> SeparatedCounter:
+        return SeparatedCounter(self.problem, self.ends, span, digits)
+
+    def _scale(self) -> Any:
+        """An exact number of the size of the lowest levels, where the interval is finite; else 1."""
+        low, high = self.problem.ends
+        if low.is_infinite or high.is_infinite:
+            return arb(1)
+        with working_precision(64):
+            middle = (ball(low) + (ball(high) - ball(low)) * 3 / 7).mid()
+            weight = BallEvaluator({self.problem.x: middle})(self._piece_at(middle).W).real
+            return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
+
+    def _piece_at(self, x: Any) -> Piece:
+        pieces = self.problem.pieces
+        return next((piece for piece in pieces if piece.high.is_infinite or x < ball(piece.high)), pieces[-1])
+
+    def _total(self) -> int | None:
+        """The number of levels below the essential spectrum; None where it isn't proven."""
+        ends = [at_threshold(end, self.threshold) for end in self.ends]
+        first, second = ends
+        if first is None or second is None:
+            return None
+        with working_precision(_PREC):
+            bottom = ball(self.threshold)
+        counter = SeparatedCounter(self.problem, (first, second), Span(bottom, abs(bottom).upper()), _ROUGH)
+        return counter.at(bottom, _PREC, high=True).count
+
+    def levels(self, count: int, digits: int) -> Iterator[Level]:
+        """The lowest ones, at most so many.  Raises `InputError` and `LimitExceeded`."""
+        for level in self.search.levels(count, digits):
+            value = level.value if self.problem.sign == 1 else -level.value
+            found = Level(value, level.zeros, level.alone)
+            self._found.append(found)
+            yield found
+
+    def answer(self) -> Eigenvalues:
+        """The levels found so far, and what is known about them."""
+        return Eigenvalues(
+            tuple(self._found), self.search.complete, self.parameter, (*self.notes, *self._said()), self.problem
+        )
+
+    def _said(self) -> Iterator[str]:
+        """What was assumed, and what isn't proven."""
+        if not self.problem.wrap:
+            x = self.problem.x
+            for end, wish in zip(self.ends, self.problem.conditions, strict=True):
+                if isinstance(end, SingularEnd) and wish is None and not end.square >= 1:
+                    said = f"at {x} = {end.at} all solutions are square integrable"
+                    yield f"{said}: the smallest one is meant (Friedrichs)"
+        if self.threshold is not None:
+            yield f"the essential spectrum begins at {self.parameter} = {self.problem.sign * self.threshold}"
+            if self.search.exhausted and not self.search.complete:
+                yield "whether there are others that are nearer to it isn't proven"

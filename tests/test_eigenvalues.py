@@ -1,0 +1,138 @@
+"""`kovacic.eigenvalues`: proven enclosures of eigenvalues, against published digits and closed forms."""
+
+import pickle
+
+import pytest
+
+import kovacic
+from kovacic import eigenvalues
+
+HALF_LINE = (0, "oo")
+
+
+def schroedinger(V, conditions=None, **given):
+    return eigenvalues(f"-y'' + ({V})*y = E*y", conditions, parameter="E", **given)
+
+
+def check(levels, published, digits=15):
+    """Each published decimal, rounded in its last place, is in its ball, and levels are numbered without a gap."""
+    assert len(levels) == len(published)
+    for level, text in zip(levels, published, strict=True):
+        size = max(abs(float(text)), 1e-3)
+        assert level.value.radius <= 10.0**-digits * size
+        last_place = 10.0 ** -len(text.partition(".")[2])
+        assert abs(float(level.value) - float(text)) <= last_place + 1e-15 * size, (text, str(level))
+
+
+def test_quartic_oscillator_has_its_published_levels():
+    # F. T. Hioe & E. W. Montroll, J. Math. Phys. 16 (1975) 1945
+    found = schroedinger("x^4", count=2, digits=20)
+    for level, text in zip(found, ["1.06036209048418289964704601669", "3.79967302980139416878309418851"], strict=True):
+        error = abs(level.value - kovacic.Ball.of(text))
+        assert error.lower <= 1e-29 + level.value.radius
+        assert level.value.radius < 1e-19
+    assert [level.zeros for level in found] == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("equation", "conditions", "given", "published"),
+    [
+        ("y'' + lambda*y = 0", "y(0)=0, y(pi)=0", {}, ["1.0", "4.0", "9.0"]),
+        ("y'' + lambda*y = 0", "y'(0)=0, y'(pi)=0", {}, ["0.0", "1.0", "4.0"]),
+        ("y'' + lambda*y = 0", "y(0)=0, y(1)+y'(1)=0", {}, ["4.11585837", "24.13934203", "63.65910655"]),
+        ("((1-x^2)*y')' + lambda*y = 0", None, {"domain": (-1, 1)}, ["0.0"]),
+        (
+            "x*y'' + y' + lambda*x*y = 0",
+            "y(0)=bounded, y(1)=0",
+            {},
+            ["5.783185962947", "30.471262343662", "74.887006790695"],
+        ),
+        ("y'' = lambda*y", "y(0)=0, y(1)=0", {}, ["-9.869604401089358", "-39.478417604357434"]),
+    ],
+)
+def test_classical_problems_on_an_interval(equation, conditions, given, published):
+    check(eigenvalues(equation, conditions, count=len(published), **given), published)
+
+
+def test_characteristic_values_of_mathieu_equation():
+    # DLMF 28.7 and Abramowitz & Stegun, table 20.1, q = 5
+    equation = "y'' + (lambda - 2*q*cos(2*x))*y = 0"
+    periodic = eigenvalues(equation, "y(0)=y(pi), y'(0)=y'(pi)", params={"q": 5}, count=3)
+    check(periodic, ["-5.80004602", "2.09946045", "7.44910974"])
+    assert [level.zeros for level in periodic] == [0, 2, 2]
+    antiperiodic = eigenvalues(equation, "y(0)=-y(pi), y'(0)=-y'(pi)", params={"q": 5}, count=2)
+    check(antiperiodic, ["-5.79008060", "1.85818754"])
+
+
+def test_coinciding_periodic_levels_are_a_pair():
+    found = eigenvalues("y'' + lambda*y = 0", "y(0)=y(1), y'(0)=y'(1)", count=3, digits=8)
+    assert [level.alone for level in found] == [True, False, False]
+    assert [level.zeros for level in found] == [0, 2, 2]
+    assert found[1].value == found[2].value
+
+
+@pytest.mark.parametrize(
+    ("V", "given", "published"),
+    [
+        ("x^2", {}, ["1.0", "3.0"]),
+        ("abs(x)", {}, ["1.018792971647471", "2.338107410459767"]),
+        pytest.param("-1/x", {"conditions": "y(0)=0", "domain": HALF_LINE}, ["-0.25", "-0.0625"], marks=pytest.mark.long),
+    ],
+)
+def test_potentials_with_known_levels(V, given, published):
+    check(schroedinger(V, count=len(published), **given), published)
+
+
+@pytest.mark.long
+def test_all_levels_below_the_essential_spectrum_are_known_to_be_all():
+    found = schroedinger("-5/cosh(x)^2", count=9)  # -(s - n)^2, s (s + 1) = 5
+    check(found, ["-3.208712152522080", "-0.626136457566240"])
+    assert found.complete
+    assert schroedinger("5/cosh(x)^2", count=1).complete
+
+
+@pytest.mark.long
+def test_a_bound_state_at_the_threshold_leaves_completeness_open():
+    found = schroedinger("-6/cosh(x)^2", count=5, digits=6)
+    assert [round(float(level.value), 5) for level in found] == [-4, -1]
+    assert not found.complete
+    assert "isn't proven" in str(found)
+
+
+@pytest.mark.parametrize(
+    ("V", "given", "said"),
+    [
+        ("-cosh(x)", {}, "limit circle"),
+        ("-x", {}, "no lowest level"),
+        ("I*x^3", {}, "real"),
+        ("sin(x)", {}, "no limit"),
+        ("-1/x^2", {"domain": HALF_LINE}, "not known to be real"),
+        ("1/(x-1)^2", {"domain": HALF_LINE, "conditions": "y(0)=0"}, "aren't known to be analytic"),
+        ("a*x^2", {}, "values are needed for a"),
+        ("x^2", {"domain": HALF_LINE}, "a condition is needed"),
+        ("x^2", {"conditions": "y(0)=1", "domain": HALF_LINE}, "homogeneous"),
+    ],
+)
+def test_what_has_no_levels_is_refused_with_the_reason(V, given, said):
+    with pytest.raises(kovacic.InputError, match=said):
+        schroedinger(V, **given)
+
+
+def test_a_parameter_that_is_not_linear_is_refused():
+    with pytest.raises(kovacic.InputError, match="linear in y and in k"):
+        eigenvalues("y'' + k^2*y = 0", "y(0)=0, y(1)=0", parameter="k")
+
+
+def test_answers_are_sequences_that_can_be_pickled():
+    found = eigenvalues("y'' + lambda*y = 0", "y(0)=0, y(1)=0", count=2)
+    assert pickle.loads(pickle.dumps(found)) == found
+    assert found[:1] == (found[0],)
+    assert found.to_dict()["levels"][1]["zeros"] == 1
+
+
+@pytest.mark.long
+def test_close_pairs_of_a_double_well_are_told_apart():
+    found = schroedinger("x^4 - 20*x^2", count=2)
+    assert all(level.alone for level in found)
+    assert not found[0].value.overlaps(found[1].value)
+    assert 0 < float(found[1].value - found[0].value) < 2e-16
