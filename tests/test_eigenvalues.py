@@ -76,7 +76,9 @@ def test_coinciding_periodic_levels_are_a_pair():
     [
         ("x^2", {}, ["1.0", "3.0"]),
         ("abs(x)", {}, ["1.018792971647471", "2.338107410459767"]),
-        pytest.param("-1/x", {"conditions": "y(0)=0", "domain": HALF_LINE}, ["-0.25", "-0.0625"], marks=pytest.mark.long),
+        pytest.param(
+            "-1/x", {"conditions": "y(0)=0", "domain": HALF_LINE}, ["-0.25", "-0.0625"], marks=pytest.mark.long
+        ),
     ],
 )
 def test_potentials_with_known_levels(V, given, published):
