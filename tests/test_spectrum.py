@@ -661,3 +661,56 @@ def test_nothing_is_dropped_that_is_assumed_of_a_parameter_under_a_root(V: str, 
 def test_a_parameter_under_a_root_may_be_positive(word: str) -> None:
     (levels,) = kovacic.spectrum("sqrt(a)*x^2", assume={"a": word}).levels
     assert bool(levels.conditions) == (word not in ("positive", "> 0"))
+
+
+#: Equations as physicists write them, what is assumed, the energies as a function of n, and values of the letters.
+PHYSICAL = [
+    ("-hbar^2/(2*m)*psi'' + m*w^2*x^2/2*psi = E*psi", LINE, {"w": "positive"}, "hbar*w*(n + 1/2)"),
+    (
+        r"-\frac{\hbar^2}{2m}\psi''(x) + \frac12 m\omega^2 x^2\psi(x) = E\psi(x)",
+        LINE,
+        {"omega": "positive"},
+        "hbar*omega*(n + 1/2)",
+    ),
+    ("-hbar^2/(2*m)*psi'' = E*psi", (0, "L"), {"L": "positive"}, "hbar^2*pi^2*(n + 1)^2/(2*m*L^2)"),
+    (
+        "-hbar^2/(2*m)*psi'' + D*(1 - exp(-a*x))^2*psi = E*psi",
+        LINE,
+        {"D": "positive", "a": "positive"},
+        "hbar*a*sqrt(2*D/m)*(n + 1/2) - (hbar*a*(n + 1/2))^2/(2*m)",
+    ),
+    ("-1/2*u'' + l*(l+1)/(2*x^2)*u - Z/x*u = E*u", HALF, {"l": ">=1", "Z": "positive"}, "-Z^2/(2*(n + l + 1)^2)"),
+]
+
+
+@parametrize(("equation", "domain", "assume", "energy"), PHYSICAL, ordinary=2)
+def test_equations_as_physicists_write_them(equation: str, domain: Any, assume: Any, energy: str) -> None:
+    found = kovacic.spectrum(equation, domain=domain, assume=assume)
+    assert found.complete
+    (levels,) = found.levels
+    wanted = read_expression(energy)
+    values = {symbol: sympy.Rational(k + 3, 2) for k, symbol in enumerate(sorted(wanted.free_symbols, key=str))}
+    assert abs(sympy.N((levels.energy - wanted).subs(values), 20)) < 1e-15
+
+
+def test_the_kinetic_factor_of_closed_forms() -> None:
+    found = kovacic.spectrum("-1/2*psi'' + (x^6 - 7*x^2)/2*psi = E*psi")
+    assert [state.energy for state in found.states()] == [-sympy.sqrt(2), sympy.sqrt(2)]
+    assert found.text().startswith("-1/2 y'' + V y = E y, V = x^6/2 - 7*x^2/2")
+    assert kovacic.spectrum("V(r) = r^2").variable == "r"
+
+
+@pytest.mark.parametrize(
+    "equation", ["psi'' + x*psi' = E*psi", "-psi'' + x*psi = 0", "-x*psi'' + psi = E*psi", "psi'' + psi = E*psi + 1"]
+)
+def test_other_equations_are_refused(equation: str) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.spectrum(equation)
+
+
+@pytest.mark.parametrize(("V", "numbers"), [("-6/cosh(x)^2", (0, 1)), ("-1/8/cosh(x)^2", (0,)), ("x^2", None)])
+def test_the_numbers_of_finitely_many_levels_are_listed(V: str, numbers: Any) -> None:
+    found = kovacic.spectrum(V)
+    assert found.levels[0].members == numbers
+    if numbers:
+        assert f"n = {', '.join(map(str, numbers))}\n" in found.text()

@@ -28,6 +28,7 @@ from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.liouvillian import with_closed_forms
 from kovacic.bound_states.norms import norm_of
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
+from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
 from kovacic.bound_states.quasi import (
     QuasiSolution,
     constant_degrees,
@@ -78,7 +79,8 @@ def spectrum(
     Parameters
     ----------
     V : str or sympy.Expr
-        The potential: rational in x, or in exp(k x), sin, cosh, ... of multiples of k x, with real parameters.
+        The potential: rational in x, or in exp(k x), sin, cosh, ... of multiples of k x, with real parameters.  Or the whole
+        equation as text, "-hbar^2/(2*m)*psi'' + m*w^2*x^2/2*psi = E*psi", whose factor of psi'' is taken as negative.
     domain : pair
         The ends a < b: numbers, expressions in the parameters, "-oo", "oo"; by default the whole line.
     energy : str
@@ -132,15 +134,52 @@ def spectrum(
     """
     most = whole(max_degree, "max_degree")
     check_mapping(assume)
+    V, var = without_left_side(V, var)
+    if is_equation(V):
+        read = read_schroedinger(V, var, energy, limits)
+        scaled = read.scaled
+        positive = {name: "positive" for name in read.positive if sympy.Symbol(name) in scaled.free_symbols}
+        found = _spectrum(
+            scaled,
+            domain=domain,
+            energy=energy,
+            var=read.variable,
+            assume={**positive, **(assume or {})},
+            boundary=boundary,
+            max_degree=most,
+            limits=limits,
+            kinetic=read.kinetic,
+        )
+        return read.physical(found)
+    return _spectrum(
+        V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, max_degree=most, limits=limits
+    )
+
+
+def _spectrum(
+    V: Any,
+    *,
+    domain: Sequence[Any],
+    energy: str,
+    var: Any,
+    assume: Mapping[Any, Any] | None,
+    boundary: str | None,
+    max_degree: int,
+    limits: Limits,
+    kinetic: Any = sympy.S.One,
+) -> Spectrum:
+    """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V."""
     V, roots = with_named_roots(V)
     if roots:
         assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}
-    question = read_question(V, domain, energy=energy, var=var, assume=assume, boundary=boundary, limits=limits)
+    question = read_question(
+        V, domain, energy=energy, var=var, assume=assume, boundary=boundary, limits=limits, kinetic=kinetic
+    )
     meanings = {**dict(question.parsed.letters), **roots}
     budget = Budget(limits)
     with budget.watched():
         try:
-            found = _answered(question, most, budget)
+            found = _answered(question, max_degree, budget)
         except (Uncovered, LimitExceeded) as reason:
             found = _Examined(question).spectrum(reason=f"undecided: {reason}")
         found = with_closed_forms(
@@ -210,7 +249,7 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     except Uncovered as uncovered:
         return _without_formula(examined, uncovered, max_degree, budget)
     found = (_levels(question, family) for family in families)
-    levels = [one for one in found if sympy.false not in one.conditions]
+    levels = [one for one in found if sympy.false not in one.conditions and one.members != ()]
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
 
@@ -275,7 +314,7 @@ def _transformed(examined: _Examined, max_degree: int, budget: Budget) -> Spectr
             continue
         if not simpler.complete or simpler.excluded or _is_removed(step, simpler, question):
             continue
-        shown = caret(as_text(question.plain(sympy.factor(simpler_V))))
+        shown = caret(as_text(question.plain(sympy.factor(question.kinetic * simpler_V))))
         return examined.spectrum(
             levels=_transformed_levels(step, simpler, question),
             algebraic=_lowest_level(step, question),

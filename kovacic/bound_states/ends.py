@@ -56,11 +56,11 @@ def potential_in_t(question: SpectralProblem, original: Original) -> RealPotenti
     t = sympy.Symbol(parsed.variable)
     if equation is None or equation.change is None:
         S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
-        return RealPotential(sympy.cancel(S + question.E), original, t)
+        return RealPotential(sympy.cancel(S + question.E), original, t, question.kinetic)
     quotient = equation.c / equation.a
     c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
     V = sympy.cancel(question.E - SLOPES[original.kind](t) * original.rate**2 * c)
-    return RealPotential(V, original, t)
+    return RealPotential(V, original, t, question.kinetic)
 
 
 def check_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
@@ -196,7 +196,7 @@ def end_of(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_rig
     """An end of the domain."""
     place = _place(real, domain, signs, is_right=is_right)
     if place.at.is_infinite:
-        end = _infinite(place, signs)
+        end = _infinite(place, signs, real.kinetic)
     elif place.pole > 2 - place.mu:
         end = _unbounded(place, signs)
     else:
@@ -289,7 +289,7 @@ def _is_left(at: Any, other: Any, signs: Signs) -> bool:
     return at != sympy.oo and signs.sign(other - at) == 1
 
 
-def _infinite(place: _Place, signs: Signs) -> End:
+def _infinite(place: _Place, signs: Signs, kinetic: Any) -> End:
     """An infinite end: by what V tends to, and whether x is infinite soon enough for it."""
     at = place.at
     where = place.where
@@ -297,7 +297,7 @@ def _infinite(place: _Place, signs: Signs) -> End:
     if place.pole < 0 or strength == 0:
         return End(at, False, f"{where}: V -> 0, continuous spectrum from 0", threshold=sympy.Integer(0))
     if place.pole == 0:
-        shown = caret(as_text(strength))
+        shown = caret(as_text(sympy.factor(kinetic * strength)))
         return End(at, False, f"{where}: V -> {shown}, continuous spectrum from there", threshold=strength)
     if place.mu < place.pole + 2:
         return _unbounded(place, signs)

@@ -134,11 +134,12 @@ def _turning_angles(kind: str, first: Any, last: Any) -> list[Any]:
 
 @dataclass(frozen=True)
 class RealPotential:
-    """V as a function of a real t, and what t is."""
+    """V as a function of a real t, what t is, and the k of -k y'' + k V y = E y, in which V is shown."""
 
     V: Any
     original: Original
     t: Any
+    kinetic: Any = sympy.S.One
 
 
 def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import sympy
@@ -17,6 +18,11 @@ from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
 from kovacic.reading.symbolic import read_expression
 from kovacic.shown import json_line, latex, visible
 from kovacic.writing.formula import caret
+
+#: The n that are tried for a potential without parameters: more levels than that are shown by their condition.
+_MOST = 200
+#: So many n are listed one by one.
+_LISTED = 6
 
 
 @dataclass(frozen=True)
@@ -61,6 +67,17 @@ class Levels:
     def where(self) -> tuple[Any, ...]:
         """The conditions on the parameters alone."""
         return tuple(c for c in self.conditions if not c.has(self.number))
+
+    @cached_property
+    def members(self) -> tuple[int, ...] | None:
+        """The n of finitely many levels without parameters; None for infinitely many, and where parameters decide."""
+        if not self.above or any(c.free_symbols != {self.number} for c in self.conditions):
+            return None
+        found = [n for n in range(_MOST) if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
+        return None if _MOST - 1 in found else tuple(found)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in ("number", "energy", "wave", "conditions", "zeros", "norm")}
 
 
 @dataclass(frozen=True)
@@ -131,6 +148,8 @@ class Spectrum:
         What was noticed at reading: which name is the variable.
     hint, shell : str
         What to give beside for an answer, in Python and at the command line; empty where nothing helps.
+    kinetic : sympy.Expr
+        k where the equation is -k y'' + V y = E y, hbar^2/(2 m) for instance; 1 by default.
     """
 
     potential: Any
@@ -150,6 +169,7 @@ class Spectrum:
     notices: tuple[str, ...] = ()
     hint: str = ""
     shell: str = ""
+    kinetic: Any = sympy.S.One
 
     @property
     def needs_boundary_condition(self) -> bool:
@@ -261,7 +281,8 @@ class Spectrum:
         first, last = map(_text, self.domain)
         domain = f"{first} < {self.variable} < {last}"
         known = f" ({self.assumptions})" if self.assumptions else ""
-        return f"-y'' + V y = {self.energy} y, V = {_text(self.potential)}, {domain}{known}"
+        kinetic = "" if self.kinetic == 1 else f"{_text(self.kinetic)} "
+        return f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential)}, {domain}{known}"
 
     @property
     def _conclusion(self) -> list[str]:
@@ -335,6 +356,7 @@ class Spectrum:
         """
         return {
             "potential": _text(self.potential),
+            "kinetic": _text(self.kinetic),
             "variable": self.variable,
             "domain": [*map(_text, self.domain)],
             "energy": self.energy,
@@ -462,9 +484,14 @@ def _algebraic_latex_rows(algebraic: Algebraic) -> list[str]:
 def _lines(levels: Levels, energy: str) -> list[str]:
     """The energy with its conditions, the wave function or its two pieces, the zeros and the norm."""
     n = levels.number
-    first = f"{energy}_{n} = {_text(levels.energy)}, {n} = 0, 1, 2, ..."
-    if levels.above:
-        first += f" with {_joined(levels.above)}"
+    numbers = levels.members
+    if numbers is not None and numbers == tuple(range(len(numbers))):
+        shown = ", ".join(map(str, numbers)) if len(numbers) <= _LISTED else f"0, 1, ..., {numbers[-1]}"
+        first = f"{energy}_{n} = {_text(levels.energy)}, {n} = {shown}"
+    else:
+        first = f"{energy}_{n} = {_text(levels.energy)}, {n} = 0, 1, 2, ..."
+        if levels.above:
+            first += f" with {_joined(levels.above)}"
     if levels.where:
         first += f", where {_joined(levels.where)}"
     last = f"{_text(levels.zeros)} zeros"

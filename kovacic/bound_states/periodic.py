@@ -35,7 +35,7 @@ def on_real_circle(real: RealPotential) -> RealPotential:
     offset = sympy.expand(original.offset / sympy.I)
     value = (1 + sympy.I * t) / (1 - sympy.I * t)
     V = sympy.cancel(sympy.together(real.V.xreplace({t: value})), extension=sympy.I)
-    return RealPotential(_with_real_parts(V, t), Original(original.x, "tan", rate / 2, offset / 2), t)
+    return RealPotential(_with_real_parts(V, t), Original(original.x, "tan", rate / 2, offset / 2), t, real.kinetic)
 
 
 def _with_real_parts(V: Any, t: Any) -> Any:

@@ -41,6 +41,7 @@ class SpectralProblem:
     signs: Signs
     friedrichs: bool
     notices: tuple[str, ...] = ()
+    kinetic: Any = sympy.S.One
 
     @property
     def x(self) -> Any:
@@ -107,6 +108,7 @@ def read_question(
     assume: Mapping[Any, Any] | None,
     boundary: str | None,
     limits: Limits,
+    kinetic: Any = sympy.S.One,
 ) -> SpectralProblem:
     """The question that `kovacic.spectrum` was asked; its parameters are described there.
 
@@ -141,6 +143,7 @@ def read_question(
         signs=signs,
         friedrichs=boundary == FRIEDRICHS,
         notices=variable.notices,
+        kinetic=signs.real(sympy.sympify(kinetic)),
     )
 
 
