@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import combinations
@@ -10,7 +11,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import FunctionField, RatFunc, parametrize, run
+from build import Conditions, FunctionField, RatFunc, parametrize, run
 
 import kovacic
 from kovacic import Status
@@ -213,3 +214,44 @@ def test_the_command_refuses_contradicting_assumptions(capsys: pytest.CaptureFix
 def test_natural_numbers_are_known() -> None:
     answer = kovacic.conditions("x^2 + n", assume={"n": "natural"})
     assert str(answer.assumptions) == "n nonnegative integer"
+
+
+# ------------------------------------------------------------------------------- the user's letters
+
+#: Equations with constants that aren't rational in symbols: the user's parameters, values with a solution and without.
+LETTERED = {
+    "x^2+sqrt(a)*x+b": (("a", "b"), {"a": 4, "b": 2}, {"a": 4, "b": 3}),
+    "x^2+sqrt(a)*x+a": (("a",), {"a": "4/3"}, {"a": 1}),
+    "y''+sqrt(a)*y'+b*x*y=0": (("a", "b"), {"a": 2, "b": 0}, {"a": 2, "b": 1}),
+    "a^(1/3)*x+b*x^2": (("a", "b"), {"a": 8, "b": 1}, {"a": 27, "b": 1}),
+    "2^a*x+1": (("a",), None, {"a": 2}),
+    "exp(a)*x+1": (("a",), None, None),
+    "x^2+b+exp(a)": (("a", "b"), None, None),
+    "x^2+sqrt(a+b)*x+1": (("a", "b"), {"a": 0, "b": 0}, {"a": 1, "b": 0}),
+}
+
+
+@parametrize("S", LETTERED, ordinary=8)
+def test_letters_are_the_users(S: str) -> None:
+    names, solvable, unsolvable = LETTERED[S]
+    answer = kovacic.conditions(S, var="x")
+    assert {*answer.parameters} == {*names}
+    for text in (str(answer), answer.theorem(), answer.explain(), answer.latex()):
+        assert not re.search(r"sqrt_|exp_|c_2|a_1", text)
+        assert "exp(a/2) = 0" not in text
+    if solvable is not None:
+        assert answer.case_at(solvable) is not None
+    if unsolvable is not None:
+        assert answer.case_at(unsolvable) is None
+    for region in answer.regions:
+        for solution in region.solution():
+            assert {symbol.name for symbol in solution.y.free_symbols} <= {"x", *names}
+    read = Conditions.from_json(answer.to_json())
+    assert read == answer
+    assert read.theorem() == answer.theorem()
+    assert answer.check(20)
+
+
+def test_a_value_that_makes_a_letter_transcendental_is_refused() -> None:
+    with pytest.raises(kovacic.InputError, match=r"exp\(a/2\) is exp\(1/2\) there"):
+        kovacic.conditions("exp(a)*x+1").case_at({"a": 1})

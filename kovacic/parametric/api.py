@@ -17,6 +17,7 @@ from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.check import check_each_region
 from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.letters import Letters, nonzero, own_parameters, spelled
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.restriction import with_free_constant
 from kovacic.reading.read import read_input
@@ -34,6 +35,7 @@ def find_conditions(
         parsed = read_input(S, var=var, limits=limits, exponentials=True)
         given = parsed
         S, parsed, assume = with_values(S, parsed, assume, limits)
+    parsed, letters = spelled(parsed)
     names = parameters_of(parsed.S.field)
     if not names:
         raise _without_parameters(parsed, given, is_guessed=var is None)
@@ -41,7 +43,9 @@ def find_conditions(
     known = read_assumptions(assume, S, names)
     if PI in names:
         known = known.also(PI, ("irrational", "positive"))
-    return conditions_of(parsed, known, most, limits)
+    for name in nonzero(letters):
+        known = known.also(name, ("nonzero",))
+    return conditions_of(parsed, known, most, limits, letters)
 
 
 def _without_parameters(parsed: Parsed, given: Parsed, *, is_guessed: bool) -> InputError:
@@ -57,15 +61,17 @@ def _without_parameters(parsed: Parsed, given: Parsed, *, is_guessed: bool) -> I
     return InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
 
 
-def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> ParametricAnswer:
+def conditions_of(
+    parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits, letters: Letters = ()
+) -> ParametricAnswer:
     """The conditions for an input that was read; `max_degree` None: by theorems only."""
     budget = Budget(limits)
     _, shown, constant = with_free_constant(parsed.S)
-    found = derived(parsed.S, parsed.variable, parsed.equation, known, budget, max_degree)
+    found = derived(parsed.S, parsed.variable, parsed.equation, known, budget, max_degree, letters)
     answer = ParametricAnswer(
         S=shown,
         variable=parsed.variable,
-        parameters=parameters_of(parsed.S.field),
+        parameters=own_parameters(parameters_of(parsed.S.field), letters),
         generic=found.generic,
         regions=found.regions,
         complete=found.complete,
@@ -75,6 +81,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         assumptions=known,
         constant=constant,
         equation=parsed.equation,
+        letters=letters,
     )
     with budget.watched(), suppress(LimitExceeded):  # as far as time allows
         check_each_region(answer)

@@ -124,6 +124,11 @@ class Assumptions:
         others = tuple((other, known) for other, known in self.known if other != name)
         return replace(self, known=(*others, (name, Known(tuple(together)))))
 
+    def without(self, names: Iterable[str]) -> Assumptions:
+        """The same without what is known of some parameters."""
+        left_out = {*names}
+        return replace(self, known=tuple((name, known) for name, known in self.known if name not in left_out))
+
     def admits(self, values: Iterable[tuple[str, Poly]]) -> bool:
         """May the parameters have these values?"""
         return all(self.of(name).admits(value) for name, value in values)

@@ -92,7 +92,7 @@ if TYPE_CHECKING:
 
 def check_each_region(found: ParametricAnswer) -> None:
     """Compare what is printed at a point in each region, on each stratum and outside: `VerificationFailed` if it is false."""
-    sampler = Sampler(found.constant, found.parameters, found.assumptions, Random(1))
+    sampler = Sampler(found.constant, found.names, found.assumptions, Random(1))
     points = [_point_in(found, sampler, region) for region in (*found.regions, None)]
     strata = chain.from_iterable(_strata(region.statement.claim) for region in found.regions)
     points += [sampler.point(Vanishes(zero)) for zero in dict.fromkeys(strata)]
@@ -156,7 +156,7 @@ def _false_formulas(
     found: ParametricAnswer, region: ParameterRegion, point: ParameterPoint, S: RatFunc
 ) -> Iterator[str]:
     """The solutions of a region that provably don't solve the equation at a rational point."""
-    if point.field != QQ:
+    if point.field != QQ or found.letters:
         return
     x = sympy.Dummy()
     values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}

@@ -15,6 +15,7 @@ from kovacic.limits import Budget, bounded_work
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.cases import without_redundant
 from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.letters import Letters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
@@ -42,6 +43,7 @@ def derived(
     known: Assumptions,
     budget: Budget,
     max_degree: int | None,
+    letters: Letters = (),
 ) -> Partition:
     """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
     lifted, _, constant = with_free_constant(S)
@@ -61,7 +63,7 @@ def derived(
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
     regions = settled(result.regions, variable, field.names, constant.names)
     given = equation or normal_form(lifted, variable)
-    return replace(result, regions=tuple([_finished(region, given, max_degree, budget) for region in regions]))
+    return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
 
 
 def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
@@ -111,12 +113,14 @@ def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budge
     return Partition(generic, complete, found.theory, tuple(regions))
 
 
-def _finished(region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget) -> ParameterRegion:
+def _finished(
+    region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget, letters: Letters
+) -> ParameterRegion:
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
     if region.origin is not None:
         there = equations_on(region.statement, equation)
-        origin = Given(region.origin, tuple((one.equation, one.zeros) for one in there)) if there else None
-        region = replace(region, origin=origin)
+        pieces = tuple((one.equation, one.zeros) for one in there)
+        region = replace(region, origin=Given(region.origin, pieces, letters) if there else None)
     statement = region.statement
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region

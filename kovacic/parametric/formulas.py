@@ -42,8 +42,7 @@ def shifted(text: str, value: Poly) -> str:
     if not value:
         return text
     amount = shown(over_parameters(value))
-    is_one_term = re.fullmatch(r"-?[\w/*^]+(\([\w*^]+\))?", amount)
-    if not is_one_term:
+    if in_sum(amount) != amount:
         return f"{text} - ({amount})"
     if amount.startswith("-"):
         return f"{text} + {amount[1:]}"
@@ -311,7 +310,20 @@ def _joined(terms: Iterable[str]) -> str:
 def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
     """The expanded polynomial, in the order of its terms; the variable stands behind the parameters."""
     reordered = re.sub(_VARIABLE_FIRST, r"\2*\1", str(polynomial))
-    return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], reordered)
+
+    def written_power(match: re.Match[str]) -> str:
+        return _power_of_name(names[1 + int(match[1] or -1)], int(match[2] or 1))
+
+    return re.sub(r"(?:x|t(\d+))(?:\^(\d+))?", written_power, reordered)
+
+
+def _power_of_name(name: str, k: int) -> str:
+    """The power of a parameter, which may be a root: sqrt(a)^3 is a*sqrt(a)."""
+    if name.startswith("sqrt(") and name.endswith(")") and k > 1:
+        inside = in_product(name.removeprefix("sqrt(").removesuffix(")"))
+        whole = inside if k < 4 else f"{inside}^{k // 2}"
+        return f"{whole}*{name}" if k % 2 else whole
+    return name if k == 1 else f"{name}^{k}"
 
 
 def _term(term: _FormulaTerm, names: Sequence[str]) -> str:

@@ -19,7 +19,7 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.derived import verification
 from kovacic.engine.decide import decide
-from kovacic.equation import Equation
+from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -27,6 +27,7 @@ from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_as
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler, first_region
 from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.letters import Letters, letters_from, values_of_letters
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
@@ -78,6 +79,8 @@ class ParametricAnswer:
     equation : Equation or None
         The equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None where
         S itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
+    letters : tuple
+        Parameters of S that stand for others, sqrt(a) and exp(a): their names, and the SymPy expressions.
 
     Examples
     --------
@@ -101,6 +104,12 @@ class ParametricAnswer:
     assumptions: Assumptions = NOTHING_ASSUMED
     constant: ParameterPoint = NO_CONSTANT
     equation: Equation | None = None
+    letters: Letters = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters of S, those that stand for the user's among them."""
+        return tuple(name for name in parameters_of(self.S.field) if name not in self.constant.names)
 
     @property
     def within_limits(self) -> bool:
@@ -346,7 +355,8 @@ class ParametricAnswer:
         """
         given = {str(name): value for name, value in values.items()}
         _check_names(given, self.parameters)
-        point = _point(self.parameters, [given[name] for name in self.parameters], self.constant, self.limits)
+        given |= values_of_letters(given, self.letters)
+        point = _point(self.names, [given[name] for name in self.names], self.constant, self.limits)
         for name, value in zip(point.names, point.values, strict=True):
             if not self.assumptions.of(name).admits(value):
                 raise InputError(f"{name} = {value.to_str()} contradicts the assumption: {self.assumptions}")
@@ -398,7 +408,7 @@ class ParametricAnswer:
 
     def _sampled(self, attempts: int, random: Random) -> Iterator[ParameterPoint]:
         """The points that so many attempts give."""
-        sampler = Sampler(self.constant, self.parameters, self.assumptions, random)
+        sampler = Sampler(self.constant, self.names, self.assumptions, random)
         for point in islice(sampler.points([region.statement for region in self.regions]), attempts):
             if point is not None:
                 yield point
@@ -454,6 +464,7 @@ class ParametricAnswer:
             "theory": self.theory,
             "notices": list(self.notices),
             "equation": equation_data(self.equation),
+            **({"names": list(self.names)} if self.letters else {}),
             **constant_data(self.constant),
         }
 
@@ -487,10 +498,12 @@ class ParametricAnswer:
 
         try:
             data = json.loads(text) if isinstance(text, str) else text
-            names = tuple(data["parameters"])
+            parameters = tuple(data["parameters"])
+            names = tuple(data.get("names", parameters))
             variable = data["variable"]
             constant = constant_from(data)
-            if not all(name.isidentifier() for name in (*names, variable)):
+            letters = letters_from(names)
+            if not all(name.isidentifier() for name in (*parameters, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
             field = FunctionField((*names, *constant.names))
             reader = StatementReader(field)
@@ -498,7 +511,8 @@ class ParametricAnswer:
             regions = settled(read, variable, field.names, constant.names)
             answer = cls(
                 variable=variable,
-                parameters=names,
+                parameters=parameters,
+                letters=letters,
                 regions=tuple(regions),
                 generic=RegionVerdict.from_dict(data["generic"]["verdict"]),
                 complete=data["complete"],
@@ -643,8 +657,9 @@ class ParametricAnswer:
     def _heading(self) -> list[str]:
         """The equation, its parameters and what is known of them, and what is to be said about the equation."""
         first = f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}"
-        if self.assumptions:
-            first += f" ({self.assumptions})"
+        assumed = self.assumptions.without(name for name, _ in self.letters)
+        if assumed:
+            first += f" ({assumed})"
         lines = [first, *(f"  note: {notice}" for notice in self.notices)]
         if self.equation is not None and self.equation.change is not None:
             lines.append(f"  cases and groups over {self.equation.change.field}")
@@ -718,7 +733,9 @@ def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
     """The solutions of the regions, by their statements, found from S; none for an equation with an algebraic constant."""
     if answer.constant.names:
         return {}
-    found = derived(answer.S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0)
+    found = derived(
+        answer.S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0, answer.letters
+    )
     return {region.statement: region.origin for region in found.regions}
 
 

@@ -24,6 +24,7 @@ from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json, fraction
 from kovacic.parametric.functions import ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
+from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
@@ -102,7 +103,12 @@ def equation_from(data: Mapping[str, Any] | None, variable: str, names: tuple[st
     """What `equation_data` wrote, over the field of parameters with these names."""
     if data is None:
         return None
-    read = read_input(data["text"], var=variable, unknown=data["unknown"], limits=_LIMITS, equation=True).equation
+    has_letters = not all(name.isidentifier() for name in names)
+    text = data["text"]
+    found, _ = spelled(
+        read_input(text, var=variable, unknown=data["unknown"], limits=_LIMITS, equation=True, exponentials=has_letters)
+    )
+    read = found.equation
     if read is None:
         raise InputError(f"{data['text']!r} isn't an equation")
     change = data["change"] and Change.from_dict(data["change"])

@@ -33,6 +33,7 @@ from kovacic.numerals import as_text
 from kovacic.parametric import prose
 from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
+from kovacic.parametric.letters import Letters
 from kovacic.parametric.powers_of_factors import gathered
 from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
 from kovacic.writing.formula import caret
@@ -189,22 +190,35 @@ class Signed:
 class Given:
     """The solutions of a normal form as those of the equation of which it is one.
 
-    `pieces` are the equations on the pieces of a region, each with the functions that vanish on it and not on all of them.
+    `pieces` are the equations on the pieces of a region, each with the functions that vanish on it and not on all of them;
+    `letters` are parameters with what they stand for.
     """
 
     origin: Origin
     pieces: tuple[tuple[Equation, tuple[FunctionPoly, ...]], ...]
+    letters: Letters = ()
 
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
         found = product(self.origin(number), self.pieces)
-        return tuple(_given(solution, *piece) for solution, piece in found)
+        return tuple(self.spelled(_given(solution, *piece)) for solution, piece in found)
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
         """All of them in one, with symbols for the signs; None where there is no such formula."""
         found = general(self.origin, signs)
         if found is None or len(self.pieces) > 1:
             return None
-        return _given(found, *self.pieces[0])
+        return self.spelled(_given(found, *self.pieces[0]))
+
+    def spelled(self, solution: PolynomialSolution) -> PolynomialSolution:
+        """The solution in the user's parameters."""
+        if not self.letters:
+            return solution
+        meanings = {sympy.Symbol(name): meaning for name, meaning in self.letters}
+        y, degree, *conditions = (
+            part.xreplace(meanings) for part in (solution.y, solution.degree, *solution.conditions)
+        )
+        jacobi = tuple(part.xreplace(meanings) for part in solution.jacobi)
+        return replace(solution, y=y, degree=degree, conditions=tuple(conditions), jacobi=jacobi)
 
 
 def _given(solution: PolynomialSolution, equation: Equation, zeros: tuple[FunctionPoly, ...]) -> PolynomialSolution:

@@ -271,7 +271,7 @@ class _TheoremWriter:
         solution = weight.solution(self.signs)
         if isinstance(region.formulas, Given):
             equation, _ = region.formulas.pieces[0]
-            solution = replace(solution, y=translated(solution.y, equation))
+            solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))
         yield Formula(self._named_solution(solution))
         degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
         yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(self._signs_in(solution)), ".")
