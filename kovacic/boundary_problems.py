@@ -17,7 +17,7 @@ from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import is_sympy_equation, read_expression
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.problem import Bounded, Problem, Robin, Wish, ball, normal_form
+from kovacic.sturm_liouville.problem import Bounded, Robin, SturmProblem, Wish, ball, normal_form
 from kovacic.sturm_liouville.solve import Eigenproblem
 
 Expr = Any
@@ -120,7 +120,7 @@ def read_eigenproblem(
     ends = _ends(given, domain)
     wrap, wishes = _wishes(given, ends)
     pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
-    problem = Problem(linear.x, pieces, wishes, wrap, B, sign)
+    problem = SturmProblem(linear.x, pieces, wishes, wrap, B, sign)
     if wrap:
         _check_periodic(problem)
     return Eigenproblem(problem, parameter)
@@ -273,7 +273,7 @@ def _wrap(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
     )
 
 
-def _check_periodic(problem: Problem) -> None:
+def _check_periodic(problem: SturmProblem) -> None:
     """Raises `InputError` where the ends aren't regular, or p isn't the same at both of them."""
     low, high = problem.ends
     if low.is_infinite or high.is_infinite:

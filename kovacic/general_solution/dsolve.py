@@ -27,6 +27,7 @@ from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
 from kovacic.general_solution.constants import Outcome, ParameterCase, can_be, condition_of
 from kovacic.general_solution.determined import constants_of
+from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
@@ -264,6 +265,9 @@ def _first_order(
 
 def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr, list[str]]:
     """The steps of the head of this module, after the first."""
+    family = eigenfunctions(question)
+    if family is not None:
+        return written(question, family[0]), family[1]
     notices = []
     found = find_basis(question, budget, special=special)
     solution = found.solution

@@ -16,7 +16,7 @@ from flint import arb
 from kovacic.enclosure.points import working_precision
 from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.ends import CutEnd, End
-from kovacic.sturm_liouville.problem import Problem, Span
+from kovacic.sturm_liouville.problem import Span, SturmProblem
 
 _SAMPLES = 65
 _MATCH = 0.43
@@ -34,7 +34,7 @@ class Reading:
 class SeparatedCounter:
     """Counts for a range of E, with ends cut so that `digits` digits are right."""
 
-    def __init__(self, problem: Problem, ends: tuple[End, End], span: Span, digits: int) -> None:
+    def __init__(self, problem: SturmProblem, ends: tuple[End, End], span: Span, digits: int) -> None:
         self.span = span
         self.digits = digits
         self.ends = ends

@@ -23,7 +23,7 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
-from kovacic.sturm_liouville.problem import Piece, Problem, Span, ball
+from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball
 
 Expr = Any
 #: The most that k R is, and R over the step.
@@ -38,7 +38,7 @@ _SMALLEST = arb(1) / 2**80
 
 
 @dataclass(frozen=True)
-class Motion:
+class Passage:
     """Y and Y' at a point, and the zeros of Y that were passed since the start."""
 
     u: Any
@@ -71,7 +71,7 @@ class Step:
         return sum(a) + error, (slopes + error) / self.t
 
 
-def march(steps: Sequence[Step], u: Any, v: Any, E: Any) -> Motion | None:
+def march(steps: Sequence[Step], u: Any, v: Any, E: Any) -> Passage | None:
     """The solution at the end of the steps; None where the balls are too wide to tell how many zeros it has."""
     sign = _sign(u)
     if u == 0:
@@ -89,7 +89,7 @@ def march(steps: Sequence[Step], u: Any, v: Any, E: Any) -> Motion | None:
         zeros += int(now != sign)
         sign = now
         turned = arb(0)
-    return None if turned != 0 else Motion(u, v, zeros)
+    return None if turned != 0 else Passage(u, v, zeros)
 
 
 def _sign(value: Any) -> int:
@@ -153,7 +153,7 @@ def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
 class Road:
     """The pieces of a problem, and steps along them for a range of E."""
 
-    def __init__(self, problem: Problem, span: Span) -> None:
+    def __init__(self, problem: SturmProblem, span: Span) -> None:
         self.x = problem.x
         self.pieces = problem.pieces
         self.span = span
@@ -191,7 +191,7 @@ class Road:
             else:
                 raise LimitExceeded(f"more than {_MAX_STEPS} steps are needed", limit="unknown_degree")
 
-    def _parts(self, start: Any, stop: Any) -> Iterator[tuple[Piece, Any]]:
+    def _parts(self, start: Any, stop: Any) -> Iterator[tuple[Stretch, Any]]:
         """The pieces on the way, each with the point at which it is left."""
         forwards = start < stop
         for piece in self.pieces if forwards else self.pieces[::-1]:
@@ -204,7 +204,7 @@ class Road:
             if leaves:
                 return
 
-    def _step(self, piece: Piece, here: Any, last: Any, radius: Any, prec: int) -> tuple[Step, bool]:
+    def _step(self, piece: Stretch, here: Any, last: Any, radius: Any, prec: int) -> tuple[Step, bool]:
         """The largest one whose radius is `radius` over a power of 2, and whether it leads to `last`."""
         distance = last - here
         whole = _SHARE * abs(distance).upper()
@@ -229,7 +229,7 @@ class Road:
         q_t += [arb(0)] * (len(w_t) - len(q_t))
         return Step(t, radius, q_t, w_t, terms, tail, self._turn(piece, here, t)), is_last
 
-    def _turn(self, piece: Piece, here: Any, t: Any) -> Any:
+    def _turn(self, piece: Stretch, here: Any, t: Any) -> Any:
         at = BallEvaluator({self.x: acb(here.union(here + t))})
         depth = (self.span.high * at(piece.W) - at(piece.Q)).real.upper()
         return (depth.sqrt() * abs(t)).upper() if depth > 0 else arb(0)

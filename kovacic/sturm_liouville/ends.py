@@ -22,7 +22,7 @@ from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.sturm_liouville.bounds import lower_bound
 from kovacic.sturm_liouville.discs import coefficients, size
-from kovacic.sturm_liouville.problem import Piece, Problem, Robin, Span, Wish, ball, plain
+from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, plain
 
 Expr = Any
 State = tuple[Any, Any]
@@ -117,7 +117,7 @@ class CutEnd:
     x: Expr
     tau: Expr
     place: Expr
-    piece: Piece
+    piece: Stretch
     inwards: int
     threshold: Expr | None
     origin: Any
@@ -269,7 +269,7 @@ def _rational(value: Any) -> Expr:
     return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
 
 
-def end_of(problem: Problem, side: int) -> End:
+def end_of(problem: SturmProblem, side: int) -> End:
     """The left end for side 0, the right one for 1.  Raises `InputError` where it isn't known what is to be computed there."""
     piece = problem.pieces[-side]
     at = problem.ends[side]
@@ -301,7 +301,7 @@ def _reduced(e: Expr, t: Expr) -> Expr:
     return plain(e, t) if e.is_rational_function(t) else sympy.expand(e)
 
 
-def _is_regular(piece: Piece, problem: Problem, at: Expr) -> bool:
+def _is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
     if at.is_infinite:
         return False
     with working_precision(64):
@@ -322,7 +322,7 @@ def _check_exponents(end: SingularEnd, x: Expr) -> None:
     raise InputError(f"{said}: then solutions oscillate, and there is no lowest level")
 
 
-def _check_wish(end: SingularEnd, problem: Problem, wish: Wish) -> None:
+def _check_wish(end: SingularEnd, problem: SturmProblem, wish: Wish) -> None:
     """Raises `InputError` where the condition doesn't mean the principal solution, y ~ t^(larger exponent)."""
     if wish is None or end.square >= 1:  # the other one isn't square integrable
         return
@@ -337,7 +337,7 @@ def _check_wish(end: SingularEnd, problem: Problem, wish: Wish) -> None:
         )
 
 
-def _infinite_end(x: Expr, piece: Piece, at: Expr, inwards: int) -> CutEnd:
+def _infinite_end(x: Expr, piece: Stretch, at: Expr, inwards: int) -> CutEnd:
     tau = sympy.Dummy("tau", positive=True)
     place = -inwards * tau
     Q, W = (e.subs(x, place) for e in (piece.Q, piece.W))

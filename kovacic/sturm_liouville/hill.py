@@ -19,7 +19,7 @@ from flint import arb
 from kovacic.enclosure.points import working_precision
 from kovacic.sturm_liouville.count import Reading
 from kovacic.sturm_liouville.discs import Road, march
-from kovacic.sturm_liouville.problem import Problem, Span, ball
+from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 
 
 class PeriodicCounter:
@@ -27,7 +27,7 @@ class PeriodicCounter:
 
     is_bracket = False
 
-    def __init__(self, problem: Problem, span: Span, digits: int) -> None:
+    def __init__(self, problem: SturmProblem, span: Span, digits: int) -> None:
         self.problem = problem
         self.digits = digits
         self.road = Road(problem, span)

@@ -38,7 +38,7 @@ class Span:
 
 
 @dataclass(frozen=True)
-class Piece:
+class Stretch:
     """Q and W on an interval."""
 
     low: Expr
@@ -71,7 +71,7 @@ Wish = Robin | Bounded | None
 
 
 @dataclass(frozen=True)
-class Problem:
+class SturmProblem:
     """Conditions are those on y; None where the solution is meant that is smaller than all others at that end.
 
     `wrap` is 0 for separated conditions, 1 for periodic and -1 for antiperiodic ones; `sign` is -1 where the user's
@@ -79,7 +79,7 @@ class Problem:
     """
 
     x: Expr
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Stretch, ...]
     conditions: tuple[Wish, Wish] = (None, None)
     wrap: int = 0
     B: Expr = sympy.S.Zero
@@ -102,7 +102,7 @@ def ball(e: Expr) -> Any:
     return found.real
 
 
-def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Piece, ...]:
+def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Stretch, ...]:
     """Q and W between the points at which an absolute value, a step or a case of theirs changes.
 
     Raises `InputError` where these points can't be found, or W is somewhere negative.
@@ -111,7 +111,7 @@ def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Pie
     found = []
     for low, high in pairwise(places):
         inside = _inside(low, high)
-        piece = Piece(low, high, *(_resolved(e, x, inside) for e in (Q, W)))
+        piece = Stretch(low, high, *(_resolved(e, x, inside) for e in (Q, W)))
         _check_weight(piece, x, inside)
         found.append(piece)
     return tuple(found)
@@ -183,7 +183,7 @@ def _value_of_step(step: Expr, x: Expr, inside: Expr) -> Expr:
     return sympy.Integer(1) if is_positive else sympy.Integer(0)
 
 
-def _check_weight(piece: Piece, x: Expr, inside: Expr) -> None:
+def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
     """Raises `InputError` where it isn't shown that W >= 0, with isolated zeros."""
     W = piece.W
     real = sympy.Dummy(real=True)
@@ -200,7 +200,7 @@ def _check_weight(piece: Piece, x: Expr, inside: Expr) -> None:
     )
 
 
-def _is_without_roots(piece: Piece, x: Expr, inside: Expr) -> bool:
+def _is_without_roots(piece: Stretch, x: Expr, inside: Expr) -> bool:
     """W is rational, positive at a point, and has neither zeros nor poles inside."""
     num, den = sympy.fraction(sympy.cancel(sympy.together(piece.W)))
     polynomial = num * den
@@ -231,7 +231,7 @@ def _is_positive(W: Expr, x: Expr, low: arb, high: arb, halvings: int) -> bool:
 
 def normal_form(
     x: Expr, coefficients: Sequence[Expr], domain: tuple[Expr, Expr]
-) -> tuple[tuple[Piece, ...], Expr, int]:
+) -> tuple[tuple[Stretch, ...], Expr, int]:
     """The pieces, B, and the sign of E, from a, b, c0 and c1.  Raises `InputError`."""
     a, b, c0, c1 = coefficients
     if any(e.has(sympy.I) for e in coefficients):

@@ -208,7 +208,7 @@ class Range:
         return Span(self.high, max(abs(self.low), abs(self.high)))
 
 
-class Search:
+class LevelSearch:
     """The lowest levels of a problem, one after the other.
 
     `counters(span, digits)` makes a counter; `threshold` is the bottom of the essential spectrum, or None, and

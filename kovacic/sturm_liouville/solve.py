@@ -15,8 +15,8 @@ from kovacic.sturm_liouville.count import SeparatedCounter
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
 from kovacic.sturm_liouville.hill import PeriodicCounter
 from kovacic.sturm_liouville.levels import Eigenvalues, Level
-from kovacic.sturm_liouville.problem import Piece, Problem, Span, ball
-from kovacic.sturm_liouville.search import Search
+from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball
+from kovacic.sturm_liouville.search import LevelSearch
 
 _ROUGH = 6
 _PREC = 128
@@ -28,7 +28,7 @@ _PERIODIC_SEPARATIONS = 2
 class Eigenproblem:
     """A problem that was read; `levels` computes its lowest levels, one after the other."""
 
-    problem: Problem
+    problem: SturmProblem
     parameter: str
     notes: tuple[str, ...] = ()
     _found: list[Level] = field(default_factory=list, compare=False, repr=False)
@@ -47,12 +47,12 @@ class Eigenproblem:
         return min(finite, key=lambda e: float(ball(e).mid())) if finite else None
 
     @cached_property
-    def search(self) -> Search:
+    def search(self) -> LevelSearch:
         """Where the levels come from."""
         if self.problem.wrap:
-            return Search(self._periodic, self._scale(), separations=_PERIODIC_SEPARATIONS)
+            return LevelSearch(self._periodic, self._scale(), separations=_PERIODIC_SEPARATIONS)
         threshold = None if self.threshold is None else ball(self.threshold)
-        return Search(self._separated, self._scale(), threshold=threshold, total=self._total)
+        return LevelSearch(self._separated, self._scale(), threshold=threshold, total=self._total)
 
     def _periodic(self, span: Span, digits: int) -> PeriodicCounter:
         return PeriodicCounter(self.problem, span, digits)
@@ -70,7 +70,7 @@ class Eigenproblem:
             weight = BallEvaluator({self.problem.x: middle})(self._piece_at(middle).W).real
             return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
 
-    def _piece_at(self, x: Any) -> Piece:
+    def _piece_at(self, x: Any) -> Stretch:
         pieces = self.problem.pieces
         return next((piece for piece in pieces if piece.high.is_infinite or x < ball(piece.high)), pieces[-1])
 

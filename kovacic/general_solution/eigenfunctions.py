@@ -1,0 +1,152 @@
+"""Boundary problems with a parameter: for which of its values there are solutions other than 0, and these.
+
+Two homogeneous conditions at two points, and an equation with lambda (or mu) in it: y'' + lambda y = 0, y(0) = y(L) = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import sympy
+
+from kovacic.enclosure.functions import in_the_given_variable
+from kovacic.equation import Equation
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.question import Question
+from kovacic.sturm_liouville.families import EigenvalueFamily, family
+from kovacic.sturm_liouville.problem import Robin, SturmProblem, normal_form
+from kovacic.sturm_liouville.solve import Eigenproblem
+
+Expr = Any
+_PARAMETERS = ("lambda", "lamda", "λ", "mu", "μ")
+_NUMBERS = ("n", "k", "m", "j", "n_")
+_ROOTS = 3
+_DIGITS = 15
+
+
+def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
+    """y, with a number n in it or lambda, and for which lambda it holds; None where that isn't the question."""
+    conditions = _conditions(question)
+    if conditions is None or question.given.f != 0 or question.given.h is not None:
+        return None
+    x = question.x
+    B, c = _coefficients(question.given, x)
+    parameter = next((s for s in c.free_symbols if s.name in _PARAMETERS), None)
+    if parameter is None:
+        return None
+    c1 = sympy.simplify(c.diff(parameter))
+    others = [B, c1, *conditions[0], *(e for robin in _robins(conditions) for e in (robin.alpha, robin.beta))]
+    if c1 == 0 or any(e.has(parameter) for e in others):
+        return None
+    c0 = sympy.simplify(c - parameter * c1)
+    taken = {s.name for s in sympy.Add(*others, c0).free_symbols}
+    n = sympy.Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
+    sign = -1 if _positive(c1).is_negative else 1
+    found = family(x, B, c0, sign * c1, sign * parameter, *conditions, n=n)
+    if found is None or not _is_solution(found, B, c0 + sign * found.value * c1, x):
+        return None
+    constants = sympy.symbols("C1 C2")
+    y = sympy.Add(*(constant * function for constant, function in zip(constants, found.functions, strict=False)))
+    said = _said(found, parameter, sign)
+    if found.equation is not None and not taken - {x.name}:
+        problem = _problem(x, (B, c0, c1), conditions)
+        said = f"{said}: {parameter} = {_first_roots(problem)}, ..."
+    return y, [f"{said}; for all other {parameter} {question.function} is 0"]
+
+
+def _coefficients(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
+    """B and c in y'' + B y' + c y = 0, in the user's variable."""
+    if equation.change is not None:
+        b, c, _ = in_the_given_variable(equation).parts
+        return b, c
+    quotients = (equation.b / equation.a, equation.c / equation.a)
+    b, c = (sympy.factor(q.num.to_sympy(x) / q.den.to_sympy(x)) for q in quotients)
+    return b, c
+
+
+def _robins(conditions: Any) -> tuple[Robin, ...]:
+    return () if isinstance(conditions[1], int) else conditions[1]
+
+
+def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
+    """The two ends, and the conditions there, or 1 or -1 where they are periodic or antiperiodic; None for others."""
+    given = question.conditions
+    points = sorted({point for condition in given for point in condition.points}, key=sympy.default_sort_key)
+    is_homogeneous = len(given) == 2 and all(condition.value == 0 for condition in given)
+    if not is_homogeneous or len(points) != 2 or any(point.is_infinite for point in points):
+        return None
+    low, high = points if _is_in_order(*points) else points[::-1]
+    if all(len(set(condition.points)) == 1 for condition in given):
+        if given[0].points[0] == given[1].points[0]:
+            return None
+        first, second = sorted(given, key=lambda condition: condition.points[0] != low)
+        return (low, high), (_robin(first), _robin(second))
+    wraps = {tuple(_wrap(condition, low)) for condition in given}
+    for sign in (1, -1):
+        if wraps == {(0, -sign), (1, -sign)}:
+            return (low, high), sign
+    return None
+
+
+def _is_in_order(a: Expr, b: Expr) -> bool:
+    """For positive letters."""
+    difference = _positive(b - a)
+    return difference.is_positive is not False and not difference.is_negative
+
+
+def _positive(e: Expr) -> Expr:
+    """With positive symbols."""
+    return e.xreplace({s: sympy.Symbol(s.name, positive=True) for s in e.free_symbols})
+
+
+def _robin(condition: Condition) -> Robin:
+    parts = [sympy.S.Zero, sympy.S.Zero]
+    for term in condition.terms:
+        parts[term.order] += term.coefficient
+    return Robin(*parts)
+
+
+def _wrap(condition: Condition, low: Expr) -> Iterator[Any]:
+    """The order and the quotient of the coefficients at the two ends."""
+    yield condition.terms[0].order
+    at = {term.point == low: term.coefficient for term in condition.terms}
+    same = len({term.order for term in condition.terms}) == 1 and len(at) == 2
+    yield sympy.simplify(at[False] / at[True]) if same else None
+
+
+def _is_solution(found: EigenvalueFamily, B: Expr, c: Expr, x: Expr) -> bool:
+    """Are the functions solutions?"""
+    residues = (sympy.simplify(y.diff(x, 2) + B * y.diff(x) + c * y) for y in found.functions)
+    return all(residue == 0 for residue in residues)
+
+
+def _said(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:
+    """For which values of the parameter, which is the eigenvalue times a sign."""
+    if found.equation is None:
+        numbers = ", ".join(str(found.first + k) for k in range(3))
+        return f"this holds for {parameter} = {sign * found.value} with {found.n} = {numbers}, ..."
+    shift = sign * found.shift
+    said = f"this holds for the solutions of {found.equation.lhs} = {found.equation.rhs}"
+    if found.zero == 0:
+        return f"{said} and for {shift}"
+    said = f"{said} other than {shift}"
+    if found.zero.free_symbols:
+        return f"{said} (that is one only if {found.zero} = 0)"
+    return said
+
+
+def _problem(x: Expr, coefficients: tuple[Expr, Expr, Expr], conditions: Any) -> Eigenproblem:
+    B, c0, c1 = coefficients
+    ends, wishes = conditions
+    pieces, B, sign = normal_form(x, (sympy.S.One, B, c0, c1), ends)
+    return Eigenproblem(SturmProblem(x, pieces, wishes, 0, B, sign), "lambda")
+
+
+def _first_roots(problem: Eigenproblem) -> str:
+    """The first eigenvalues as proven numbers."""
+    try:
+        return ", ".join(str(level.value) for level in problem.levels(_ROOTS, _DIGITS))
+    except (InputError, LimitExceeded):
+        return "?"
