@@ -143,16 +143,16 @@ def test_an_unclosed_quotation_mark_is_named_and_does_not_keep_the_file_in_memor
 @pytest.mark.parametrize(
     ("header", "message"),
     [
-        ("equation,id", "a header without a column 'S'"),
-        ("id,equation", "a header without a column 'S'"),
-        ("f,id", "a header without a column 'S'"),
-        ("name,formula", "a header without a column 'S'"),
-        ("ode", "a header without a column 'S'"),
-        ("y'',var", "a header without a column 'S'"),
+        ("equation,id", "there is no 'S' with the expression"),
+        ("id,equation", "there is no 'S' with the expression"),
+        ("f,id", "there is no 'S' with the expression"),
+        ("name,formula", "there is no 'S' with the expression"),
+        ("ode", "there is no 'S' with the expression"),
+        ("y'',var", "there is no 'S' with the expression"),
         ("S,S", "two columns have the name 'S'"),
         ("S,id,id", "two columns have the name 'id'"),
         ("S,note,note", "two columns have the name 'note'"),
-        ("S,input", "two columns for one expression"),
+        ("S,input", "'S' and 'input' both name the expression"),
     ],
 )
 def test_a_header_that_names_no_expression_is_no_equation(header: str, message: str) -> None:
@@ -175,7 +175,7 @@ def test_further_columns_are_carried_along() -> None:
         ('{"S": "x", "id": 1e999}', "JSON has no such float as the id"),
         ('{"S": "x", "S": "y"}', "a key occurs twice in one object: 'S'"),
         ('{"S": "x", "id": {"a": 1, "a": 2}}', "a key occurs twice in one object: 'a'"),
-        ('{"S": "x", "input": "y"}', "two keys for one expression: 'S' and 'input'"),
+        ('{"S": "x", "input": "y"}', "'S' and 'input' both name the expression"),
         ('{"S": "x", "Var": "t"}', "unknown key 'Var'"),
         ('{"S": "x", "assume": {"a": "positive"}}', "unknown key 'assume'"),
     ],

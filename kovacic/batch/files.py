@@ -18,11 +18,11 @@ import sys
 import tempfile
 import zlib
 from collections import Counter, deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple, TextIO
+from typing import Any, BinaryIO, TextIO
 
 from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
@@ -69,7 +69,10 @@ def read_items(
         if line.error is not None:
             yield Item(line.number, text, var, error=line.error)
         elif text and form == "jsonl":
-            yield _json_item(line.number, text, var)
+            try:
+                yield _item_of(line.number, strict_json(text), text, var)
+            except (ValueError, RecursionError) as error:
+                yield Item(line.number, text, var, error=ParseError(f"the line isn't JSON: {error}"))
         elif text and not text.startswith("#"):
             yield Item(line.number, text, var)
 
@@ -120,57 +123,47 @@ def _lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
         raise InputError(f"the input can't be read beyond line {number}: {broken}") from None
 
 
-def _json_item(number: int, text: str, var: str | None) -> Item:
-    try:
-        return _item_of(number, strict_json(text), text, var)
-    except (ValueError, RecursionError) as error:
-        return Item(number, text, var, error=ParseError(f"the line isn't JSON: {error}"))
-
-
 def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
     """The item of a string or an object; `text` is what a refused line is shown as."""
     if isinstance(value, str):
         return Item(number, value, var)
-    extra: dict[str, Any] = {}
-    try:
-        if not isinstance(value, Mapping):
-            hint = 'a string, or an object like {"S": "x^2 + 3"}'
-            raise ParseError("the line is neither a string nor an object", hint=hint)
-        extra = _identified(value)
-        key = _expression_key(value)
-        own = value.get("var") or var
-        if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
-            raise InputError(f"the values of {key!r} and 'var' are strings")
-    except InputError as error:
-        return Item(number, text, None if extra else var, extra, error)
-    return Item(number, value[key], own, extra)
-
-
-def _identified(value: Mapping[Any, Any]) -> dict[str, Any]:
-    """The "id" of an object, which its answer repeats."""
-    if "id" not in value:
-        return {}
-    extra = {"id": value["id"]}
+    if not isinstance(value, Mapping):
+        hint = 'a string, or an object like {"S": "x^2 + 3"}'
+        return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
+    extra = {"id": value["id"]} if "id" in value else {}
     try:
         json.dumps(extra, allow_nan=False)
     except (TypeError, ValueError, RecursionError):
         wrong = type(extra["id"]).__name__
-        raise InputError(f"JSON has no such {wrong} as the id", hint="use text") from None
-    return extra
+        return Item(number, text, var, error=InputError(f"JSON has no such {wrong} as the id", hint="use text"))
+    error = _flaw_of(list(value))
+    if error is not None:
+        return Item(number, text, var, extra, error)
+    (key,) = set(_EXPRESSION_KEYS) & set(value)
+    own = value.get("var") or var
+    if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
+        return Item(number, text, None, extra, InputError(f"the values of {key!r} and 'var' are strings"))
+    return Item(number, value[key], own, extra)
 
 
-def _expression_key(value: Mapping[Any, Any]) -> str:
-    """The key of the expression.  Raises `InputError` unless there is exactly one, and for a key that means nothing here."""
-    found = [key for key in _EXPRESSION_KEYS if key in value]
-    if not found:
-        raise InputError(f"there is no key {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
+def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None:
+    """What is wrong with the keys of an object or the header of a table, in which there may be `others`; None if all is well.
+
+    Nothing is lost: a name that occurs twice, a second expression, or a key that means nothing here is refused.
+    """
+    for name, count in Counter(names).items():
+        if count > 1:
+            return InputError(f"two columns have the name {name!r}")
+        if name not in _KEYS and not others:
+            return InputError(
+                f"unknown key {name!r}", hint=f"the keys are {', '.join(_KEYS)}; an id may be any JSON value"
+            )
+    found = [name for name in _EXPRESSION_KEYS if name in names]
     if len(found) > 1:
-        raise InputError(f"two keys for one expression: {found[0]!r} and {found[1]!r}", hint="keep one of them")
-    for key in value:
-        if key not in _KEYS:
-            hint = f"the keys are {', '.join(_KEYS)}; an id may be any JSON value"
-            raise InputError(f"unknown key {key!r}", hint=hint)
-    return found[0]
+        return InputError(f"{found[0]!r} and {found[1]!r} both name the expression", hint="keep one of them")
+    if found:
+        return None
+    return InputError(f"there is no {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
 
 
 def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator[Item]:
@@ -179,25 +172,33 @@ def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator
     header: list[str] | None = None
     flaw: InputError | None = None  # of the header, for which no row can be read
     is_first = True
-    while (row := rows.next(None if header is None else len(header))) is not None:
+    while (row := rows.next(len(header or ()))) is not None:
         (line, cells) = row
-        number = line.number
         shown = ",".join(cells) or line.text.strip()
         if line.error is not None:
-            yield Item(number, shown, var, error=line.error)
+            yield Item(line.number, shown, var, error=line.error)
+            is_first = False
         elif any(cells):
-            if is_first and _is_header(cells):
+            # A line of words can be meant as a header, too.
+            is_of_words = all(map(str.isidentifier, cells)) and any(len(cell) > 1 for cell in cells)
+            if is_first and (is_of_words or not set(_KEYS).isdisjoint(cells)):
                 header = cells
-                flaw = _flaw_of(header, number)
+                flaw = _flaw_of(header, others=True)
                 if flaw is not None:
-                    yield Item(number, shown, var, error=flaw)
+                    hint = "name the column of the expressions S; if the file has no header, put S as its first line"
+                    flaw = InputError(f"line {line.number} as a header: {flaw.message}", hint=hint)
+                    yield Item(line.number, shown, var, error=flaw)
             elif flaw is not None:
-                yield Item(number, shown, var, error=flaw)
+                yield Item(line.number, shown, var, error=flaw)
             elif header is None:
-                yield Item(number, cells[0], var)
+                yield Item(line.number, cells[0], var)
             else:
-                yield _row_item(number, header, cells, var)
-        is_first = is_first and line.error is None and not any(cells)
+                named = dict(zip(header, cells, strict=True))
+                known = {name: cell for name, cell in named.items() if name in _KEYS}
+                item = _item_of(line.number, known, shown, var)
+                others = {name: cell for name, cell in named.items() if name not in _KEYS}
+                yield replace(item, extra={**item.extra, "columns": others}) if others else item
+            is_first = False
 
 
 class _Rows:
@@ -212,8 +213,8 @@ class _Rows:
         self._longest = longest
         self._again: deque[Item] = deque()
 
-    def next(self, columns: int | None) -> tuple[Item, list[str]] | None:
-        """The first line of the next row, with its error, and the cells; None at the end."""
+    def next(self, columns: int) -> tuple[Item, list[str]] | None:
+        """The first line of the next row, with its error, and the cells; None at the end.  0 columns are any number."""
         taken: list[Item] = []
         try:
             cells = [cell.strip() for cell in next(csv.reader(self._texts(taken), strict=True), [])]
@@ -226,7 +227,7 @@ class _Rows:
         line = taken[0]
         if line.error is not None:
             return line, cells
-        if columns is not None and any(cells) and len(cells) != columns:
+        if columns and any(cells) and len(cells) != columns:
             error = ParseError(f"{len(cells)} cells in a table of {columns} columns")
         # An even number of quotation marks closes what it opens.
         if error is not None and line.text.count('"') % 2:
@@ -248,36 +249,6 @@ class _Rows:
                 return
             size += len(line.text)
             yield line.text
-
-
-def _is_header(cells: list[str]) -> bool:
-    """True for names of columns; also for a line of words, which can be meant as such."""
-    is_of_words = all(map(str.isidentifier, cells)) and any(len(cell) > 1 for cell in cells)
-    return is_of_words or not set(_KEYS).isdisjoint(cells)
-
-
-def _flaw_of(header: list[str], number: int) -> InputError | None:
-    """What makes a header useless: no column of expressions, or more than one."""
-    repeated = [name for name, count in Counter(header).items() if count > 1]
-    if repeated:
-        return InputError(f"line {number}: two columns have the name {repeated[0]!r}")
-    found = [name for name in _EXPRESSION_KEYS if name in header]
-    if len(found) > 1:
-        return InputError(f"line {number}: two columns for one expression: {found[0]!r} and {found[1]!r}")
-    if found:
-        return None
-    return InputError(
-        f"line {number} is a header without a column 'S', or an expression that looks like one",
-        hint="name the column of the expressions S; if the file has no header, put S as its first line",
-    )
-
-
-def _row_item(number: int, header: list[str], cells: list[str], var: str | None) -> Item:
-    """The item of a row; its answer repeats the columns that mean nothing here as `columns`."""
-    named = dict(zip(header, cells, strict=True))
-    item = _item_of(number, {name: cell for name, cell in named.items() if name in _KEYS}, ",".join(cells), var)
-    others = {name: cell for name, cell in named.items() if name not in _KEYS}
-    return replace(item, extra={**item.extra, "columns": others}) if others else item
 
 
 @contextmanager
@@ -306,7 +277,7 @@ class Done:
         return len(self.checksums)
 
     def __contains__(self, item: Item) -> bool:
-        """Has the item been answered?  Raises `InputError` if its line number belongs to another input."""
+        """True if the item has been answered.  Raises `InputError` if its line number belongs to another input."""
         known = self.checksums.get(item.number)
         if known is not None and known != _checksum(item.text):
             raise InputError(
@@ -331,13 +302,19 @@ def take_up(path: Path) -> Done:
     try:
         with path.open("rb") as stream, repaired:
             for line in stream:
-                answer = _answer(line)
-                if answer is None or answer.number in done.checksums:
+                try:
+                    if not line.endswith(b"\n"):
+                        raise ValueError("the line isn't whole")
+                    data = json.loads(line)
+                    number, checksum, label = int(data["line"]), _checksum(data["input"]), label_of(data)
+                    if number in done.checksums:
+                        raise ValueError("the line was answered before")
+                except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
                     broken = True
                     foreign = foreign or (line.endswith(b"\n") and line.strip(b"\0\n") != b"")
                     continue
-                done.checksums[answer.number] = answer.checksum
-                done.labels[answer.number] = answer.label
+                done.checksums[number] = checksum
+                done.labels[number] = label
                 repaired.write(line)
             repaired.flush()
             os.fsync(repaired.fileno())
@@ -349,25 +326,6 @@ def take_up(path: Path) -> Done:
     finally:
         Path(repaired.name).unlink(missing_ok=True)
     return done
-
-
-class _Answer(NamedTuple):
-    """The number of a line, a checksum of the input and the label."""
-
-    number: int
-    checksum: int
-    label: str
-
-
-def _answer(line: bytes) -> _Answer | None:
-    """That of a line; None for what isn't a whole answer."""
-    if not line.endswith(b"\n"):
-        return None
-    try:
-        data = json.loads(line)
-        return _Answer(int(data["line"]), _checksum(data["input"]), label_of(data))
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return None
 
 
 def _checksum(text: str) -> int:

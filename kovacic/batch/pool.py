@@ -31,21 +31,21 @@ from kovacic.batch.records import Item, Job, ProcessLost, Record, refused, stopp
 from kovacic.errors import KovacicError
 from kovacic.process import Channel, Process
 
-# A process has so many seconds beyond the timeout to end by itself, with an answer that says what it has excluded.
+# Seconds beyond the timeout in which a process may end by itself, with an answer that says what it has excluded.
 GRACE_SECONDS = 0.25
 _START_SECONDS = 120.0
 
-# A signal may come from somebody else: so many starts in a row, or processes of one item, may end by one.
+# A signal may come from somebody else: starts in a row, or processes of one item, that may end by one.
 _ATTEMPTS = 4
 
-# In order of the input, at most so many items are read beyond the first one that has no answer.
+# In order of the input, items that are read beyond the first one that has no answer.
 ORDERED_WINDOW = 10_000
 
 # Items that are read from a stream before they are needed.
 _AHEAD = 256
 
-# A process gets items for so many seconds at once, so that it needn't wait for the parent after each of them; but one item
-# where they take longer.  What follows the first item must fit into the pipe: the process reads the first one before it works,
+# Seconds of work that a process gets at once, so that it needn't wait for the parent after each item; a longer item comes
+# alone.  What follows the first item must fit into the pipe: the process reads the first one before it works,
 # and writing to a full pipe of a process that is busy would stop the parent, its deadlines included.
 _SECONDS_AT_ONCE = 0.02
 _ITEMS_AT_ONCE = 32
@@ -76,11 +76,11 @@ class ItemSource:
         self._feed = feed
         self._returned: deque[Item] = deque()
         self._ended = False
-        self._failure: Exception | None = None
+        self.failure: Exception | None = None  # what has ended the input, if it wasn't its end
 
     @property
     def exhausted(self) -> bool:
-        """Is the end of the input known, and nothing given back?"""
+        """True if the end of the input is known, and nothing was given back."""
         return self._ended and not self._returned
 
     def give_back(self, items: Sequence[Item]) -> None:
@@ -97,18 +97,13 @@ class ItemSource:
             return next(self._feed)
         except StopIteration:
             self._ended = True
-        except Exception as error:  # raised by `close`, when what came before it is answered
+        except Exception as error:  # raised by the pool, when what came before it is answered
             self._ended = True
-            self._failure = error
+            self.failure = error
         return None
 
-    def close(self) -> None:
-        """Raise what has ended the input, if it wasn't its end."""
-        if self._failure is not None:
-            raise self._failure
-
     def lot(self, most: int) -> Lot:
-        """At most so many items, and at least one where one can be had."""
+        """Up to `most` items, and at least one if one can be had."""
         lot = Lot([], [])
         size = 0
         while len(lot.items) + len(lot.refusals) < most:
@@ -133,37 +128,28 @@ class Child:
         self.items: deque[Item] = deque()
         self.ready = False
         self.busy_since = time.monotonic()
-        self._process = Process(serve)
-        self.pid = self._process.pid
+        self.process = Process(serve)
+        self.pid = self.process.pid
         self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
         self._reader.start()
-        self._process.send(job)
-
-    @property
-    def idle(self) -> bool:
-        """Has it started, and nothing to do?"""
-        return self.ready and not self.items
+        self.process.send(job)
 
     def give(self, items: Sequence[Item]) -> None:
         """What the process has to do next."""
         self.items.extend(items)
         self.busy_since = time.monotonic()
-        self._process.write(b"".join(map(_packed, items)))
+        self.process.write(b"".join(map(_packed, items)))
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""
-        self._process.kill()
+        self.process.kill()
         self._reader.join()
-        self._process.close()
-
-    def last_words(self) -> tuple[int, str]:
-        """The exit status (negative: a signal) and the end of the standard error of a process that has ended."""
-        return self._process.last_words()
+        self.process.close()
 
     def _read(self, events: SimpleQueue[Event]) -> None:
         try:
             while True:
-                events.put((self, Record(*self._process.receive())))
+                events.put((self, Record(*self.process.receive())))
         except EOFError:
             pass
         finally:
@@ -239,10 +225,14 @@ class Pool(AbstractContextManager["Pool"]):
                 yield from lot.refusals
             working = any(child.items for child in self._children)
             if source.exhausted and not working:
-                source.close()
+                if source.failure is not None:
+                    raise source.failure
                 return
             events = self._arrived(wait=not lots)
-            late = self._late(events)
+            # Those that are over their time, and from which nothing has come.
+            now = time.monotonic()
+            heard = [event[0] for event in events if event is not None]
+            late = [child for child in self._children if child not in heard and self._deadline(child) <= now]
             yield from self._take_up(events, source)
             yield from self._end(late, source)
 
@@ -250,37 +240,27 @@ class Pool(AbstractContextManager["Pool"]):
         """Give each process that has nothing to do a lot, as long as there are items; the lots."""
         lots: list[Lot] = []
         for child in self._children:
-            if not child.idle:
+            if not child.ready or child.items:
                 continue
-            lot = source.lot(self._lot_size())
+            lot = source.lot(max(1, int(min(_SECONDS_AT_ONCE / self._pace, _ITEMS_AT_ONCE))))
             if lot.items:
                 child.give(lot.items)
             if lot.items or lot.refusals:
                 lots.append(lot)
         return lots
 
-    def _lot_size(self) -> int:
-        """How many items a process gets at once."""
-        in_time = int(min(_SECONDS_AT_ONCE / self._pace, _ITEMS_AT_ONCE))
-        return max(1, in_time)
-
     def _arrived(self, *, wait: bool) -> list[Event]:
         """The events that have arrived; with `wait`, at least one unless a deadline comes first."""
         events: list[Event] = []
         try:
             if wait:
-                events.append(self._events.get(timeout=self._seconds_to_deadline()))
+                deadline = min(map(self._deadline, self._children))
+                patience = None if deadline == math.inf else max(0.0, deadline - time.monotonic())
+                events.append(self._events.get(timeout=patience))
             while True:
                 events.append(self._events.get_nowait())
         except Empty:
             return events
-
-    def _seconds_to_deadline(self) -> float | None:
-        """How long to wait for an event at most; None for as long as it takes."""
-        deadline = min(map(self._deadline, self._children))
-        if deadline == math.inf:
-            return None
-        return max(0.0, deadline - time.monotonic())
 
     def _deadline(self, child: Child) -> float:
         if not child.ready:
@@ -300,24 +280,15 @@ class Pool(AbstractContextManager["Pool"]):
             if record is None:
                 yield from self._died(child, source)
             elif child.ready:
-                yield self._answered(child, record)
+                # The answer to its first item; it has turned to the next one.
+                now = time.monotonic()
+                self._pace += (now - child.busy_since - self._pace) / 8
+                child.busy_since = now
+                child.items.popleft()
+                yield record
             else:  # with a record of nothing, by which it says so
                 child.ready = True
                 self._failed_starts = 0
-
-    def _answered(self, child: Child, record: Record) -> Record:
-        """The record of the first item of a process, which has turned to the next one."""
-        now = time.monotonic()
-        self._pace += (now - child.busy_since - self._pace) / 8
-        child.busy_since = now
-        child.items.popleft()
-        return record
-
-    def _late(self, events: list[Event]) -> list[Child]:
-        """The processes that are over their time, and from which nothing has come."""
-        now = time.monotonic()
-        heard = [event[0] for event in events if event is not None]
-        return [child for child in self._children if child not in heard and self._deadline(child) <= now]
 
     def _end(self, late: list[Child], source: ItemSource) -> Iterator[Record]:
         """Kill processes that are over their time; the records of what they worked on."""
@@ -331,7 +302,7 @@ class Pool(AbstractContextManager["Pool"]):
 
     def _died(self, child: Child, source: ItemSource) -> Iterator[Record]:
         """What follows from the end of a process: another one, and a record for its item, or another attempt."""
-        status, words = child.last_words()
+        status, words = child.process.last_words()  # a negative status is a signal
         if not child.ready:
             self._failed_starts += 1
         if self._failed_starts >= _ATTEMPTS:
@@ -341,9 +312,11 @@ class Pool(AbstractContextManager["Pool"]):
         if item is None:
             return
         seconds = time.monotonic() - child.busy_since
-        limit = self._limit_behind(status, words)
-        if limit is not None:
-            yield stopped(item, limit, seconds)
+        if self.job.memory is not None and _OUT_OF_MEMORY.search(words):
+            yield stopped(item, f"the memory limit of {self.job.memory} MiB is used up (process ended)", seconds)
+            return
+        if self.job.timeout is not None and _signal_name(status) == "SIGALRM":
+            yield stopped(item, f"the time limit of {self.job.timeout:g} s is used up (process ended)", seconds)
             return
         self._losses[item.number] += 1
         attempts = _ATTEMPTS if status < 0 else 1  # an exception repeats itself
@@ -351,14 +324,6 @@ class Pool(AbstractContextManager["Pool"]):
             yield refused(item, ProcessLost(_cause(status, words)), seconds)
         else:
             source.give_back([item])
-
-    def _limit_behind(self, status: int, words: str) -> str | None:
-        """Which limit the end of a process means; None for another reason."""
-        if self.job.memory is not None and _OUT_OF_MEMORY.search(words):
-            return f"the memory limit of {self.job.memory} MiB is used up (process ended)"
-        if self.job.timeout is not None and _signal_name(status) == "SIGALRM":
-            return f"the time limit of {self.job.timeout:g} s is used up (process ended)"
-        return None
 
     def _replace(self, child: Child, source: ItemSource) -> None:
         """Kill a process, give back what it hasn't begun, and start another one."""
