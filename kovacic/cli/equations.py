@@ -59,6 +59,7 @@ def solve(
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     kovacic solve --as mathematica "x^2 + 3"
     """
+    from kovacic.reading.lexer import is_equation
     from kovacic.views.text import render, solution_lines
 
     if form != "json":
@@ -74,8 +75,9 @@ def solve(
     if ics:
         options.refuse({"assume", "full", "no_solutions"}, "with --ics")
         del given["assume"]
-        chosen = {"as_json": form == "json", "as_formula": form == "formula"}
-        return _with_values(context, equations, ", ".join(ics), **chosen, **given)
+        given |= {"as_json": form == "json", "as_formula": form == "formula", "ics": ", ".join(ics)}
+        texts = (text if is_equation(text) else f"y'' = ({text.strip()})*y" for text in equations)
+        return max(int(context.invoke(dsolve, equation=text, **given)) for text in texts)
 
     def show(answer: Solution) -> Iterable[str]:
         if form == "json":
@@ -111,17 +113,6 @@ def _print_refusal(text: str, error: KovacicError) -> None:
     data = refused(Item(0, text), error, shell=True).data
     del data["line"]
     print(json_line(data), flush=True)
-
-
-def _with_values(context: click.Context, equations: tuple[str, ...], ics: str, **given: Any) -> int:
-    """What `kovacic dsolve --ics` says of each equation, S standing for y'' = S y; the largest of its exit statuses."""
-    from kovacic.reading.lexer import is_equation
-
-    statuses: list[int] = []
-    for text in equations:
-        equation = text if is_equation(text) else f"y'' = ({text.strip()})*y"
-        statuses.append(int(context.invoke(dsolve, equation=equation, ics=ics, **given)))
-    return max(statuses)
 
 
 def _inhomogeneous(answer: Solution) -> Iterator[str]:

@@ -213,7 +213,11 @@ def _answer_all(
 
     job = Job(**run)
     if job.backend == "dask":
-        _hush_dask()
+        # Its log has tracebacks of what is said in a sentence here; the levels are those of its settings at its import.
+        with needs("dask", "the backend dask"):
+            import dask.config
+        names = ("distributed", "distributed.client", "distributed.core", "distributed.batched")
+        dask.config.set(logging=dict.fromkeys(names, "critical"))
     summary = Summary(before=done.labels.values())
     start = time.monotonic()
     with ExitStack() as stack:
@@ -230,14 +234,6 @@ def _answer_all(
             if refresh is not None:
                 refresh()
     return summary.exit_status
-
-
-def _hush_dask() -> None:
-    """Dask's log has tracebacks of what is said in a sentence here; its levels are those of its settings at its import."""
-    with needs("dask", "the backend dask"):
-        import dask.config
-    names = ("distributed", "distributed.client", "distributed.core", "distributed.batched")
-    dask.config.set(logging=dict.fromkeys(names, "critical"))
 
 
 @contextmanager

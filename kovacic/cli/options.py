@@ -79,12 +79,16 @@ def formats(
     The command gets a single keyword `form`: "json"; "formula" for --latex; the language of --as; what --format or the suffix
     of --output says; or the default.  Two of them at once are refused.
     """
-    found = {
-        "as_json": json and click.option("--json", "as_json", is_flag=True, help=json),
-        "as_formula": latex and click.option("--latex", "as_formula", is_flag=True, help=latex),
-        "language": code and click.option("--as", "language", type=click.Choice(LANGUAGES), help=code),
-        "form": choice and click.option("--format", "form", type=click.Choice(choices), help=choice),
-    }
+    # The first one is applied last, and stands first in the help.
+    options = []
+    if choice:
+        options.append(click.option("--format", "form", type=click.Choice(choices), help=choice))
+    if code:
+        options.append(click.option("--as", "language", type=click.Choice(LANGUAGES), help=code))
+    if latex:
+        options.append(click.option("--latex", "as_formula", is_flag=True, help=latex))
+    if json:
+        options.append(click.option("--json", "as_json", is_flag=True, help=json))
 
     def decorate(command: Function) -> Function:
         @wraps(command)
@@ -98,74 +102,67 @@ def formats(
         ) -> Any:
             formula = as_formula and "formula"
             asked = {"--json": as_json and "json", "--latex": formula, "--as": language, "--format": form}
-            chosen = [name for name, value in asked.items() if value]
+            chosen = {name: value for name, value in asked.items() if value}
             if len(chosen) > 1:
                 raise click.UsageError(f"{' and '.join(chosen)} exclude each other")
-            output = given.get("output")
-            named = (suffixes or {}).get(output.suffix.lower()) if output is not None else None
-            return command(*arguments, form=asked[chosen[0]] if chosen else named or default, **given)
+            if not chosen and suffixes is not None and given["output"] is not None:
+                chosen = {"--output": suffixes.get(given["output"].suffix.lower(), default)}
+            return command(*arguments, form=next(iter(chosen.values()), default), **given)
 
-        for option in reversed([option for option in found.values() if option]):
+        for option in options:
             with_form = option(with_form)
         return with_form  # type: ignore[return-value]
 
     return decorate
 
 
-def parse_limits(settings: Sequence[str]) -> Limits:
-    """The default limits with the given changes, each `NAME=VALUE`.  Raises `click.UsageError`."""
+def _settings(option: str, given: Sequence[str], form: str) -> dict[str, str]:
+    """What is set by a repeated option, each setting `NAME=VALUE`.  Raises `click.UsageError`, also for a name set twice."""
+    found: dict[str, str] = {}
+    for setting in given:
+        name, _, value = (part.strip() for part in setting.partition("="))
+        if not (name and value):
+            raise click.UsageError(f"{option} {setting}: write {form}")
+        if name in found:
+            raise click.UsageError(f"{option} {setting}: {name} is {found[name]} already")
+        found[name] = value
+    return found
+
+
+def _changed_limits(context: click.Context, _: click.Parameter, given: Sequence[str]) -> Limits:
+    """The default limits with the given changes."""
     from kovacic.limits import DEFAULT_LIMITS
 
     names = [field.name for field in fields(DEFAULT_LIMITS)]
+    form = f"NAME=VALUE, NAME one of {', '.join(names)}"
     changes: dict[str, Any] = {}
-    for setting in settings:
-        name, separator, value = setting.partition("=")
-        name = name.strip().replace("-", "_")
-        if not separator or name not in names:
-            raise click.UsageError(f"--limit {setting}: write NAME=VALUE, NAME one of {', '.join(names)}")
+    for name, value in _settings("--limit", given, form).items():
+        key = name.replace("-", "_")
+        if key not in names or key in changes:
+            raise click.UsageError(f"--limit {name}={value}: write {form}, each once")
         try:
-            number: Any = float(value) if name == "seconds" else int(value)
+            changes[key] = float(value) if key == "seconds" else int(value)
         except ValueError:
-            raise click.UsageError(f"--limit {setting}: {value!r} isn't a number") from None
-        if not number > 0:
-            raise click.UsageError(f"--limit {setting}: a limit is positive")
-        if name in changes:
-            raise click.UsageError(f"--limit {setting}: {name} is {changes[name]} already")
-        changes[name] = number
+            raise click.UsageError(f"--limit {name}={value}: {value!r} isn't a number") from None
+        if not changes[key] > 0:
+            raise click.UsageError(f"--limit {name}={value}: a limit is positive")
     return replace(DEFAULT_LIMITS, **changes)
 
 
-def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
-    """What is known about the parameters, each `NAME=WHAT` or an inequality; None without any.  Raises `click.UsageError`."""
+def _assumptions(context: click.Context, _: click.Parameter, given: Sequence[str]) -> dict[str, str] | None:
+    """What is known about the parameters, all of it in one text for each name; None without any."""
     from kovacic.reading.substitution import relations
 
     found: dict[str, str] = {}
-    for setting in settings:
+    for setting in given:
         chain = relations(setting)
-        if chain is not None:
-            name, what = chain
-            found[name] = f"{found.get(name, '')} {what}".strip()
-            continue
-        match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
-        if match is None:
-            raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3, n>=0 or 0<n<20")
-        name = match[1]
-        relation = match[2].removeprefix("=")
-        what = match[3].strip()
-        found[name] = f"{found.get(name, '')} {relation}{what}".strip()
-    return found or None
-
-
-def parse_values(settings: Sequence[str]) -> dict[str, str] | None:
-    """The values of the parameters, each `NAME=NUMBER`; None without any.  Raises `click.UsageError`."""
-    found: dict[str, str] = {}
-    for setting in settings:
-        name, separator, value = (part.strip() for part in setting.partition("="))
-        if not (separator and name and value):
-            raise click.UsageError(f"--param {setting}: write NAME=NUMBER, such as n=1/2")
-        if name in found:
-            raise click.UsageError(f"--param {setting}: {name} is {found[name]} already")
-        found[name] = value
+        if chain is None:
+            match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
+            if match is None:
+                raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3, n>=0 or 0<n<20")
+            chain = match[1], f"{match[2].removeprefix('=')}{match[3].strip()}"
+        name, what = chain
+        found[name] = f"{found.get(name, '')} {what}".strip()
     return found or None
 
 
@@ -175,21 +172,22 @@ class Command(click.Command):
     def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
         _, _, order = self.make_parser(context).parse_args(list(args))
         for parameter, count in Counter(order).items():
-            if count > 1 and isinstance(parameter, click.Option) and not _is_repeatable(parameter):
+            if not isinstance(parameter, click.Option) or parameter.multiple or parameter.is_flag or parameter.count:
+                continue
+            if count > 1:
                 raise click.UsageError(f"{max(parameter.opts, key=len)} is given {count} times", context)
         return super().parse_args(context, args)
 
 
-def _is_repeatable(option: click.Option) -> bool:
-    return option.multiple or option.is_flag or option.count
+def is_given(name: str) -> bool:
+    """True if the parameter of the current command was given on the command line."""
+    return click.get_current_context().get_parameter_source(name) is ParameterSource.COMMANDLINE
 
 
 def refuse(names: Iterable[str], beside: str) -> None:
     """Raise `click.UsageError` if one of these parameters was given: it would have no effect, for the reason `beside`."""
-    context = click.get_current_context()
-    for parameter in context.command.params:
-        source = context.get_parameter_source(parameter.name or "")
-        if parameter.name in names and source is ParameterSource.COMMANDLINE:
+    for parameter in click.get_current_context().command.params:
+        if parameter.name in names and is_given(parameter.name or ""):
             raise click.UsageError(f"{max(parameter.opts, key=len)} has no effect {beside}")
 
 
@@ -211,7 +209,10 @@ class EquationCommand(Command):
 
     def _told_apart(self, arguments: Sequence[str]) -> tuple[list[str], list[str]]:
         """The arguments with a space in front of expressions that begin with -; and those that may be meant otherwise."""
-        options = self._options()
+        options: dict[str, click.Option | None] = {"-h": None, "--help": None}
+        for parameter in self.params:
+            if isinstance(parameter, click.Option):
+                options |= dict.fromkeys([*parameter.opts, *parameter.secondary_opts], parameter)
         found: list[str] = []
         doubtful: list[str] = []
         rest = iter(arguments)
@@ -229,17 +230,9 @@ class EquationCommand(Command):
                 doubtful.append(argument)
         return found, doubtful
 
-    def _options(self) -> dict[str, click.Option | None]:
-        """The options by all of their names; None for --help."""
-        found: dict[str, click.Option | None] = {"-h": None, "--help": None}
-        for option in self.params:
-            if isinstance(option, click.Option):
-                found |= dict.fromkeys([*option.opts, *option.secondary_opts], option)
-        return found
-
 
 def _is_expression(argument: str, options: Mapping[str, click.Option | None]) -> bool:
-    """Does it begin with a minus sign, and is no option?"""
+    """True if the argument begins with a minus sign, and isn't one of the `options`, known by all of their names."""
     if argument[:1] != "-" or argument == "-" or argument in options:
         return False
     if argument.startswith("--"):
@@ -264,14 +257,14 @@ PARAM = click.option(
     "params",
     metavar="NAME=NUMBER",
     multiple=True,
-    callback=lambda _, __, settings: parse_values(settings),
+    callback=lambda _, __, given: _settings("--param", given, "NAME=NUMBER, such as n=1/2") or None,
     help="The value of a parameter: n=1/2, a=sqrt(2).",
 )
 ASSUME = click.option(
     "--assume",
     metavar="NAME=WHAT",
     multiple=True,
-    callback=lambda _, __, settings: parse_assumptions(settings),
+    callback=_assumptions,
     help="What is known about a parameter: n=integer, n>=0, 0<n<20, n!=1, n=3, n=m^2.",
 )
 LIMIT = click.option(
@@ -279,7 +272,7 @@ LIMIT = click.option(
     "limits",
     metavar="NAME=VALUE",
     multiple=True,
-    callback=lambda _, __, settings: parse_limits(settings),
+    callback=_changed_limits,
     help="Change a limit: seconds, degree, bits, terms, digits, exponent, text_length, unknown_degree.",
 )
 
@@ -350,17 +343,6 @@ def _show_waiting(what: str, over: threading.Event, patience: float) -> None:
     click.echo("\x1b[1A\x1b[2K", nl=False, err=True)  # the line of the bar
 
 
-def each_waited_for(lines: Iterable[str], what: str) -> Iterator[str]:
-    """The lines, each with `waiting`."""
-    iterator = iter(lines)
-    while True:
-        with waiting(what):
-            line = next(iterator, None)
-        if line is None:
-            return
-        yield line
-
-
 def answer_each(
     equations: Sequence[str],
     show: Callable[[Solution], Iterable[str]],
@@ -388,7 +370,12 @@ def answer_each(
             is_open = answer.status is Status.UNDECIDED and not answer.assumed
             outcome = UNDECIDED if is_open else DECIDED
             outcomes.append(outcome)
-            for line in each_waited_for(show(answer), "writing"):
+            lines = iter(show(answer))
+            while True:
+                with waiting("writing"):
+                    line = next(lines, None)
+                if line is None:
+                    break
                 print(between + line, flush=True)
                 between = ""
             between = gap

@@ -5,16 +5,13 @@ from __future__ import annotations
 import sys
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from kovacic.cli import options
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
 from kovacic.shown import json_line
-
-if TYPE_CHECKING:
-    from kovacic.parametric.check import CheckReport
 
 
 @options.equation_command()
@@ -148,21 +145,13 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
     print(options.fitted(shown) if form in ("text", "summary") else shown)
     if report is not None:
         stream = sys.stdout if form == "summary" else sys.stderr
-        print(f"  {_agreement(report)}", file=stream)
+        found = "all agree" if report.inside + report.outside else "no point with these properties was found"
+        if not report:
+            found = f"{len(report.disagreements)} disagree"
+        print(f"  checked at {report.inside} points inside and {report.outside} outside: {found}", file=stream)
         if not report:
             return CHECK_FAILED
     return DECIDED if answer.within_limits else UNDECIDED
-
-
-def _agreement(report: CheckReport) -> str:
-    """How many points were compared, and whether they agree."""
-    if not report:
-        found = f"{len(report.disagreements)} disagree"
-    elif report.inside + report.outside:
-        found = "all agree"
-    else:
-        found = "no point with these properties was found"
-    return f"checked at {report.inside} points inside and {report.outside} outside: {found}"
 
 
 @options.equation_command()
