@@ -11,8 +11,11 @@ from build import run
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.special.airy import Airy
+from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback
+from kovacic.special.whittaker import Whittaker
 
 X = RatFunc(QQ.poly([0, 1]))
 x = sympy.Symbol("x")
@@ -120,3 +123,89 @@ def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:
         "y1 := AiryAi(x);",
         "y2 := AiryBi(x);",
     ]
+
+
+def transformed(T: RatFunc, a: RatFunc, b: RatFunc) -> RatFunc:
+    """S of the normal form of the equation of a v + b v', v'' = T v: with delta = a^2 + a b' - a' b - b^2 T, that of
+    (a v + b v')/sqrt(delta)."""
+    delta = a * a + a * b.derivative() - a.derivative() * b - b * b * T
+    L = delta.derivative() / delta / -2
+
+    def derivative(r: RatFunc) -> RatFunc:
+        return r.derivative() + L * r
+
+    return T + (2 * derivative(a) + derivative(derivative(b))) / b
+
+
+THIRD, FIFTH, SEVENTH = (Fraction(1, n) for n in (3, 5, 7))
+TARGETS: dict[str, RatFunc] = {
+    "Airy": X,
+    "Airy in x^2 + 1/x": Pullback(Airy(QQ.poly([1])), X**2 + 1 / X).S,
+    "Airy in 2/x": Pullback(Airy(QQ.poly([1])), 2 / X).S,
+    "Bessel of order 1/3": -1 + (4 * THIRD**2 - 1) / (4 * X**2),
+    "Bessel of order 2": -1 + Fraction(15, 4) / X**2,
+    "Bessel modified, in x - 1/x": Pullback(Whittaker(*map(QQ.poly, ([1], [], [-THIRD / 4]))), X - 1 / X).S,
+    "Bessel in sqrt(x)": Pullback(Bessel(*map(QQ.poly, ([1], [(FIFTH**2 - 1) / 4]))), X).S,
+    "Weber": X**2 / 4 + THIRD,
+    "Whittaker": Fraction(1, 4) - THIRD / X + (Fraction(1, 4) - 1) / (4 * X**2),
+    "Gauss": pulled_back((THIRD, FIFTH, SEVENTH), X),
+    "Gauss with logarithms": pulled_back((0, FIFTH, SEVENTH), X),
+    "Gauss in x^2/(x + 1)": pulled_back((THIRD, FIFTH, SEVENTH), X**2 / (X + 1)),
+    "tetrahedral": pulled_back((Fraction(1, 2), THIRD, THIRD), X),
+    "octahedral": pulled_back((Fraction(1, 2), THIRD, Fraction(1, 4)), X),
+    "icosahedral": pulled_back((Fraction(1, 2), THIRD, FIFTH), X),
+    "icosahedral with shifted differences": pulled_back((Fraction(1, 2), THIRD, Fraction(6, 5)), 1 / X),
+}
+ONE = X * 0 + 1
+#: a and b; the first four are short, so the answer is too.
+PAIRS = (
+    (ONE, X),
+    (X, ONE),
+    (X * 0, ONE),
+    (ONE, X * 0 + 2),
+    (1 / X, X + 1),
+    (1 / (X + 2), X**2 + 1),
+    (X + 1, X * 0 - 3),
+    (X**2 + 1, X - 2),
+    (ONE, 1 / X),
+    (X - 3, X**2),
+    (2 / (X - 2), ONE),
+    (X / (X + 5), X),
+    (3 * ONE, X**2 + X + 1),
+)
+
+
+def check_transform(name: str, a: RatFunc, b: RatFunc) -> None:
+    """The solutions of the transform are found, and short."""
+    S = transformed(TARGETS[name], a, b)
+    answer = kovacic.solve(str(S))
+    pair = answer.solutions or answer.special.solutions
+    assert pair, (name, a, b)
+    assert sum(len(str(y)) for y in pair) < max(1000, 4 * len(str(S))), (name, a, b)
+    assert not any(y.has(sympy.Integral) for y in pair)
+
+
+@pytest.mark.parametrize(
+    "name", ["Airy in x^2 + 1/x", "Bessel of order 2", "Weber", "Gauss in x^2/(x + 1)", "icosahedral"]
+)
+def test_gauge_transforms_are_found(name: str) -> None:
+    check_transform(name, *PAIRS[0])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", TARGETS)
+def test_all_gauge_transforms_are_found(name: str) -> None:
+    """208 of them."""
+    for a, b in PAIRS:
+        check_transform(name, a, b)
+
+
+def test_the_derivatives_of_bessel_functions() -> None:
+    """J_2'(x) and Y_2'(x), in functions of order 0 and 1; by `dsolve` too."""
+    equation = "(x^4 - 4*x^2)*y'' + (x^3 - 12*x)*y' + (x^4 - 9*x^2 + 12)*y = 0"
+    special = kovacic.solve(equation).special
+    assert special.transform is not None
+    for y, order_two in zip(special, (sympy.besselj(2, x), sympy.bessely(2, x)), strict=True):
+        ratio = (y / order_two.diff(x)).subs(x, sympy.Rational(7, 3)).evalf(30)
+        assert abs(ratio - (y / order_two.diff(x)).subs(x, sympy.Rational(9, 7)).evalf(30)) < 1e-25
+    assert kovacic.dsolve(equation).rhs.has(sympy.besselj(1, x))

@@ -182,6 +182,22 @@ def combination(target: Poly, polynomials: Sequence[Poly]) -> list[Poly] | None:
     return None if left.value else [-c for c in left.coefficients]
 
 
+def dependence(polynomials: Sequence[Poly]) -> list[Poly] | None:
+    """Constants, not all zero, for which the sum of c_k polynomials_k vanishes; None for independent polynomials.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> p, q = QQ.poly([1, 0, 1]), QQ.poly([0, 2, 1])
+    >>> [str(c) for c in dependence([p, q, p - 2 * q])], dependence([p, q])
+    (['-1', '2', '1'], None)
+    """
+    for k, polynomial in enumerate(polynomials):
+        found = combination(polynomial, polynomials[:k])
+        if found is not None:
+            zero = polynomial.field.poly([])
+            return [*(-c for c in found), zero + 1, *[zero] * (len(polynomials) - k - 1)]
+    return None
+
+
 class _Combination(NamedTuple):
     """A polynomial `value` that is a given one and a combination of others, with these coefficients."""
 

@@ -12,6 +12,7 @@ than half of 30 digits in the middle of the domain, a form of at most twice its 
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property, partial
@@ -34,8 +35,9 @@ from kovacic.closed_form.structure import ClosedStructure, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, bounded_work, check_time
+from kovacic.special.gauge import GaugeTransform
 from kovacic.special.pullback import Pullback
-from kovacic.special.search import find, written_pair
+from kovacic.special.search import find, find_transform, written_pair
 
 #: Units of work after which no pull-back is sought any more beside a form that is there.
 _SEARCH = 6000
@@ -149,20 +151,19 @@ class _Equation:
 
     def _special_forms(self) -> list[PairForm]:
         """A pull-back of a standard equation with its actual parameters, if it is found soon."""
-        try:
-            with bounded_work(_SEARCH):
-                pullback = find(self.S, self.budget, extended=False).pullback
-        except LimitExceeded:
+        source: Pullback | GaugeTransform | None = None
+        with suppress(LimitExceeded), bounded_work(_SEARCH):
+            source = find(self.S, self.budget, extended=False).pullback
+        if source is None:
+            source = find_transform(self.S, self.budget)
+        if source is None:
             return []
-        if pullback is None:
-            return []
-        return [
-            PairForm(FormKind.SPECIAL, 4 * written_length([pullback.f]), partial(self._in_special_functions, pullback))
-        ]
+        parts: list[object] = [source.f] if isinstance(source, Pullback) else [source.pullback.f, source.a, source.b]
+        return [PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))]
 
-    def _in_special_functions(self, pullback: Pullback) -> ClosedForm | None:
+    def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None where the two aren't known to be independent."""
-        pair = written_pair(pullback, self.S, self.gauge, self.variable, {}, joined=True)
+        pair = written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
         if pair is None:
             return None
         pairs = [pair]

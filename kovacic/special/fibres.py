@@ -44,18 +44,21 @@ class Covering:
     poles: Poly
 
 
-def coverings(problem: Problem, *, extended: bool) -> Iterator[Covering]:
-    """Those that are possible, of small degree first.  With `extended`, conjugate places are separated over a larger field."""
+def coverings(problem: Problem, *, extended: bool, hidden: int = 0) -> Iterator[Covering]:
+    """Those that are possible, of small degree first.  With `extended`, conjugate places are separated over a larger field.
+
+    Up to `hidden` ramification points may lie at places that S doesn't show.
+    """
     regular = [place for place in problem.places if place.kind is Kind.REGULAR]
     places = [place for place in regular if not place.is_apparent]
     different = [place.factor for place in places if place.delta_squared is None]
     if different:
         if extended and different[0].degree == 2:
-            yield from coverings(_with_root(problem, different[0]), extended=extended)
+            yield from coverings(_with_root(problem, different[0]), extended=extended, hidden=hidden)
         return
     if len(places) > _PLACES:
         return
-    for zeros, poles, f in _functions(problem, regular, places):
+    for zeros, poles, f in _functions(problem, regular, places, hidden):
         ones = _difference_at_ones(f, zeros.degree, regular)
         if ones is not None:
             yield Covering(f, zeros.square, ones, poles.square)
@@ -94,10 +97,12 @@ class _Fibre:
         return result
 
 
-def _functions(problem: Problem, regular: list[Place], places: list[Place]) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
+def _functions(
+    problem: Problem, regular: list[Place], places: list[Place], hidden: int
+) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
     """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
     tried = set()
-    for zeros, poles, rest in _distributed(problem, regular, places):
+    for zeros, poles, rest in _distributed(problem, regular, places, hidden):
         for f in _scaled(zeros.polynomial, poles.polynomial, rest):
             if f in tried:
                 continue
@@ -109,11 +114,11 @@ def _functions(problem: Problem, regular: list[Place], places: list[Place]) -> I
 
 
 def _distributed(
-    problem: Problem, regular: list[Place], places: list[Place]
+    problem: Problem, regular: list[Place], places: list[Place], hidden: int
 ) -> Iterator[tuple[_Fibre, _Fibre, list[Place]]]:
     """Fibres over 0 and infinity of one degree n that have no place in common, and the places that are left over 1."""
     among = regular if len(regular) <= _WITH_APPARENT else places
-    for n, fibres in sorted(_by_degree(problem, regular, among).items()):
+    for n, fibres in sorted(_by_degree(problem, regular, among, hidden).items()):
         for zeros, poles in combinations(fibres, 2):
             problem.budget.check()
             count_work(1)
@@ -132,10 +137,10 @@ def _points(places: Iterable[Place]) -> int:
     return sum(place.degree for place in places)
 
 
-def _by_degree(problem: Problem, regular: list[Place], among: list[Place]) -> dict[int, list[_Fibre]]:
+def _by_degree(problem: Problem, regular: list[Place], among: list[Place], hidden: int) -> dict[int, list[_Fibre]]:
     """The fibres that can be, by the degree of f."""
     points = _points(place for place in regular if not place.is_apparent)
-    elsewhere = sum(int(place.delta or 1) * place.degree for place in regular if place.is_apparent)
+    elsewhere = hidden + sum(int(place.delta or 1) * place.degree for place in regular if place.is_apparent)
     fibres: dict[int, list[_Fibre]] = {}
     for fibre in _fibres(among, 2 * _points(among) - 4):
         problem.budget.check()

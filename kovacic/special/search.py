@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded, VerificationFailed
-from kovacic.limits import Budget
+from kovacic.limits import Budget, bounded_work
 from kovacic.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
+from kovacic.special.gauge import GaugeTransform, transforms
 from kovacic.special.gauss import Gauss
 from kovacic.special.polar_parts import irregular_places
 from kovacic.special.pullback import Pullback, StandardEquation
@@ -25,14 +26,17 @@ if TYPE_CHECKING:
 
 #: In the order in which they are tried.
 EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
+#: What is sought where none of them is found.
+GAUGED = "a v + b v' over these"
+#: Units of work for that.
+_TRANSFORM_WORK = 30_000
 
 
 @dataclass(frozen=True)
 class SpecialFunctions:
     """Two solutions in special functions; true where they were found, and iterating gives both.
 
-    That nothing was found proves nothing: functions f outside of the classes, and combinations of u(f) and its derivative,
-    aren't looked for.
+    That nothing was found proves nothing: functions f outside of the classes aren't looked for.
 
     Attributes
     ----------
@@ -44,6 +48,8 @@ class SpecialFunctions:
         Why a search ended early.
     y1, y2 : sympy.Expr or None
         The solutions.
+    transform : GaugeTransform or None
+        Where the solutions are a v + b v' for solutions v of the pull-back: a and b, verified exactly.
 
     Examples
     --------
@@ -52,7 +58,7 @@ class SpecialFunctions:
     >>> bool(found), *found
     (True, airyai(x), airybi(x))
     >>> print(kovacic.solve("x^5 + 1/x^3").special)
-    no special function was found; searched: Airy's equation in f(x), f rational; Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational; Bessel's equation in the square root of f(x), f rational
+    no special function was found; searched: Airy's equation in f(x), f rational; Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational; Bessel's equation in the square root of f(x), f rational; a v + b v' over these
     """  # noqa: E501 - the last line is printed
 
     pullback: Pullback | None
@@ -60,6 +66,7 @@ class SpecialFunctions:
     stopped: str | None = None
     y1: Any = None
     y2: Any = None
+    transform: GaugeTransform | None = None
 
     @property
     def solutions(self) -> tuple[Any, ...]:
@@ -155,21 +162,50 @@ def special_functions(
     y2 = bessely(n, x)
     """
     search = find(S, budget)
-    if search.pullback is None:
-        return search
+    source: Pullback | GaugeTransform | None = search.pullback
+    searched = search.searched
+    if source is None and search.stopped is None:
+        source = find_transform(S, budget)
+        searched = (*searched, GAUGED)
+    if source is None:
+        return replace(search, searched=searched)
     try:
         with budget.watched():
-            found = written_pair(search.pullback, S, gauge, variable, symbols or {}, joined=joined)
+            found = written_pair(source, S, gauge, variable, symbols or {}, joined=joined)
     except LimitExceeded as limit:
-        return SpecialFunctions(None, search.searched, str(limit))
+        return SpecialFunctions(None, searched, str(limit))
     if found is None:
         said = "the assumptions don't tell which solutions are independent"
-        return SpecialFunctions(None, search.searched, said)
-    return SpecialFunctions(search.pullback, search.searched, None, *found)
+        return SpecialFunctions(None, searched, said)
+    if isinstance(source, GaugeTransform):
+        return SpecialFunctions(source.pullback, searched, None, *found, source)
+    return SpecialFunctions(source, searched, None, *found)
+
+
+def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
+    """y = a v + b v' for a pull-back of one of the `EQUATIONS`, checked exactly; None where a limit is reached, too.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> found = find_transform(x + 3 / (4 * x**2), Budget())  # Ai'(x)/sqrt(x)
+    >>> print(found.pullback.equation.name, found.pullback.f, found.m, found.a)
+    Airy's x x 0
+    """
+    try:
+        with budget.watched(), bounded_work(_TRANSFORM_WORK):
+            return next((found for found in transforms(analyse(S, budget)) if found.gives(S)), None)
+    except LimitExceeded:
+        return None
 
 
 def written_pair(
-    pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], *, joined: bool
+    source: Pullback | GaugeTransform,
+    S: RatFunc,
+    gauge: RatFunc,
+    variable: str,
+    symbols: Mapping[str, Any],
+    *,
+    joined: bool,
 ) -> tuple[Expr, Expr] | None:
     """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.
 
@@ -179,9 +215,12 @@ def written_pair(
 
     from kovacic.special.writer import Writer
 
-    writer = Writer(gauge, sympy.Symbol(variable), symbols)
     singular = S.den if joined else None
-    found = pullback.equation.written(writer, pullback.f, singular)
+    writer = Writer(gauge, sympy.Symbol(variable), symbols)
+    if isinstance(source, GaugeTransform):
+        writer = source.writer(gauge, sympy.Symbol(variable), symbols)
+        source = source.pullback
+    found = source.equation.written(writer, source.f, singular)
     for y in found or ():
         _check(y, writer.atoms.x, S, gauge)
     return None if found is None else _in_own_symbols(found, writer)

@@ -96,7 +96,7 @@ class Whittaker(StandardEquation):
             if len(parts) < len(places):
                 continue
             r = parts[0].residue * q * Fraction(2, parts[0].order)
-            for signs in _signs(parts):
+            for signs in signs_of(parts):
                 count_work(TRIAL)
                 f = sum((part.part * sign for part, sign in zip(parts, signs, strict=True)), RatFunc(q * 0))
                 found = with_constant(problem.S, f, q, r)
@@ -152,7 +152,7 @@ class Whittaker(StandardEquation):
         return StandardForm(n, d, (upper, upper), each(first, second), (slit, None), independent)
 
 
-def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
+def signs_of(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
     """The signs of the parts: their residues are proportional to the orders; all signs where the residues vanish."""
     rates = [part.residue * Fraction(1, part.order) for part in parts]
     if not any(rates):
