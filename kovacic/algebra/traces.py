@@ -1,8 +1,8 @@
-"""Traces of square roots in K[x]/p: an exact bound without taking the root."""
+"""Traces, characteristic polynomials and norms in K[x]/p, and sums of numbers with either sign."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import islice
 from math import lcm
@@ -10,13 +10,10 @@ from math import lcm
 from flint import fmpz
 
 from kovacic.algebra.homomorphism import BadPrimeError
-from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Poly
 
-#: Primes at which a norm, or a value, is tested for being a square: one that isn't passes with probability 2^-24.
+#: Primes at which a norm is tested for being a square: one that isn't passes with probability 2^-24.
 _TESTS = 24
-
-
 #: Fractional parts that `largest_integer_total` keeps apart before it stops looking at them.
 _RESIDUES = 4096
 
@@ -64,26 +61,6 @@ def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:
     return False
 
 
-def _is_no_square_at_a_root(element: Poly, modulus: Poly) -> bool:
-    """Is the value of an element of K[x]/p at a simple root of p modulo a prime no square, so that the element isn't one?
-
-    Where the norm is a square, as that of every rational number is for an even degree of p, this still tells.
-    """
-    return any(fmpz(value).jacobi(p) == -1 for value, p in islice(_values_at_roots(element, modulus), _TESTS))
-
-
-def _values_at_roots(element: Poly, modulus: Poly) -> Iterator[tuple[int, int]]:
-    """The values of an element of K[x]/p at the simple roots of p modulo primes, with the primes; there is no end of them."""
-    for h in modulus.field.homomorphisms():
-        try:
-            image = h(element)
-            factor = h.keeping_degree(modulus)
-        except BadPrimeError:
-            continue
-        for root in simple_roots(factor):
-            yield int(image(root)), h.p
-
-
 def characteristic_polynomial(element: Poly, modulus: Poly) -> Poly:
     """The characteristic polynomial of multiplication by an element of K[x]/modulus.
 
@@ -119,29 +96,3 @@ def coefficients_from_traces(traces: Sequence[Poly]) -> list[Poly]:
         total = sum((coefficients[k - i] * traces[i - 1] for i in range(1, k)), traces[k - 1])
         coefficients.append(total * Fraction(-1, k))
     return coefficients
-
-
-def trace_of_square_root(square: Poly, modulus: Poly) -> Poly | None:
-    """The trace, up to sign, over K of a square root of an element of K[x]/p, if it lies in K[x]/p.
-
-    None if it can be seen that there is no square root in K[x]/p.  Let mu, of degree n/e, be the minimal polynomial of
-    the square.  If mu(Y^2) is irreducible, a square root in K[x]/p has an even minimal polynomial and so the trace 0 (and
-    for an odd e there is none); otherwise mu(Y^2) = +-f(Y) f(-Y), and the trace is e times that of f.
-    """
-    field = modulus.field
-    if square.degree <= 0:
-        root = field.sqrt(square)
-        return root * modulus.degree if root is not None else _trace_of_even(square, modulus, modulus.degree)
-    (mu, e), *others = field.factor(characteristic_polynomial(square, modulus))
-    if others:
-        raise AssertionError("a characteristic polynomial over a field is a power of an irreducible one")
-    even = field.poly([c for coefficient in mu for c in (coefficient, field.poly([]))][:-1])
-    f = field.factor(even)[0][0]
-    return _trace_of_even(square, modulus, e) if f.degree == even.degree else f[f.degree - 1] * e
-
-
-def _trace_of_even(square: Poly, modulus: Poly, e: int) -> Poly | None:
-    """The trace of a root with an even minimal polynomial is 0; None if none is in K[x]/p, of degree e over K(square)."""
-    if e % 2 or _is_no_square_at_a_root(square, modulus):
-        return None
-    return modulus.field.poly([])

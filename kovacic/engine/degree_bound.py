@@ -13,7 +13,7 @@ from fractions import Fraction
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
-from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
+from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, power_sums
 from kovacic.decision import Evidence, NecessaryCondition, NoRationalOmega, Rule
 from kovacic.engine.places import Kind, Place, Problem
 
@@ -84,7 +84,9 @@ def degree_bound(problem: Problem) -> DegreeBound | Evidence:
             trace = _trace(place)
             if trace is None:
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))
-            choices.append((place, _rational_part(trace) / 2))
+            # a Q-linear map of the field onto Q that is the identity on Q: the first rational coordinate
+            first = to_fraction(trace.rational_coefficients()[0]) if trace else Fraction(0)
+            choices.append((place, first / 2))
         elif place.logarithm:  # then Delta is an integer
             twice -= n * delta.numerator
         else:
@@ -101,19 +103,27 @@ def is_cheap(problem: Problem) -> bool:
     )
 
 
-def _rational_part(constant: Poly) -> Fraction:
-    """The first rational coordinate: a Q-linear map of the field onto Q that is the identity on Q."""
-    return to_fraction(constant.rational_coefficients()[0]) if constant else Fraction(0)
-
-
 def _trace(place: Place) -> Poly | None:
     """The trace of an irrational difference of exponents over the roots, up to sign; None if it isn't in K[x]/p."""
-    if place.kind is Kind.REGULAR:
-        if place.delta_squared is not None:
-            return trace_of_square_root(place.delta_squared, place.factor)
-        p = place.factor
-        return trace_of_square_root((1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p, p)
-    return trace_of_square_root(irregular_difference_squared(place), place.factor)
+    p = place.factor
+    if place.kind is not Kind.REGULAR:
+        return trace_of_square_root(irregular_difference_squared(place), p)
+    if place.delta_squared is not None:
+        return trace_of_square_root(place.delta_squared, p)
+    return trace_of_square_root((1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p, p)
+
+
+def trace_of_square_root(square: Poly, p: Poly) -> Poly | None:
+    """The trace over K of a square root of an element of K[x]/p, with one choice of its sign; None if it has none there."""
+    field = p.field
+    if p.degree == 1:
+        return field.sqrt(square)
+    extension = AlgebraicField(field, p)
+    root = extension.sqrt(extension.element(square))
+    if root is None:
+        return None
+    parts = root.over(extension).parts
+    return sum((part[0] * total for part, total in zip(parts, power_sums(p), strict=True)), field.poly([]))
 
 
 def irregular_difference_squared(place: Place) -> Poly:
