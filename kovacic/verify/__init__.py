@@ -164,20 +164,15 @@ def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:
         return [] if nothing == (None,) * 4 else [Check("no solution is claimed", False)]
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
-    irreducible = _irreducible_constants(inspector.S, riccati)
-    if not all(check.passed for check in irreducible):
-        return irreducible
+    irreducible = []
+    field = riccati.P.field
+    if isinstance(field, AlgebraicField) and field != inspector.S.field:  # the constant that omega brings along
+        irreducible = [Check(f"the polynomial of {field.name} is irreducible", is_a_field(field))]
+        if not irreducible[0].passed:
+            return irreducible
     rational = _invariant_holds(inspector, decision, structure, form, riccati)
     checks = [*irreducible, *_omega_holds(inspector.S, form, riccati, _OMEGA_DEGREE[structure])]
     return [*checks, Check("the invariant is a rational form", rational)]
-
-
-def _irreducible_constants(S: RatFunc, riccati: RiccatiPolynomial) -> list[Check]:
-    """The constant that omega brings along has an irreducible polynomial, so that K(c) is a field."""
-    field = riccati.P.field
-    if not isinstance(field, AlgebraicField) or field == S.field:
-        return []
-    return [Check(f"the polynomial of {field.name} is irreducible", is_a_field(field))]
 
 
 def _omega_holds(S: RatFunc, form: SemiInvariant, riccati: RiccatiPolynomial, degree: int) -> list[Check]:

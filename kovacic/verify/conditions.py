@@ -24,15 +24,11 @@ def condition_fails(item: NecessaryCondition, structure: Structure, points: list
     if len(named) < len(item.places):  # a name is that of no point, or occurs twice
         return False
     if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
-        return structure is Structure.IMPRIMITIVE and _are_all_branch_points(named, points)
+        # these are the places at which the square root of an invariant of degree 4 can branch: fewer than two points
+        are_all = named == [point for point in points if point.can_branch]
+        return structure is Structure.IMPRIMITIVE and are_all and sum(point.factor.degree for point in named) < 2
     concerns, fails = _RULES[item.rule]
     return concerns(structure) and bool(named) and all(fails(point, structure) for point in named)
-
-
-def _are_all_branch_points(named: list[Point], points: list[Point]) -> bool:
-    """Are these the places at which the square root of an invariant of degree 4 can branch, fewer than two points?"""
-    number = sum(point.factor.degree for point in named)
-    return number < 2 and named == [point for point in points if point.can_branch]
 
 
 def _is_ramified(point: Point, structure: Structure) -> bool:

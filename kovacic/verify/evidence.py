@@ -113,15 +113,12 @@ class Inspector:
             return item == NoRationalOmega(-1)
         if item.degree != counts.largest or item.prime is None:
             return False
+        telling = [point for point in self.points if point.name == item.place and point.tells_solutions_apart]
 
         def has_none(h: Homomorphism) -> bool:
-            return any(self._no_omega_at(place, h, counts) for place in self._telling(item.place))
+            return any(self._no_omega_at(place, h, counts) for place in telling)
 
         return _under_some(self._at(item.prime), has_none)
-
-    def _telling(self, name: str) -> list[Point]:
-        """The place of this name, if it tells the solutions apart."""
-        return [point for point in self.points if point.name == name and point.tells_solutions_apart]
 
     def _no_omega_at(self, place: Point, h: Homomorphism, counts: ZeroCounts) -> bool:
         """At the least root of the place under a homomorphism, if it has one."""

@@ -74,15 +74,10 @@ def dimension_modulo(
     images = [(translated(h.keeping_degree(p), at), -v) for p, v in factors]
     form = product_of_powers(images, count, h.p).mul_low(y1.pow_trunc(m, count), count)
     ratio = y2.mul_low(y1.inverse_series_trunc(count), count)
-    return nullity(_successive(form, ratio, m, count), degree + 1, count)
-
-
-def _successive(form: Any, ratio: Any, m: int, count: int) -> list[Any]:
-    """form ratio^i for i = 0, ..., m."""
-    forms = [form]
+    forms = [form]  # the quotients of y1^(m-i) y2^i, i = 0, ..., m
     for _ in range(m):
         forms.append(forms[-1].mul_low(ratio, count))
-    return forms
+    return nullity(forms, degree + 1, count)
 
 
 def ordinary_point(den: Any) -> int:

@@ -80,7 +80,9 @@ def _reducible(
     """
     n = _common_denominator(f)
     if F is None:
-        return _unipotent_by_any(n) if inspector.dimension_is_at_most(0, 2) else None
+        if not inspector.dimension_is_at_most(0, 2):
+            return None
+        return ("borel", None) if n is None else ("additive", n)
     if F.degree != 2 or not is_rational(F):
         return None
     A = form_numerators(inspector.S, F, riccati.D)
@@ -90,11 +92,6 @@ def _reducible(
         family = "cyclic" if _inverse_has_an_integral(inspector, F) else "additive"
         return family, n
     return ("multiplicative", None) if n is None else ("cyclic", n)
-
-
-def _unipotent_by_any(n: int | None) -> _Named:
-    """The group of all (c, b; 0, 1/c) with c^n = 1, or with any c."""
-    return ("borel", None) if n is None else ("additive", n)
 
 
 def _common_denominator(f: SemiInvariant) -> int | None:
@@ -157,10 +154,13 @@ class FormCurve:
 def _imprimitive(inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim) -> bool | None:
     """The rules for f = y1 y2, in their order: the first one that concerns the group decides."""
     named = (claim.family, claim.n)
-    if _has_monodromy_of_infinite_order(inspector):
+    if any(point.order > 2 or point.difference is None for point in inspector.points):
+        # a local monodromy of infinite order: an irregular point, or an irrational exponent difference
         return named == ("infinite dihedral", None)
     if f.P.field != inspector.S.field:
-        return named == ("dicyclic", 2) and _has_conjugates(f)
+        # where f'/f lies over no smaller field its conjugates are further forms: three pairs of lines are permuted
+        phi = f.logarithmic_derivative
+        return named == ("dicyclic", 2) and any((*phi.num.parts[1:], *phi.den.parts[1:]))
     curve = _curve(inspector, f)
     if curve is None:
         return False
@@ -169,17 +169,6 @@ def _imprimitive(inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynom
     if not curve.differences:  # a differential of the first kind, whose integral has periods
         return named == ("infinite dihedral", None)
     return _on_curve_of_positive_genus(inspector, riccati, claim, curve)
-
-
-def _has_monodromy_of_infinite_order(inspector: Inspector) -> bool:
-    """Is there an irregular point, or an irrational exponent difference?"""
-    return any(point.order > 2 or point.difference is None for point in inspector.points)
-
-
-def _has_conjugates(f: SemiInvariant) -> bool:
-    """Does f'/f lie over no smaller field?  Then its conjugates are further forms: three pairs of lines are permuted."""
-    phi = f.logarithmic_derivative
-    return any((*phi.num.parts[1:], *phi.den.parts[1:]))
 
 
 def _curve(inspector: Inspector, f: SemiInvariant) -> FormCurve | None:
@@ -224,13 +213,8 @@ def _on_curve_of_positive_genus(
     if claim.family == "infinite dihedral" and claim.n is None:
         if claim.function is not None:
             return has_holomorphic_rest(H, claim.function)
-        return _is_no_torsion(H, claim.orders, curve)
+        # different orders of the divisor of l eta modulo two primes of good reduction; a finite one is the same modulo all
+        are_different = len({k for _, k in claim.orders}) > 1
+        residues = set(curve.differences)
+        return are_different and all(order_holds(H, residues, p, k) for p, k in claim.orders)
     return None if claim.family == "imprimitive" else False
-
-
-def _is_no_torsion(H: RatFunc, orders: tuple[tuple[int, int], ...], curve: FormCurve) -> bool:
-    """Has the divisor of l eta different orders modulo two primes of good reduction?  A finite order is the same modulo all."""
-    residues = set(curve.differences)
-    if len({k for _, k in orders}) < 2:
-        return False
-    return all(order_holds(H, residues, p, k) for p, k in orders)

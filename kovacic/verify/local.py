@@ -116,18 +116,15 @@ class Point:
 
     def localised(self, h: Homomorphism, root: int) -> tuple[Any, Any]:
         """M and E with S = M/(t^k E) at a root modulo p, k the order of the pole (2 for order 1), E(0) not 0."""
-        above, below = self._modulo(h)
+        if self.expansions is None:
+            above, below = h(self.num), h.keeping_degree(self.den)
+        else:
+            above, below = self.expansions.modulo(h)
         den = translated(below, root)
         if any(int(den[i]) for i in range(self.order)) or not int(den[self.order]):
             raise BadPrimeError("the order of a pole changes")
         num = translated(above, root)
         return num.left_shift(max(2 - self.order, 0)), den.right_shift(self.order)
-
-    def _modulo(self, h: Homomorphism) -> tuple[Any, Any]:
-        """num and den modulo a prime."""
-        if self.expansions is None:
-            return h(self.num), h.keeping_degree(self.den)
-        return self.expansions.modulo(h)
 
 
 def points(S: RatFunc, budget: Budget) -> list[Point]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from flint import fmpz, nmod_poly
@@ -113,12 +112,8 @@ def _zeros_with(at: Chart, start: Any, counts: ZeroCounts) -> int:
     if bounds is None:
         return counts.largest
     exponent = int(start[at.nu - 1])
-    possible = [bound for e, bound in bounds if _is_congruent(exponent, e, at.p)]
+    possible = [bound for e, bound in bounds if (exponent * e.denominator - e.numerator) % at.p == 0]
     return max(possible, default=-1)
-
-
-def _is_congruent(value: int, fraction: Fraction, p: int) -> bool:
-    return (value * fraction.denominator - fraction.numerator) % p == 0
 
 
 def _is_rational(at: Chart, start: Any, degree: int) -> bool:

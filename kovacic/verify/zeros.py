@@ -66,7 +66,8 @@ class ZeroCounts:
         None, too, for irrational exponents over another field than Q, of which `choices` has the first coordinate only.
         """
         own = [half for other, half in self.choices if other is point]
-        if not own or not _is_one_rational_point(point):
+        is_exact = point.difference is not None or point.factor.field == QQ
+        if not own or point.factor.degree > 1 or not is_exact:
             return None
         others = [half for other, half in self.choices if other is not point]
         half = own[0]
@@ -74,11 +75,6 @@ class ZeroCounts:
         possible.append((-half, largest_natural_sum(self.total + half, others)))
         mean = Fraction(_double_mean(point), 2)
         return [(mean + shift, bound) for shift, bound in possible if bound >= 0]
-
-
-def _is_one_rational_point(point: Point) -> bool:
-    """Does the place stand for one point, with exponents that `choices` has exactly?"""
-    return point.factor.degree == 1 and (point.difference is not None or point.factor.field == QQ)
 
 
 def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
@@ -125,16 +121,10 @@ def _half_difference(point: Point) -> Fraction | None:
     if is_no_square(radicand, p):
         return None
     difference = _square_root(radicand, p) * _over_square_root(point) % p
-    return _rational_part(_trace(difference, p)) / 2
-
-
-def _rational_part(constant: Poly) -> Fraction:
-    """The first coordinate over Q of an element of K, a linear map that leaves rational numbers alone.
-
-    Exponents and zeros add up to 1 in K.  Applied to all of them, the map makes this a relation of rational numbers, with the
-    same number of zeros: each number that is possible stays possible.
-    """
-    return to_fraction(constant.rational_coefficients()[0]) if constant else Fraction(0)
+    trace = _trace(difference, p)
+    # The first coordinate over Q is a linear map that leaves rational numbers alone.  Exponents and zeros add up to 1 in K;
+    # applied to all of them, it makes this a relation of rational numbers, with the same number of zeros.
+    return to_fraction(trace.rational_coefficients()[0]) / 2 if trace else Fraction(0)
 
 
 def _radicand(point: Point) -> Poly:
