@@ -14,6 +14,7 @@ from build import QQ, AlgebraicField, Conditions
 from kovacic.decision import Status
 from kovacic.engine.decide import decide
 from kovacic.limits import Budget
+from kovacic.parametric.cases import Case, solvable_cases
 from kovacic.parametric.check import Sampler
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.parametric_answer import ParametricAnswer
@@ -54,12 +55,21 @@ def printed_verdict(answer: ParametricAnswer, point: ParameterPoint) -> RegionVe
     return answer.generic
 
 
+def verdict_of_theorem(answer: ParametricAnswer, cases: list[Case], point: ParameterPoint) -> RegionVerdict:
+    """What the theorem says at a point: the first case whose sentence is true there, and none of its exceptions."""
+    for case in cases:
+        if case.statement.claim.holds(point) and not any(other.claim.holds(point) for other in case.without):
+            return case.verdict
+    return answer.generic
+
+
 def wrongly_printed(answer: Conditions, number: int, seed: int = 3, texts: int | None = None) -> tuple[int, list[str]]:
     """How many points were tried, and what is printed falsely: by the tree, by its text, or against the engine.
 
     `texts` bounds the points at which the text is read, which takes longer than the rest.
     """
     tried, wrong = 0, list[str]()
+    cases = solvable_cases(answer.regions)
     for point in points(answer, number, seed):
         verdict = printed_verdict(answer, point)
         if verdict is None:
@@ -75,6 +85,9 @@ def wrongly_printed(answer: Conditions, number: int, seed: int = 3, texts: int |
                 break
         if not verdict.known or answer.complete is not True:
             continue
+        said = verdict_of_theorem(answer, cases, point)
+        if said.case != verdict.case:
+            wrong.append(f"the theorem says case {said.case}, the list case {verdict.case} at {point}")
         decision = decide(point.restricted(answer.S), Budget(answer.limits), certify=False)
         if decision.status is not Status.UNDECIDED and decision.case != verdict.case:
             wrong.append(f"case {verdict.case} is printed, {decision.case} is true at {point}")
