@@ -29,7 +29,8 @@ def points(answer: ParametricAnswer, number: int, seed: int = 3) -> Iterator[Par
     """Admissible points: half of a small lattice, on which parameters vanish or are equal, half in the regions."""
     random = Random(seed)
     names = answer.parameters
-    lattice = [*islice(product(_SMALL, repeat=len(names)), 2401)]
+    coordinates = _SMALL if len(names) > 1 else [Fraction(k, 4) for k in range(-12, 13)]
+    lattice = [*islice(product(coordinates, repeat=len(names)), 2401)]
     random.shuffle(lattice)
     sampler = Sampler(answer.constant, names, answer.assumptions, random)
     in_regions = sampler.points([region.statement for region in answer.regions])

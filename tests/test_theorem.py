@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize, run
+from build import Conditions, parametrize, run
 
 import kovacic
 from kovacic.parametric.cases import solvable_cases
@@ -351,3 +351,25 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
     assert sentence in text
     assert "mu_n" not in text
     assert not re.search(r"\*1\b|\b1\*|\+ -|For [^\n]*:\n\n(?!    )", text)
+
+
+@parametrize(
+    ("S", "expected"),
+    [
+        ("k*(1+g/x)", "abelian exactly where both exponential factors occur"),
+        ("x*y''+(1-x)*y'+m*y=0", "abelian exactly where both exponential factors occur"),
+        (hypergeometric(("1/2", "1/2", "n")), "abelian"),
+        (hypergeometric(("l", "1/2", "1/3")), "abelian where l is rational; elsewhere exactly where the group is G_m"),
+    ],
+    ordinary=2,
+)
+def test_the_identity_component_is_named(S: str, expected: str) -> None:
+    answer = kovacic.conditions(S, var="x")
+    assert f"Its identity component is {expected}." in answer.theorem()
+    assert Conditions.from_json(answer.to_json()).theorem() == answer.theorem()
+
+
+def test_a_case_for_two_regions_excludes_the_first_from_the_second() -> None:
+    text = kovacic.conditions("(1+L*x)*y''+b*y'+c*y=0", var="x").theorem()
+    assert "For c = 0, and L != 0:\n\n    y = (L*x + 1)^(1 - b/L)\n\n    y = 1\n" in text
+    assert "Each of the two equations" in text

@@ -394,7 +394,9 @@ def _at_a_value(
         return ParameterRegion(statement, verdict, complete)
     group = group_of(S, decision)
     if group is not None:
-        verdict = replace(verdict, family=_named(group))
+        is_small = group.dimension is not None and group.dimension < 2
+        abelian = ("abelian" if is_small else "not abelian",)
+        verdict = replace(verdict, family=_named(group), abelian=abelian)
     origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
     return ParameterRegion(statement, verdict, complete, origin=origin)
 

@@ -59,6 +59,9 @@ class RegionVerdict:
         Is anything claimed?
     family : tuple or None
         More about the group than the structure says, in words and formulas.
+    abelian : tuple or None
+        Whether the identity component of a reducible group is abelian, in words and formulas, if more than the structure is
+        known: `identity_component` has it for every group.
 
     Examples
     --------
@@ -71,6 +74,7 @@ class RegionVerdict:
     structure: Structure | None
     known: bool = True
     family: Words | None = field(default=None, compare=False)
+    abelian: Words | None = field(default=None, compare=False)
 
     @classmethod
     def of(cls, decision: Decision) -> RegionVerdict:
@@ -109,7 +113,8 @@ class RegionVerdict:
         {'structure': 'reducible', 'known': True, 'family': None}
         """
         family = self.family and prose.marked(self.family)
-        return {"structure": self.structure and self.structure.value, "known": self.known, "family": family}
+        data = {"structure": self.structure and self.structure.value, "known": self.known, "family": family}
+        return data if self.abelian is None else data | {"abelian": prose.marked(self.abelian)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionVerdict:
@@ -134,7 +139,8 @@ class RegionVerdict:
         """
         name = data["structure"]
         structure = None if name is None else Structure(name)
-        return cls(structure, data["known"], data["family"] and prose.phrase(data["family"]))
+        family, abelian = (said and prose.phrase(said) for said in (data["family"], data.get("abelian")))
+        return cls(structure, data["known"], family, abelian)
 
     @property
     def case(self) -> int | None:
@@ -154,6 +160,17 @@ class RegionVerdict:
         if not self.known:
             return ("not determined",)
         return self.family or _GROUPS[self.structure]
+
+    @property
+    def identity_component(self) -> Words:
+        """Is the identity component of the group abelian, as integrability by Morales and Ramis needs?  In words."""
+        if not self.known:
+            return ("not determined",)
+        if self.structure is None:
+            return ("not abelian",)
+        if self.structure is not Structure.REDUCIBLE:
+            return ("abelian",)
+        return self.abelian or ("abelian unless the group has dimension 2",)
 
     def __str__(self) -> str:
         if not self.known:

@@ -405,6 +405,17 @@ def group(problem: Problem, structure: Structure) -> Words | None:
     return None
 
 
+def abelian(problem: Problem, structure: Structure) -> Words | None:
+    """Where the identity component of a reducible group is abelian: where the exponents are rational, or the group is G_m."""
+    if structure is not Structure.REDUCIBLE:
+        return None
+    cubic = squares_of_differences(problem)
+    constants = _split(cubic).constants
+    if len(constants) >= 2 and None not in constants:
+        return ("abelian",)
+    return prose.phrase(f"abelian where {_rational(differences(cubic))}; elsewhere exactly where the group is `G_m`")
+
+
 def _reducible_group(cubic: FunctionPoly) -> str:
     """Two rational differences make the third one rational, because their sum, with signs, is an integer."""
     constants = _split(cubic).constants

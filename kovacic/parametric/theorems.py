@@ -186,7 +186,8 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
         solutions = None
         if structure is Structure.REDUCIBLE:
             solutions = origin
-        yield ParameterRegion(statement, RegionVerdict(structure, family=family), origin=solutions)
+        verdict = RegionVerdict(structure, family=family, abelian=riemann.abelian(problem, structure))
+        yield ParameterRegion(statement, verdict, origin=solutions)
 
 
 def _smaller_in_x(problem: Problem, structure: Structure, n: int) -> Iterator[ParameterRegion]:
@@ -381,8 +382,12 @@ def _verdict(form: Confluent) -> RegionVerdict:
     """What holds under the condition."""
     if not form.q:
         return RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
-    family = "the Borel group, or `G_m` where both exponential factors occur" if form.r else "`G_m`"
-    return RegionVerdict(Structure.REDUCIBLE, family=phrase(family))
+    if not form.r:
+        return RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=("abelian",))
+    family = phrase("the Borel group, or `G_m` where both exponential factors occur")
+    return RegionVerdict(
+        Structure.REDUCIBLE, family=family, abelian=("abelian exactly where both exponential factors occur",)
+    )
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:

@@ -106,7 +106,7 @@ class _TheoremWriter:
         yield Formula(Math(str(equation), latex_text(equation.text(caret=False))))
         yield say(*self._change(), "becomes, with ", *self._substitution(v), ", its normal form")
         yield Formula(self._normal_form(v))
-        yield say("Each of the two")
+        yield say("Each of the two equations")
 
     def _about_parameters(self) -> list[str | Math]:
         """`Let a and b be complex numbers, b > 0, a != 1. `; nothing where there are no parameters."""
@@ -208,14 +208,17 @@ class _TheoremWriter:
         yield from self._solutions(case)
 
     def _group(self, region: ParameterRegion) -> Block:
-        return say(f"Case {region.case}. The group is ", *_group(region.verdict), ".")
+        return say(
+            f"Case {region.case}. The group is ", *_group(region.verdict), ".", *_identity_component(region.verdict)
+        )
 
     def _otherwise(self, cases: list[Case]) -> Iterator[Block]:
         otherwise = "Otherwise" if cases else "For all values"
         if self.answer.complete is not True:
             otherwise += ", for generic values,"
         group = _group(self.answer.generic)
-        yield say(f"{otherwise} it is case {self.answer.generic.case}. The group is ", *group, ".")
+        component = _identity_component(self.answer.generic)
+        yield say(f"{otherwise} it is case {self.answer.generic.case}. The group is ", *group, ".", *component)
 
     # Solutions
 
@@ -224,10 +227,13 @@ class _TheoremWriter:
         if all(block == blocks[0] for block in blocks):
             yield from blocks[0]
             return
+        before: list[str | Math] = []
         for region, block in zip(case.regions, blocks, strict=True):
             if block:
-                yield say("For ", *_said(region.statement), ":")
+                yield say("For ", *_said(region.statement), *before, ":")
             yield from block
+            if isinstance(region.statement, Vanishes):
+                before += [", and ", prose.unequal(region.statement.function)]
 
     def _solutions_in(self, region: ParameterRegion, case: Case) -> Iterator[Block]:
         """The formulas for one region."""
@@ -441,6 +447,11 @@ def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
 def _group(verdict: RegionVerdict) -> list[str | Math]:
     """The name of the group."""
     return [*verdict.group_in_words]
+
+
+def _identity_component(verdict: RegionVerdict) -> list[str | Math]:
+    """What the theorem of Morales and Ramis needs."""
+    return [" Its identity component is ", *verdict.identity_component, "."]
 
 
 def _theory(answer: ParametricAnswer) -> list[str | Math]:
