@@ -16,6 +16,7 @@ Keys may be added within schema 1; none is removed or changes its meaning.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -76,13 +77,6 @@ def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
     Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself, and `VerificationFailed` where the
     answer doesn't pass its check, unless `unverified` says that it is wanted all the same.
     """
-    answer = _loaded(text)
-    if not (answer.verified or unverified or answer.decision.undecided):
-        raise VerificationFailed("the answer that was read doesn't pass its check: it was changed, or never was right")
-    return answer
-
-
-def _loaded(text: str | Mapping[str, Any]) -> Answer:
     try:
         data = strict_json(text) if isinstance(text, str) else text
     except (ValueError, RecursionError) as error:
@@ -92,18 +86,25 @@ def _loaded(text: str | Mapping[str, Any]) -> Answer:
     if data.get("schema") != SCHEMA:
         raise InputError(f"schema {data.get('schema')!r} isn't known; this version reads schema {SCHEMA}")
     try:
-        return from_dict(data)
+        answer = from_dict(data)
     except (KeyError, TypeError, AttributeError, IndexError, ValueError, ArithmeticError, RecursionError) as error:
         raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
+    if not (answer.verified or unverified or answer.decision.undecided):
+        raise VerificationFailed("the answer that was read doesn't pass its check: it was changed, or never was right")
+    return answer
 
 
 def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
     names = Formulas(answer.variable, answer.S.field)
     decision = answer.decision
-    conditions = _generic_conditions(answer)
     gauge = None if answer.equation is None else names.python(answer.gauge)
-    data = {
+    conditions = None
+    if parameters_of(answer.S.field):
+        from kovacic.parametric.restriction import generic_conditions
+
+        conditions = {key: [*map(str, functions)] for key, functions in vars(generic_conditions(answer)).items()}
+    data: dict[str, Any] = {
         "schema": SCHEMA,
         "input": answer.text,
         "variable": answer.variable,
@@ -123,7 +124,9 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     }
     if full:
         data["group"] = group_dict(answer)
-        data["solutions"] = _solutions(answer)
+        data["solutions"] = None
+        with suppress(LimitExceeded):
+            data["solutions"] = [as_text(y) for y in derived.solutions(answer)] or None
     return data
 
 
@@ -153,31 +156,16 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
         "structure": structure,
         "semi_invariant": semi_invariant,
         "invariant": invariant,
-        "excluded": [_exclusion(exclusion, names) for exclusion in decision.exclusions],
+        "excluded": [
+            {
+                "structure": exclusion.structure.value,
+                "case": exclusion.structure.case,
+                "evidence": [_evidence(item, names) for item in exclusion.evidence],
+            }
+            for exclusion in decision.exclusions
+        ],
         "undecided": decision.undecided,
     }
-
-
-def _exclusion(exclusion: Exclusion, names: Formulas) -> dict[str, Any]:
-    evidence = [_evidence(item, names) for item in exclusion.evidence]
-    return {"structure": exclusion.structure.value, "case": exclusion.structure.case, "evidence": evidence}
-
-
-def _solutions(answer: Answer) -> list[str] | None:
-    """Two solutions in closed form; None where there are none, or a limit was reached."""
-    try:
-        return [as_text(y) for y in derived.solutions(answer)] or None
-    except LimitExceeded:
-        return None
-
-
-def _generic_conditions(answer: Answer) -> dict[str, Any] | None:
-    """What generic parameters have to satisfy; None without parameters."""
-    if not parameters_of(answer.S.field):
-        return None
-    from kovacic.parametric.restriction import generic_conditions
-
-    return {key: [*map(str, functions)] for key, functions in vars(generic_conditions(answer)).items()}
 
 
 def group_dict(answer: Answer) -> dict[str, Any] | None:
@@ -240,13 +228,19 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
 def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     """What is claimed of S, with its proof; nothing is verified."""
     proof = data["proof"]
-    _check_parts_of_omega(data)
+    has_omega = data["riccati"] is not None
+    has_form = proof["semi_invariant"] is not None
+    if has_omega != has_form or (data["constants"] is not None and not has_omega):
+        raise ValueError("omega needs its polynomial and the semi-invariant")
     over_S = _Reader.over(S.field, variable)
     over_constants = over_S.extended(data["constants"])
     form = _unless_none(proof["semi_invariant"], over_constants.semi_invariant)
     structure = _unless_none(proof["structure"], Structure)
     names = Formulas(variable, S.field)
-    exclusions = tuple(_read_exclusion(entry, names) for entry in proof["excluded"])
+    exclusions = tuple(
+        Exclusion(Structure(entry["structure"]), tuple(_read_evidence(item, names) for item in entry["evidence"]))
+        for entry in proof["excluded"]
+    )
     invariant = _unless_none(proof["invariant"], over_S.semi_invariant)
     riccati = None
     if form is not None:
@@ -264,15 +258,6 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
     return decision
-
-
-def _check_parts_of_omega(data: Mapping[str, Any]) -> None:
-    """Raises `ValueError` unless there are both its polynomial and the semi-invariant, or neither and no constants."""
-    has_omega = data["riccati"] is not None
-    has_form = data["proof"]["semi_invariant"] is not None
-    has_constants = data["constants"] is not None
-    if has_omega != has_form or (has_constants and not has_omega):
-        raise ValueError("omega needs its polynomial and the semi-invariant")
 
 
 def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
@@ -293,24 +278,18 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
     """Raises `ValueError` where what was found isn't what we would write; `path` is its place in the answer, "" at the top."""
     are_lists = isinstance(written, list) and isinstance(found, list)
     if isinstance(written, Mapping) and isinstance(found, Mapping):
-        _demand_the_same_object(found, written, path)
+        differing = set(written) - set(found) - _MAY_BE_ABSENT
+        if path:  # at the top there may be keys of the user's own
+            differing |= set(found) - set(written)
+        if differing:
+            raise ValueError(f"{path or 'the answer'} has other keys: {', '.join(sorted(map(repr, differing)))}")
+        for key in (set(found) & set(written)) - _BY_VALUE - _ELSEWHERE:
+            _demand_the_same(found[key], written[key], f"{path}.{key}" if path else key)
     elif are_lists and len(found) == len(written):
         for k, (one, other) in enumerate(zip(found, written, strict=True)):
             _demand_the_same(one, other, f"{path}.{k}")
     elif found != written or type(found) is not type(written):
         raise ValueError(f"{path} can't be {found!r}")
-
-
-def _demand_the_same_object(found: Mapping[str, Any], written: Mapping[str, Any], path: str) -> None:
-    """The same of an object with keys; at the top there may be further ones."""
-    differing = set(written) - set(found) - _MAY_BE_ABSENT
-    if path:
-        differing |= set(found) - set(written)
-    if differing:
-        raise ValueError(f"{path or 'the answer'} has other keys: {', '.join(sorted(map(repr, differing)))}")
-    for key in (set(found) & set(written)) - _BY_VALUE - _ELSEWHERE:
-        inner_path = f"{path}.{key}" if path else key
-        _demand_the_same(found[key], written[key], inner_path)
 
 
 def _check_normal_form(answer: Answer) -> None:
@@ -336,20 +315,14 @@ def _check_invariant(answer: Answer) -> None:
         return
     if F.P.lc != 1:
         raise ValueError("P of the invariant isn't in its normal form")
-    if riccati.degree == 1 and not _is_root(answer.S, riccati, F):
-        raise ValueError("omega doesn't belong to the invariant")
-
-
-def _is_root(S: RatFunc, riccati: RiccatiPolynomial, F: SemiInvariant) -> bool:
-    """Is omega = A/(P D) a root of the polynomial of F = y1 y2, which is W^2 - B_1/(B_0 D) W + B_2/(B_0 D^2)?
-
-    The second solution is F/y1 then; another rational form would be a right one, too, but not that of this omega.
-    """
-    B = form_numerators(S, F, riccati.D)
-    if B is None or len(B) != 3:
-        return False
+    if riccati.degree > 1:
+        return
+    # omega = A/(P D) is a root of the polynomial of F = y1 y2, which is W^2 - B_1/(B_0 D) W + B_2/(B_0 D^2): the second
+    # solution is F/y1 then.  Another rational form would be a right one, too, but not that of this omega.
+    B = form_numerators(answer.S, F, riccati.D)
     P, A = riccati.numerators
-    return not (B[0] * A * A - B[1] * A * P + B[2] * P * P)
+    if B is None or len(B) != 3 or B[0] * A * A - B[1] * A * P + B[2] * P * P:
+        raise ValueError("omega doesn't belong to the invariant")
 
 
 def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
@@ -507,11 +480,6 @@ def _evidence(evidence: Evidence, names: Formulas) -> dict[str, Any]:
     if isinstance(evidence, NoInvariant):
         return {"kind": "no_invariant", **vars(evidence)}
     return {"kind": "no_rational_omega", **vars(evidence), "place": names.place_name(evidence.place)}
-
-
-def _read_exclusion(data: Mapping[str, Any], names: Formulas) -> Exclusion:
-    structure = Structure(data["structure"])
-    return Exclusion(structure, tuple(_read_evidence(item, names) for item in data["evidence"]))
 
 
 def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:

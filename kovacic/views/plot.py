@@ -95,16 +95,12 @@ class SampledCurve:
     x0: object
 
     @property
-    def parts(self) -> list[Arc | Envelope]:
-        return [part for run in self.runs for part in run]
-
-    @property
     def arcs(self) -> list[Arc]:
-        return [part for part in self.parts if isinstance(part, Arc)]
+        return [part for run in self.runs for part in run if isinstance(part, Arc)]
 
     @property
     def envelopes(self) -> list[Envelope]:
-        return [part for part in self.parts if isinstance(part, Envelope)]
+        return [part for run in self.runs for part in run if isinstance(part, Envelope)]
 
 
 @limited
@@ -117,23 +113,9 @@ def sample(
     points: int = 400,
     **options: Unpack[SampleOptions],
 ) -> SampledCurve:
-    """The solution over [start, stop] in proven values.
+    """The solution over [start, stop] in proven values; the arguments are those of `plot`.
 
-    Parameters
-    ----------
-    equation
-        S or an equation, as for `evaluate`, real for real x.
-    start, stop
-        The ends of the interval, real numbers.
-    x0
-        Where the initial values are given, real; by default `start`, or the middle of the longest regular interval where there
-        are no values.
-    points
-        The least number of samples; more are taken where the solution oscillates or bends.
-    options
-        `y0` = 1, `dy0` = 0, `which`, `frobenius`, `params`, `digits` = 8, `method` and `limits` as for `evaluate`.
-
-    Raises InputError if start isn't below stop, and what `evaluate` raises.
+    Raises `InputError` if start isn't below stop, and what `evaluate` raises.
     """
     check_keywords("sample", options, SampleOptions.__annotations__)
     a, b = _ends(start, stop)
@@ -143,7 +125,12 @@ def sample(
     chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
-        x0 = _ordinary_start(intervals, a) if {"y0", "dy0"} & {*asked} else _middle_of_the_longest(intervals)
+        x0 = _middle_of_the_longest(intervals)
+        if {"y0", "dy0"} & {*asked}:
+            x0 = a
+            if intervals[0][0] != a:
+                problem = f"the values need a place: {plain_text(a)}, the left end, is a singular point"
+                raise InputError(problem, hint="x0=...", shell="--x0")
     if "which" not in asked and "frobenius" not in asked:
         asked = {"y0": 1, "dy0": 0, **asked}
     digits = asked.pop("digits", 8)
@@ -155,7 +142,8 @@ def sample(
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
     singular, irregular = (
-        tuple(complex(point) for point in points if _is_a_double(point)) for points in (chart.singular, chart.irregular)
+        tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < _FARTHEST)
+        for points in (chart.singular, chart.irregular)
     )
     return SampledCurve(tuple(runs), singular, irregular, x0)
 
@@ -186,15 +174,6 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
             length = right - left
             found.append((left + length * share(left), right - length * share(right)))
     return found
-
-
-def _ordinary_start(intervals: list[tuple[Fraction, Fraction]], a: Fraction) -> Fraction:
-    """The left end.  Raises `InputError` where that is a singular point."""
-    if intervals[0][0] != a:
-        raise InputError(
-            f"the values need a place: {plain_text(a)}, the left end, is a singular point", hint="x0=...", shell="--x0"
-        )
-    return a
 
 
 def _middle_of_the_longest(intervals: list[tuple[Fraction, Fraction]]) -> Fraction:
@@ -429,7 +408,11 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
     x = sympy.Symbol(_names(answer)[0])
     form = derived.closed_form(answer)
     pair = tuple(derived.special(answer) if form is None else form)
-    if not pair or not all(_can_be_evaluated(y, x) for y in pair):
+    for y in pair:
+        is_long = has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED
+        if is_long or y.has(sympy.Integral) or not y.free_symbols <= {x}:
+            return []
+    if not pair:
         return []
     a, b = _ends(start, stop)
     chart = chart_of(answer, {}, options.get("params"))
@@ -490,19 +473,6 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
             if not value.is_number or not abs(complex(value) - arc.y[k]) <= allowed:
                 return False
     return True
-
-
-def _can_be_evaluated(y: Any, x: Any) -> bool:
-    """Is a formula short, without an integral that is left, and without parameters?"""
-    import sympy
-
-    if has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED:
-        return False
-    return not y.has(sympy.Integral) and y.free_symbols <= {x}
-
-
-def _is_a_double(point: ExactPoint) -> bool:
-    return bool(max(abs(point.x), abs(point.y)) < 10**300)
 
 
 def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> int:
