@@ -107,8 +107,12 @@ class BallEvaluator:
         value = self(argument)
         function = getattr(value, name)
         if isinstance(value, acb):
-            return function(analytic=self.analytic and bool(argument.free_symbols))  # a constant may lie on a cut
+            return function(analytic=self.analytic and self.depends(argument))
         return function()
+
+    def depends(self, argument: Any) -> bool:
+        """False for a constant, which may lie on a cut."""
+        return bool(argument.free_symbols)
 
     def _applied(self, e: Any) -> BallValue:
         if self.analytic and e.func in _CUT:

@@ -40,6 +40,8 @@ recessive one."""
 _NOISE = 2.0**-40
 """Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
+_COMPLEX = "functions of real numbers need an equation with real coefficients"
+
 #: So many coefficients around a point are found by derivatives: two, or one for so many degrees.
 _FEW_TERMS = 2
 _DEGREES_A_TERM = 40
@@ -155,7 +157,7 @@ class RationalChart:
     def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
         """H^2 f/a at u."""
         assert self._forcing is not None
-        return self._forcing.value(acb(centre.x) + acb(u) * acb(arb((1, e)))).real * arb((1, 2 * e))
+        return _real_value(self._forcing.value(acb(centre.x) + acb(u) * acb(arb((1, e))))) * arb((1, 2 * e))
 
 
 @dataclass(frozen=True)
@@ -252,7 +254,7 @@ class AnalyticChart:
 def _real_value(value: acb) -> arb:
     """Of a coefficient or of the right-hand side; raises `InputError` where it isn't real."""
     if not value.imag.contains(0):
-        raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
+        raise InputError(_COMPLEX, hint="evaluate takes others")
     return value.real
 
 
@@ -279,9 +281,7 @@ def chart_of(
 def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:
     problem = as_problem(equation, params, forced=constants, constants=constants)
     if not problem.is_real:
-        raise InputError(
-            "functions of real numbers need an equation with real coefficients", hint="evaluate takes others"
-        )
+        raise InputError(_COMPLEX, hint="evaluate takes others")
     return problem
 
 

@@ -366,7 +366,9 @@ def table_of(
     states, powers = _states(chart, cells, series, variant, limits)
     coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
     if chart.is_forced:
-        coefficients += scaled(series[:, 2, None], -powers)
+        own = scaled(series[:, 2, None], -powers)
+        is_real_part = np.array([1.0, 0.0])[: states.hi.shape[1], None]  # the right-hand side is real
+        coefficients += Pair(own.hi * is_real_part, own.lo * is_real_part)
     x0 = chart.given.get("x0")
     base = x0 if isinstance(x0, ExactPoint) else None
     return replace(_assembled(region, cells, coefficients, powers, variant), base=base)

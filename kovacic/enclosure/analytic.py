@@ -22,7 +22,7 @@ from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb, working_precision
 from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.start import middle, spread_by
@@ -192,11 +192,11 @@ class AnalyticJourney:
         return found
 
     def _spread(self, number: Number, state: State) -> State:
-        def bounds(ball: acb) -> tuple[arb, arb]:
+        def bounds(ball: acb) -> tuple[arb, arb, bool]:
             b, c, f = self.functions.values(ball, analytic=True)
-            return (abs(b) + abs(c)).upper(), abs(f).upper()
+            return (abs(b) + abs(c)).upper(), abs(f).upper(), are_real(self.functions.values(ball))
 
-        return spread_by(bounds, number, state, self.functions.is_real)
+        return spread_by(bounds, number, state)
 
 
 @dataclass(frozen=True, eq=False)

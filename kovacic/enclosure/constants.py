@@ -117,14 +117,3 @@ def in_balls(expression: Any, values: Mapping[Any, Any], *, analytic: bool = Fal
 
     value: acb = BallEvaluator(values, analytic=analytic)(expression)
     return value
-
-
-def has_real_numbers(expression: Any) -> bool:
-    """Are all numbers that a SymPy expression is made of seen to be real?  acos(2), which has no i in it, isn't."""
-    from sympy import preorder_traversal
-
-    return all(_is_real(node) for node in preorder_traversal(expression) if node.is_number)
-
-
-def _is_real(number: Any) -> bool:
-    return number.is_real is True or in_balls(number, {}).imag.is_zero()

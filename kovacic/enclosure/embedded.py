@@ -24,7 +24,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
 from kovacic.enclosure.log_derivative import LogDerivative, sharp_roots
-from kovacic.enclosure.points import floor, working_precision
+from kovacic.enclosure.points import are_real, floor, working_precision
 from kovacic.enclosure.system import System
 from kovacic.errors import InputError, LimitExceeded
 
@@ -63,16 +63,10 @@ class Embedded:
                 imaginary = (tuple(above.im), tuple(below.im))
             return System(tuple(above.re), tuple(below.re), radius, imaginary)
 
-    def is_real(self, others: Iterable[RatFunc] = ()) -> bool:
-        """Are the coefficients of S, of the gauge and of other functions real?"""
-        functions = [self.S, *others]
-        if self.gauge is not None:
-            functions.append(self.gauge)
-        return all(map(self._is_real, functions))
-
-    def _is_real(self, function: RatFunc) -> bool:
-        coefficients = [*self._embed(function.num).coeffs(), *self._embed(function.den).coeffs()]
-        return all(c.imag.is_zero() for c in coefficients)
+    def is_real(self) -> bool:
+        """True if the coefficients of S and of the gauge are real."""
+        functions = [self.S] if self.gauge is None else [self.S, self.gauge]
+        return all(are_real(self._embed(part).coeffs()) for f in functions for part in (f.num, f.den))
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
         """Numerator and denominator of S, at the working precision in force."""

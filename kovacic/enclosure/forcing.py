@@ -25,7 +25,7 @@ from kovacic.enclosure.constants import in_balls, to_ball
 from kovacic.enclosure.embedded import Embedded, check_apart
 from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
+from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import System, check_segment
 from kovacic.enclosure.taylor import error_radii
@@ -40,7 +40,7 @@ _LEAST = fmpq(1, 2**40)  # the part of a way that is looked at for a singularity
 class Forcing:
     """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a.
 
-    `real` says that these and the equation are.
+    `real` says that the coefficients on the left are.
     """
 
     rational: RatFunc
@@ -104,7 +104,8 @@ class Forcing:
         """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball.
 
         `on_axis` says that the whole way is on the real axis, with the centres of its discs, and that g is real on it: it isn't
-        enough that the disc is entered and left there, since junctions are rounded.
+        enough that the disc is entered and left there, since junctions are rounded.  The right-hand side is analytic inside the
+        way, so real on all of it where it is on a part.
         """
         frame = leg.disc.frame
         expansion = leg.expansion
@@ -128,7 +129,8 @@ class Forcing:
         half = arb(0, 0.5)
         pieces = (start + step * acb(arb(2 * k + 1) / 2 + half) for k in range(_PIECES))
         size = sum((abs(source(x, False)) for x in pieces), arb(0)) * abs(step)
-        real = self.real and on_axis
+        middle = (start + stop) / 2 + step * acb(half) / _PIECES
+        real = self.real and on_axis and are_real([self.value(middle)])
         found = []
         for poly, defect in zip(polys, expansion.defect, strict=True):
 

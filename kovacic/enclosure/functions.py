@@ -22,7 +22,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.problem import Coefficients, change_of
 from kovacic.equation import Equation
-from kovacic.errors import NotRational
+from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.change_of_variable import SQUARES, function_of_x, is_of_a_line, user_variable
 from kovacic.reading.parts import parts_of
@@ -67,6 +67,10 @@ def _of_input(equation: Any, limits: Limits) -> Coefficients:
         parsed = read_input(equation, limits=limits, exponentials=True)
     except NotRational:
         return as_written(equation, None, limits)
+    except LimitExceeded as reason:
+        if reason.limit != "constants":
+            raise
+        return as_written(equation, None, limits)  # balls need no field of constants
     if change_of(parsed) is None:
         return as_written(equation, None, limits)
     if parsed.S.num.degree + parsed.S.den.degree > _DEGREES:

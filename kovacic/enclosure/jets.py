@@ -28,16 +28,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
-import sympy
 from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 
-from kovacic.enclosure.constants import has_real_numbers, to_ball
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb, working_precision
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.removable import CoefficientEvaluator, without_removable
 from kovacic.enclosure.way import Local
@@ -56,13 +53,10 @@ _MOST_TERMS = 40
 _SPARE = 12
 _BOX = 4.0
 """Bounds by boxes are so many times too large."""
+_SHARE = 6
+"""A disc's coefficients are seen to be real on an interval that is smaller by so many powers of two."""
 _LOG2_E = 1.4427
 _REACH = fmpq(1)
-_REAL_FUNCTIONS = {
-    *(sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.atan, sympy.asinh),
-    *(sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch),
-}
-"""Functions that are real for real arguments where they are analytic."""
 
 
 @dataclass(frozen=True)
@@ -94,24 +88,18 @@ class CoefficientField:
     def __init__(self, coefficients: Coefficients) -> None:
         self.coefficients = coefficients
         self._parts = [without_removable(part, coefficients.variable) for part in coefficients.parts]
-        self.is_real = are_real(coefficients)
 
     def values(self, x: Any, *, analytic: bool = False) -> list[Any]:
         """b, c and f at a ball or a series; not finite where one of them isn't analytic, with `analytic`."""
-        evaluated = CoefficientEvaluator(self.coefficients.at(x), analytic=analytic)
+        evaluated = CoefficientEvaluator(
+            self.coefficients.at(x), variable=self.coefficients.variable, analytic=analytic
+        )
         return [evaluated(part) for part in self._parts]
 
-    def _has_real_values(self, series: Sequence[Any]) -> bool:
-        """Are the coefficients real, whose first terms at a real point these are?
-
-        Those made of real numbers are, where the functions in them are: all that are known here have f(conj z) = conj f(z).
-        """
-        return self._has_real_numbers and all(value.imag.is_zero() for value in series)
-
-    @cached_property
-    def _has_real_numbers(self) -> bool:
-        values = [to_ball(value) for _, value in self.coefficients.values]
-        return all(map(has_real_numbers, self._parts)) and all(value.imag.is_zero() for value in values)
+    def is_real(self, centre: ExactPoint, e: int) -> bool:
+        """True if the coefficients, analytic in the disc with the scale 2^e, are proven to be real on its real diameter."""
+        with working_precision(_ROUGH):
+            return centre.is_real() and are_real(self.values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
 
     def is_regular(self, x: acb) -> bool:
         """Are the coefficients known to be analytic on the ball?"""
@@ -165,10 +153,9 @@ class CoefficientField:
             return None
         finally:
             ctx.cap = cap
-        values = [value for row in rows for value in row]
-        if not all(value.is_finite() for value in values):
+        if not all(value.is_finite() for row in rows for value in row):
             return None
-        is_real = centre.is_real() and (self.is_real or self._has_real_values(values))
+        is_real = self.is_real(centre, e)
         B, C, F = (_polynomial(row, real=is_real) for row in rows)
         return B, C, F
 
@@ -182,32 +169,6 @@ def _polynomial(coefficients: list[Any], *, real: bool) -> Any:
     if real:
         return arb_poly([value.real for value in coefficients])
     return acb_poly(coefficients)
-
-
-def are_real(coefficients: Coefficients) -> bool:
-    """Is it known that they are real for real x where they are analytic?"""
-    for part in coefficients.parts:
-        if not (_is_of_real_parts(part) or _is_known_as_real(part)):
-            return False
-    return all(to_ball(value).imag.is_zero() for _, value in coefficients.values)
-
-
-def _is_known_as_real(expression: Any) -> bool:
-    """Does SymPy know, with real symbols?"""
-    here = expression.xreplace({s: sympy.Dummy(real=True) for s in expression.free_symbols})
-    return bool(here.is_real or sympy.cancel(here - sympy.conjugate(here)) == 0)
-
-
-def _is_of_real_parts(expression: Any) -> bool:
-    """Is it made of real symbols and numbers by what is real where it is analytic?  SymPy may take seconds."""
-    check_time()
-    if expression.is_Symbol:
-        return True
-    if expression.is_number:
-        return bool(expression.is_real)
-    if expression.is_Add or expression.is_Mul or expression.func in _REAL_FUNCTIONS:
-        return all(map(_is_of_real_parts, expression.args))
-    return bool(expression.is_Pow and expression.exp.is_Integer and _is_of_real_parts(expression.base))
 
 
 def _rate(beta: arb, gamma: arb) -> arb:

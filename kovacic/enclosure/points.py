@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Decimal
@@ -173,6 +173,15 @@ def to_double(point: ExactPoint) -> complex:
 def midpoint(ball: acb) -> ExactPoint:
     """The midpoint of a finite ball."""
     return ExactPoint(*(_exact(part.mid()) for part in (ball.real, ball.imag)))
+
+
+def are_real(values: Iterable[Any]) -> bool:
+    """True if the imaginary part of every ball is exactly zero: then all numbers in them are proven to be real.
+
+    Realness is a property of such data, and nothing else decides it.  Where the values of a function on a real ball are real,
+    the function is real on that interval, and by the identity theorem wherever it is analytic on the real axis around it.
+    """
+    return all(value.imag.is_zero() for value in values)
 
 
 def around_zero(radius: arb, *, real: bool) -> acb:

@@ -17,7 +17,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
-from kovacic.enclosure.constants import Number, as_number, has_real_numbers, to_ball
+from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System, Zeros
@@ -79,23 +79,11 @@ class NumericProblem:
 
     @cached_property
     def is_real(self) -> bool:
-        """Are the coefficients real, and the right-hand side at real points where it is analytic?"""
-        given = self.right
+        """True if the coefficients of S and of the gauge are real; the right-hand side may be complex."""
+        if self.embedded is None:
+            return True
         with working_precision(_BITS):
-            if given is not None and given.h is not None and not self._is_made_of_real_numbers(given.h):
-                return False
-            if self.embedded is None:
-                return True
-            others = []
-            if given is not None:
-                others = [given.f / given.a, 1 / given.a]
-            return self.embedded.is_real(others)
-
-    def _is_made_of_real_numbers(self, h: Any) -> bool:
-        """With the values of the constants in it."""
-        values = {} if self.embedded is None else self.embedded.values
-        used = [values[symbol.name] for symbol in h.free_symbols if symbol.name in values]
-        return has_real_numbers(h) and all(to_ball(value).imag.is_zero() for value in used)
+            return self.embedded.is_real()
 
     @property
     def is_exact(self) -> bool:

@@ -13,12 +13,14 @@ with the first k coefficients 0 exactly.  Farther from z it is the quotient itse
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx
 
 from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.points import are_real, around_zero
 
 _MOST = 12
 """The highest order of a zero that is looked for."""
@@ -96,7 +98,15 @@ def _order(function: Any, x: Any, zero: Any) -> int:
 
 
 class CoefficientEvaluator(BallEvaluator):
-    """Values of coefficients, with the functions that were divided."""
+    """Values of coefficients at values of the variable and of parameters, with the functions that were divided."""
+
+    def __init__(self, values: Mapping[Any, Any], *, variable: Any, analytic: bool = False) -> None:
+        super().__init__(values, analytic=analytic)
+        self.variable = variable
+
+    def depends(self, argument: Any) -> bool:
+        """A parameter is a number: log(a) with a = -2 is a constant."""
+        return bool(argument.has(self.variable))
 
     def other(self, e: Any) -> Any:
         if not isinstance(e, Divided):
@@ -127,12 +137,14 @@ class CoefficientEvaluator(BallEvaluator):
             if size.is_finite():
                 break
         else:
-            return acb("nan")
+            return self(function) / (x - zero) ** k
         terms = int(ctx.prec / math.log2(wider)) + 8
         coefficients = self._series(function, symbol, zero, terms + k)[k:]
         tail = (size / (reach * wider) ** k * arb(wider) ** -terms / (1 - 1 / arb(wider))).upper()
         polynomial = acb_poly(coefficients)
-        error = acb(arb(0, tail), arb(0, tail))
+        inside = zero + arb(0, reach)
+        values = CoefficientEvaluator({**self.values, symbol: inside}, variable=symbol)
+        error = around_zero(tail, real=are_real([inside, centre, scale, values(function)]))
         if not isinstance(x, acb_series):
             return polynomial(centre) + error
         found = polynomial(acb_poly([centre, scale])).coeffs()[: ctx.cap]
@@ -144,14 +156,15 @@ class CoefficientEvaluator(BallEvaluator):
         radius = radius.upper()
         box = acb(zero.real + arb(0, radius), zero.imag + arb(0, radius))
         values = {**self.values, symbol: box}
-        return abs(CoefficientEvaluator(values, analytic=True)(function)).upper()
+        return abs(CoefficientEvaluator(values, variable=symbol, analytic=True)(function)).upper()
 
     def _series(self, function: Any, symbol: Any, zero: acb, terms: int) -> list[acb]:
         """The coefficients at the zero."""
         cap = ctx.cap
         ctx.cap = terms
         try:
-            found = CoefficientEvaluator({**self.values, symbol: acb_series([zero, acb(1)])})(function).coeffs()
+            values = {**self.values, symbol: acb_series([zero, acb(1)])}
+            found = CoefficientEvaluator(values, variable=symbol)(function).coeffs()
         finally:
             ctx.cap = cap
         return [*found, *[acb(0)] * (terms - len(found))]

@@ -25,7 +25,7 @@ from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
-from kovacic.enclosure.points import ExactPoint, around_zero, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System
@@ -67,30 +67,29 @@ def middle(number: Number) -> ExactPoint:
 def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
     """The state at a number in a ball from that at its midpoint."""
 
-    def bounds(ball: acb) -> tuple[arb, arb]:
+    def bounds(ball: acb) -> tuple[arb, arb, bool]:
         forcing = forcing_of(problem)
         if problem.embedded is not None:
             size = problem.embedded.bound(ball)
         else:
             a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
             size = (abs(b / a) + abs(c / a)).upper()
-        largest = arb(0) if forcing is None else abs(forcing.value(ball)).upper()
-        return size, largest
+        right = acb(0) if forcing is None else forcing.value(ball)
+        return size, abs(right).upper(), problem.is_real and are_real([right])
 
-    return spread_by(bounds, number, state, problem.is_real)
+    return spread_by(bounds, number, state)
 
 
-def spread_by(bounds: Callable[[acb], tuple[arb, arb]], number: object, state: State, real: bool) -> State:
+def spread_by(bounds: Callable[[acb], tuple[arb, arb, bool]], number: object, state: State) -> State:
     """As `spread`: with r the radius and, on the ball, K >= max(1, |b/a| + |c/a|) and F >= |f/a|, the `bounds`, (y, y') changes
-    by at most (exp(K r) - 1) (max(|y|, |y'|) + F).  `real` says that the equation is."""
+    by at most (exp(K r) - 1) (max(|y|, |y'|) + F).  Third comes True if b/a, c/a and f/a are real on the ball, a real one."""
     if not isinstance(number, Constant):
         return state
     ball = number.value()
-    size, forcing = bounds(ball)
+    size, forcing, real = bounds(ball)
     largest = max(abs(v).upper() for v in state) + forcing
     change = (max(arb(1), size) * abs(ball - to_acb(middle(number))).upper()).expm1() * largest
-    real = real and all(v.imag.is_zero() for v in (ball, *state))
-    error = around_zero(change.upper(), real=real)
+    error = around_zero(change.upper(), real=real and are_real([ball, *state]))
     return state[0] + error, state[1] + error
 
 
