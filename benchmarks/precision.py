@@ -37,7 +37,7 @@ def each(action: Callable[[], Any], repeats: int = 20_000) -> float:
 def operations() -> list[dict[str, Any]]:
     from flint import acb, acb_poly
 
-    from kovacic.enclosure.points import working_precision
+    from kovacic.algebra.precision import working_precision
 
     def block() -> None:
         with working_precision(200):

@@ -10,7 +10,7 @@ For each line one of
     unreadable: why                          (no JSON, or a key twice in one object)
 
 Exit status: 0 all checked, 1 one refuted, 2 one unreadable, or nothing to check, 3 one not checked.
-It needs Python 3.11 and python-flint alone.
+It needs Python 3.11 and python-flint alone.  It changes FLINT's global precision, so it is for one thread of a process.
 
 What "checked" means, for an S over Q(x):
 - S from input: S was given, with + - * / ^ and parentheses, and is this one.

@@ -13,7 +13,7 @@ from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.frame import GaussianParts, shift
 from kovacic.enclosure.frobenius import Majorant
-from kovacic.enclosure.points import working_precision
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
 
 Gauss = tuple[int, int]

@@ -16,6 +16,7 @@ from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz_poly
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 
 #: Bits of the approximations.
@@ -26,7 +27,7 @@ _TINY_BITS = 200
 
 def approximation(constant: Poly) -> Any:
     """The complex number that an element of Q or of Q(theta) is, as an `acb`."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         return _value(
             constant, _complex(constant.field.approximation) if isinstance(constant, ExtensionPoly) else acb(0)
         )
@@ -34,7 +35,7 @@ def approximation(constant: Poly) -> Any:
 
 def enclosure(constant: Poly) -> Any:
     """A ball with the complex number that an element of Q or of Q(theta) is."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         if not isinstance(constant, ExtensionPoly):
             return _value(constant, acb(0))
         return _value(constant, _roots(constant.field.modulus, _complex(constant.field.approximation))[0])
@@ -53,7 +54,7 @@ def _value(constant: Poly, theta: Any) -> Any:
 
 def principal_root(radicand: Poly, n: int) -> Any:
     """The principal n-th root of an element that isn't zero, as an `acb`."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         value = approximation(radicand)
         if abs(value.imag) < arb(2) ** -_TINY_BITS:
             value = acb(value.real)
@@ -65,7 +66,7 @@ def vanishing_factor(equation: Poly, target: Any) -> Poly:
     factors = [factor for factor, _ in equation.field.factor(equation)]
     if len(factors) == 1:
         return factors[0]
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         sizes = []
         for factor in factors:
             total = acb(0)
@@ -95,7 +96,7 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
     solved = _matrix(powers[:n]).solve(_matrix(columns))
     power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
     modulus = QQ.poly([*(-q for q in power), 1])
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
     field = AlgebraicField(QQ, modulus, "alpha", position)
     return field.element(QQ.poly(theta)), field.element(QQ.poly(c))
@@ -146,7 +147,7 @@ def _complex(pair: tuple[Fraction, Fraction] | None) -> Any:
 
 def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int | None:
     """How many real roots of a polynomial over Q lie below the real root at `position`; None if that one isn't real."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         nearest, *others = _roots(modulus, _complex(position))
         if not nearest.imag.contains(0) or any(abs(root - nearest.conjugate()).contains(0) for root in others):
             return None
@@ -155,20 +156,20 @@ def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int |
 
 def refined_root(minimal: Poly, approximation: Any) -> Any:
     """The root of a polynomial over Q that lies nearest to an approximation, to full precision."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         return _complex(_nearest_root(minimal, approximation))
 
 
 def _nearest_root(modulus: Poly, target: Any) -> tuple[Fraction, Fraction]:
     """The root of a rational polynomial that lies nearest to the target."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         nearest = _roots(modulus, target)[0]
         return _fraction(nearest.real), _fraction(nearest.imag)
 
 
 def root_near(polynomial: fmpz_poly, target: Any) -> Any:
     """A ball around the root nearest to an approximation, at the working precision in force, but of 128 bits at least."""
-    with ctx.workprec(max(ctx.prec, 128)):
+    with working_precision(max(ctx.prec, 128)):
         return _by_distance(polynomial, target)[0]
 
 

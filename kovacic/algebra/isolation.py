@@ -15,6 +15,7 @@ from typing import Any
 
 from flint import acb, arb, ctx, fmpz, fmpz_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
@@ -65,7 +66,7 @@ def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
     """Where the zeros differ, they do by more than the coefficients' square."""
     c, b, a = polynomial.coeffs()
     square = b * b - 4 * a * c
-    with ctx.workprec(ctx.prec + 4 * int(polynomial.height_bits()) + 20):
+    with working_precision(ctx.prec + 4 * int(polynomial.height_bits()) + 20):
         middle = arb(-b) / (2 * a)
         if square == 0:
             return ((acb(middle), 2),)
@@ -89,7 +90,7 @@ def _isolated_apart(coefficients: tuple[int, ...], prec: int) -> tuple[tuple[Any
 
 
 def _yield_zeros(coefficients: tuple[int, ...], prec: int) -> Iterator[list[tuple[Any, Any, int]]]:
-    with ctx.workprec(prec):
+    with working_precision(prec):
         zeros = _isolated(fmpz_poly(list(coefficients)))
         yield [(_dyadic(root.real), _dyadic(root.imag), k) for root, k in zeros]
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from flint import acb, acb_poly, arb, ctx, fmpq
+from flint import acb, acb_poly, arb, fmpq
 
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.curve import CurveIntegral
@@ -133,7 +134,7 @@ def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
     """True if the Wronskian of the expressions is proven not to vanish at the point of `is_numerical_solution`."""
     from kovacic.closed_form.jets import jet
 
-    with ctx.workdps(DIGITS + 15):
+    with working_digits(DIGITS + 15):
         point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
         first, second = (jet(y, variable, point) for y in (y1, y2))
         return not (first[0] * second[1] - first[1] * second[0]).contains(0)

@@ -24,6 +24,7 @@ from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator, BallValue
 
 Acb = Any  # flint's acb
@@ -137,7 +138,7 @@ class _Evaluator(BallEvaluator):
         coefficients = polynomial.all_coeffs()[::-1]
         if not all(c.is_Rational for c in coefficients):
             tolerance = arb(2) ** -ctx.prec
-            with ctx.workprec(3 * ctx.prec):  # the roots of a polynomial are less exact than its coefficients
+            with working_precision(3 * ctx.prec):  # the roots of a polynomial are less exact than its coefficients
                 precise = _Evaluator({})
                 return _with_real_roots(acb_poly([precise(c) for c in coefficients]), tolerance)
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]

@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 
 from flint import acb, acb_poly, arb, arb_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.structure import curve_of
@@ -35,7 +36,7 @@ from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, zeros
-from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.limits import check_time
 

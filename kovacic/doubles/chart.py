@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from flint import acb, arb, arb_poly, fmpq_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import foresee_move
 from kovacic.answer import Answer
 from kovacic.doubles.region import Region, region_of
@@ -25,7 +26,7 @@ from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, to_double, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, to_double
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states

@@ -18,12 +18,13 @@ from typing import Any
 import numpy as np
 from flint import acb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import RationalChart
 from kovacic.doubles.product_form import ProductDerivative, ProductForm
 from kovacic.doubles.region import Measured, Region, facts
 from kovacic.enclosure.closed_form import closed_form_of, decided, omega
-from kovacic.enclosure.points import ExactPoint, as_point, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.limits import Limits
 

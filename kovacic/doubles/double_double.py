@@ -25,7 +25,7 @@ from typing import Any, ClassVar
 import numpy as np
 from flint import acb, arb
 
-from kovacic.enclosure.points import working_precision
+from kovacic.algebra.precision import working_precision
 
 _SPLIT = 134217729.0  # 2^27 + 1
 

@@ -24,6 +24,7 @@ from typing import Any, Literal, Required, Unpack
 import numpy as np
 from flint import acb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.api import find_answer
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import PieceChart, RationalChart, chart_of
@@ -32,7 +33,7 @@ from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.evaluate import InitialValues
-from kovacic.enclosure.points import ExactPoint, as_point, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import Path
 from kovacic.enclosure.variable import with_variable

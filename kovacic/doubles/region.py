@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
+from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import name_of
 from kovacic.errors import InputError

@@ -32,9 +32,9 @@ from itertools import combinations
 from flint import acb, acb_mat, arb, fmpq, fmpz
 
 from kovacic import derived
+from kovacic.algebra.precision import working_precision
 from kovacic.answer import Answer
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
-from kovacic.enclosure.points import working_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.errors import InputError
 from kovacic.galois import Group, GroupKind

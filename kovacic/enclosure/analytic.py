@@ -17,12 +17,13 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply
-from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb
 from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.start import middle, spread_by

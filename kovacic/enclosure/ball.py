@@ -23,9 +23,10 @@ from typing import Any, Literal
 
 from flint import acb, arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.enclosure.constants import as_number, to_ball
-from kovacic.enclosure.points import ExactPoint, as_point, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 

@@ -20,11 +20,12 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
 from kovacic.enclosure.log_derivative import LogDerivative, sharp_roots
-from kovacic.enclosure.points import are_real, floor, working_precision
+from kovacic.enclosure.points import are_real, floor
 from kovacic.enclosure.system import System
 from kovacic.errors import InputError, LimitExceeded
 

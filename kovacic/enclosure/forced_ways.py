@@ -16,11 +16,12 @@ from typing import Any
 import sympy
 from flint import acb, arb, fmpq
 
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.analytic import AnalyticJourney
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import ExactPoint, working_precision
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.removable import without_removable
 from kovacic.enclosure.singular import Singular

@@ -20,7 +20,8 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq_poly
 
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
+from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
 from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
 from kovacic.limits import check_duration, check_time

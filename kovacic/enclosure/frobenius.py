@@ -45,9 +45,10 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State
-from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, working_precision
+from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two
 from kovacic.enclosure.singular import Operator, Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time

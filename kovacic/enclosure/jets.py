@@ -30,11 +30,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
+from flint import acb, acb_poly, acb_series, arb, arb_poly, fmpq
 
+from kovacic.algebra.precision import series_length, working_precision
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.removable import CoefficientEvaluator, without_removable
 from kovacic.enclosure.way import Local
@@ -143,16 +144,13 @@ class CoefficientField:
 
     def series(self, centre: ExactPoint, e: int, terms: int) -> tuple[Any, Any, Any] | None:
         """So many coefficients of B, C and F; None where they aren't finite."""
-        cap = ctx.cap
-        ctx.cap = terms
         try:
-            b, c, f = self.values(acb_series([to_acb(centre), arb((1, e))]))
-            H = arb((1, e))
-            rows = [_coefficients(b * H), _coefficients(c * H**2), _coefficients(f * H**2)]
+            with series_length(terms):
+                b, c, f = self.values(acb_series([to_acb(centre), arb((1, e))]))
+                H = arb((1, e))
+                rows = [_coefficients(b * H), _coefficients(c * H**2), _coefficients(f * H**2)]
         except (ZeroDivisionError, ValueError):
             return None
-        finally:
-            ctx.cap = cap
         if not all(value.is_finite() for row in rows for value in row):
             return None
         is_real = self.is_real(centre, e)

@@ -19,11 +19,12 @@ from typing import Any
 
 from flint import acb, acb_mat, arb, fmpq
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import number_of_digits, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular

@@ -1,15 +1,13 @@
-"""Exact points of the complex plane: Gaussian rationals, read from every kind of number; and the precision of balls."""
+"""Exact points of the complex plane: Gaussian rationals, read from every kind of number."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache, wraps
-from threading import RLock
 from typing import Any, ParamSpec, TypeVar
 
 from flint import acb, arb, ctx, fmpq
@@ -17,20 +15,8 @@ from flint import acb, arb, ctx, fmpq
 from kovacic.algebra.rationals import to_fmpq, to_fraction
 from kovacic.exact import exact
 
-_LOCK = RLock()
 P = ParamSpec("P")
 R = TypeVar("R")
-
-
-@contextmanager
-def working_precision(bits: int) -> Iterator[None]:
-    """FLINT's precision within the block; it is what it was before afterwards, whatever happens.
-
-    `flint.ctx.prec` is global: a thread that sets it changes the precision of every other one.  So it is set here only, under a
-    lock that is held as long as the precision is in force.  Threads wait for each other; processes don't.
-    """
-    with _LOCK, ctx.workprec(bits):
-        yield
 
 
 def kept_at_precision(maxsize: int) -> Callable[[Callable[P, R]], Callable[P, R]]:

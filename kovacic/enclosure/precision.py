@@ -1,7 +1,6 @@
 """Raising the working precision until the enclosures are as small as was asked for, or until they can't be.
 
-First digits + guard bits, then as many bits more as were missing.  The global precision of flint is set inside
-`flint.ctx.workprec` only, so an interruption leaves it as it was.
+First digits + guard bits, then as many bits more as were missing.
 """
 
 from __future__ import annotations
@@ -15,12 +14,12 @@ from typing import Literal, Protocol
 
 from flint import acb, arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, Route, finite_ball
 from kovacic.enclosure.classical import Closed, NotServed
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 from kovacic.limits import Limits

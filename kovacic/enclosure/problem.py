@@ -13,13 +13,14 @@ from flint import acb_poly, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
-from kovacic.enclosure.points import ExactPoint, working_precision
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.system import System, Zeros
 from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotRational

@@ -19,6 +19,7 @@ from typing import Any
 import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx
 
+from kovacic.algebra.precision import series_length
 from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.points import are_real, around_zero
 
@@ -160,13 +161,9 @@ class CoefficientEvaluator(BallEvaluator):
 
     def _series(self, function: Any, symbol: Any, zero: acb, terms: int) -> list[acb]:
         """The coefficients at the zero."""
-        cap = ctx.cap
-        ctx.cap = terms
-        try:
+        with series_length(terms):
             values = {**self.values, symbol: acb_series([zero, acb(1)])}
             found = CoefficientEvaluator(values, variable=symbol)(function).coeffs()
-        finally:
-            ctx.cap = cap
         return [*found, *[acb(0)] * (terms - len(found))]
 
 

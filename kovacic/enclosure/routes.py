@@ -14,11 +14,12 @@ from itertools import pairwise
 
 from flint import acb, acb_poly, arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.journey import ChosenForm, Journey
-from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.precision import Method, start_bits
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular

@@ -16,7 +16,8 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.isolation import complex_zeros
-from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
+from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError
 from kovacic.limits import check_time

@@ -44,9 +44,10 @@ from typing import Any
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import Frame, GaussianParts, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
-from kovacic.enclosure.points import ExactPoint, around_zero, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
 from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded

@@ -21,11 +21,12 @@ from dataclasses import dataclass
 
 from flint import acb, acb_poly, arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
-from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System

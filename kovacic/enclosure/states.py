@@ -10,11 +10,12 @@ from typing import Any, Literal
 
 from flint import arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import ChosenForm, Journey
-from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.routes import TAYLOR, route_of

@@ -18,9 +18,10 @@ from typing import Literal
 from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, foresee_move, to_fraction
-from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.errors import InputError
 from kovacic.limits import check_time
 

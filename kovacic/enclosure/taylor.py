@@ -34,9 +34,10 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import REACH, Frame, GaussianParts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, floor, working_precision
+from kovacic.enclosure.points import ExactPoint, floor
 from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time

@@ -15,8 +15,9 @@ from typing import Any, Protocol
 
 from flint import acb, acb_poly, arb, arb_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
 from kovacic.errors import InputError, LimitExceeded
 
 _MOST_DISCS = 4000

@@ -14,9 +14,10 @@ from itertools import islice, pairwise
 from typing import Any
 
 import sympy
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 from sympy.core.function import AppliedUndef
 
+from kovacic.algebra.precision import working_digits
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
@@ -163,7 +164,7 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
         base = ball(start)
         if base is None:
             base = acb(fmpq(23, 71), fmpq(0))
-    with ctx.workdps(DIGITS):
+    with working_digits(DIGITS):
         return _residual_is_large(question, value, base + arb(_STEP))
 
 
@@ -208,7 +209,7 @@ class _Pieces:
 def _is_wrong_in_pieces(question: Question, value: Expr) -> bool:
     """Is the residual seen not to be zero on a piece of the line, or do y and y' have wrong jumps?"""
     pieces = _in_pieces(question, value)
-    with ctx.workdps(DIGITS):
+    with working_digits(DIGITS):
         if any(pieces.is_wrong_at(point) for point in pieces.points):
             return True
         return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
@@ -353,7 +354,7 @@ def _on_both_sides(total: Expr) -> Iterator[dict[Expr, Expr]]:
 
 def _is_not_zero(number: Expr) -> bool:
     """Seen by its value, that of a parameter being one that isn't special.  Raises as `_is_wrong_at` does."""
-    with ctx.workdps(2 * DIGITS):
+    with working_digits(2 * DIGITS):
         found = jet(number, sympy.Dummy(), acb(0))[0]
         if not found.is_finite():
             raise NotImplementedError("a value isn't finite")

@@ -17,9 +17,10 @@ from itertools import islice, pairwise
 from typing import Any, NamedTuple
 
 import sympy
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 from sympy.core.function import AppliedUndef
 
+from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
@@ -296,7 +297,7 @@ def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequenc
     symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
     is_missed: bool | None = False
-    with ctx.workdps(2 * DIGITS):
+    with working_digits(2 * DIGITS):
         is_wrong = _is_wrong(equation, w, sample)
         if value is not None:
             is_missed = _is_missed(equation, w, sample, value)

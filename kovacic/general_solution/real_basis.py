@@ -10,9 +10,10 @@ from contextlib import suppress
 from typing import Any
 
 import sympy
-from flint import acb, ctx
+from flint import acb
 from sympy.functions.special.bessel import BesselBase
 
+from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS, is_numerical_solution
 from kovacic.closed_form.jets import jet
@@ -48,7 +49,7 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
 
 def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
     """Is the Wronskian seen not to be zero at a point?"""
-    with ctx.workdps(DIGITS), suppress(NotImplementedError):
+    with working_digits(DIGITS), suppress(NotImplementedError):
         (u, du, _), (v, dv, _) = (jet(y, x, acb("0.37", "0.61")) for y in (y1, y2))
         return not (u * dv - du * v).contains(0)
     return False

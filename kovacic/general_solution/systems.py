@@ -17,9 +17,10 @@ from itertools import islice
 from typing import Any
 
 import sympy
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 from sympy.core.function import AppliedUndef
 
+from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
 from kovacic.errors import InputError, NotLinear, VerificationFailed
@@ -256,7 +257,7 @@ def _check(system: LinearSystem, pair: tuple[Expr, Expr]) -> list[str]:
     parts = [*pair, *system.right, *system.matrix[0], *system.matrix[1]]
     symbols = set().union(*(e.free_symbols for e in parts)) - {system.t}
     sample = next(islice(samples(symbols), 1, None))
-    with ctx.workdps(2 * DIGITS):
+    with working_digits(2 * DIGITS):
         found = [_is_wrong_at(system, pair, sample, point) for point in _POINTS]
     if True in found:
         raise VerificationFailed(f"{pair} doesn't solve the system; please report {system}")

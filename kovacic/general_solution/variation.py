@@ -12,11 +12,12 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 from sympy import cos, expand, powsimp, sin
 from sympy.core.function import AppliedUndef
 from sympy.simplify.fu import TR8
 
+from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
@@ -143,7 +144,7 @@ class Basis:
         """Is the constant the same wherever roots have other branches?"""
         if not any(_has_branches(y, self.x) for y in (self.y1, self.y2)):
             return True
-        with ctx.workdps(2 * DIGITS), suppress(NotImplementedError):
+        with working_digits(2 * DIGITS), suppress(NotImplementedError):
             return all(self._is_wronskian_at(W, point) for point in _points())
         return False
 
@@ -371,7 +372,7 @@ def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) 
     if sample:
         y = y.xreplace(sample)
         right = right.xreplace(sample)
-    with ctx.workdps(DIGITS + 15), suppress(NotImplementedError):
+    with working_digits(DIGITS + 15), suppress(NotImplementedError):
         return all(_is_solution_at(point, y, coefficients, right, x) for point in _points())
     return False
 

@@ -19,9 +19,10 @@ from itertools import islice
 from typing import Any
 
 import sympy
-from flint import acb, arb, ctx
+from flint import acb, arb
 from sympy.simplify.fu import TR8
 
+from kovacic.algebra.precision import working_digits, working_precision
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared
@@ -219,7 +220,7 @@ def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
 def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
     """Is a ball around the value seen not to contain zero?"""
     for digits in (DIGITS, _PRECISE):
-        with ctx.workdps(digits):
+        with working_digits(digits):
             found = ball(value, sample)
             if found is None or not found.is_finite():
                 return False
@@ -231,7 +232,7 @@ def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
 def agree(value: Expr, other: Expr) -> bool:
     """Are two expressions for a constant, of which one was found at another point, the same to 50 digits?"""
     sample = next(samples((value - other).free_symbols))
-    with ctx.workdps(3 * DIGITS):
+    with working_digits(3 * DIGITS):
         difference = ball(value - other, sample)
         return difference is not None and bool(abs(difference) < arb(10) ** -DIGITS)
 
@@ -321,7 +322,7 @@ def is_zero_by_size(value: Expr) -> bool:
     bits = (D - 1) * bounds.u + bounds.l + 2
     if bits > _MOST_BITS:
         return False
-    with ctx.workprec(bits + 64):
+    with working_precision(bits + 64):
         found = ball(value)
         return found is not None and bool(abs(found) < arb(2) ** -bits)
 

@@ -14,9 +14,10 @@ from itertools import combinations
 from math import ceil, floor
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from kovacic.algebra.embedding import enclosure
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
 from kovacic.parametric.functions import Coset
@@ -84,12 +85,12 @@ class RealBound:
 
     def excludes(self, value: Any) -> bool:
         """Does a ball provably lie on the wrong side?"""
-        with ctx.workprec(_PRECISION):
+        with working_precision(_PRECISION):
             return bool((value - self.ball) * self.sign < 0)
 
     def rational_bound(self) -> Bound:
         """A weaker bound that is rational.  Raises `InputError` for an end that is too large."""
-        with ctx.workprec(_PRECISION):
+        with working_precision(_PRECISION):
             scaled = self.ball * 2**_BITS
             steps = scaled.floor() if self.sign > 0 else scaled.ceil()
             whole = (steps - self.sign).unique_fmpz()
@@ -264,5 +265,5 @@ def _real_number(text: str) -> Any:
 
 def ball_of(number: Fraction) -> Any:
     """A ball with a rational number, to compare with others."""
-    with ctx.workprec(_PRECISION):
+    with working_precision(_PRECISION):
         return arb(fmpq(number.numerator, number.denominator))

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.limits import count_work
@@ -284,7 +285,7 @@ def _0f1(argument: Any, c: Any) -> Any:
     w = 2 * math.sqrt(float(abs(argument).upper()))
     if w > 2 * bits:
         return found
-    with ctx.workprec(bits + int(w / math.log(2)) + 10):
+    with working_precision(bits + int(w / math.log(2)) + 10):
         middle = acb(argument.real.mid(), argument.imag.mid()).hypgeom_0f1(acb(c))
     growth = abs((2 * (-argument).sqrt()).imag).exp()
     error = ((argument.real.rad() + argument.imag.rad()) * growth / abs(arb(c))).upper()
