@@ -11,9 +11,9 @@ import pytest
 from build import ExactPoint, System, make_frame, parametrize
 from flint import acb, acb_poly, arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import GaussianParts, shift
 from kovacic.enclosure.frobenius import Majorant
-from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
 
 Gauss = tuple[int, int]
