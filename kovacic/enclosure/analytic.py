@@ -11,11 +11,12 @@ become smaller towards one; where they would be as small as 2^-60 of what lies o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from typing import Any
 
-from flint import acb, arb, fmpq
+from flint import acb, fmpq
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
@@ -24,9 +25,10 @@ from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, power_of_two, to_acb
-from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision
+from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.start import middle, spread_by
+from kovacic.enclosure.through import Through
 from kovacic.enclosure.way import Local, Way, by_rays
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, count_work, limits_of
@@ -157,6 +159,13 @@ class AnalyticJourney:
         return CoefficientField(self.coefficients)
 
     @cached_property
+    def through(self) -> Through | None:
+        """The same solution in another variable; None along a polygon, and where there is no such variable."""
+        if self.vertices:
+            return None
+        return Through.of(self.coefficients, self.x0, self.data, chain=self.chain)
+
+    @cached_property
     def _begun(self) -> dict[int, _Begun]:
         return {}
 
@@ -193,11 +202,11 @@ class AnalyticJourney:
         return found
 
     def _spread(self, number: Number, state: State) -> State:
-        def bounds(ball: acb) -> tuple[arb, arb, bool]:
+        def coefficients(ball: acb) -> tuple[acb, acb, acb, bool]:
             b, c, f = self.functions.values(ball, analytic=True)
-            return (abs(b) + abs(c)).upper(), abs(f).upper(), are_real(self.functions.values(ball))
+            return b, c, f, are_real(self.functions.values(ball))
 
-        return spread_by(bounds, number, state)
+        return spread_by(coefficients, number, state)
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,11 +250,18 @@ class AnalyticQuestion:
     journey: AnalyticJourney
     digits: int
     limits: Limits
+    method: Method | None = None
 
     def states(self, points: Sequence[object]) -> tuple[PointValue, ...]:
         """y and y' with the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
         targets = tuple(as_number(p, "x") for p in points)
+        through = self.journey.through
         with Budget(self.limits).watched():
+            if through is not None:
+                with suppress(InputError, LimitExceeded):  # whose reasons would speak of t
+                    found = through.states(targets, self.digits, self.method, self.limits)
+                    if found is not None:
+                        return found
             return raise_precision(self.journey, targets, None, self.digits, self.limits)
 
 
@@ -259,7 +275,7 @@ def analytic_question(
     digits: int = 15,
     path: object = None,
     limits: Limits | None = None,
-    method: str | None = None,
+    method: Method | None = None,
     which: object = None,
     frobenius: object = None,
 ) -> AnalyticQuestion:
@@ -270,7 +286,7 @@ def analytic_question(
     coefficients = coefficients_of_any(equation, params, limits)
     start = [comparable(value) for value in (x0, y0, dy0)]
     journey: AnalyticJourney = looked_up(_journey_of, coefficients, *start, comparables(path, "path"))
-    return AnalyticQuestion(journey, digits, limits)
+    return AnalyticQuestion(journey, digits, limits, method)
 
 
 def _check_start(y0: object, dy0: object, method: str | None, which: object, frobenius: object) -> None:

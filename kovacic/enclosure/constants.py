@@ -48,6 +48,8 @@ def as_number(value: Any, name: str) -> Number:
     >>> print(as_number("1 + 2*I", "x"), as_number("sqrt(2)", "x"))
     1 + 2i sqrt(2)
     """
+    if isinstance(value, ExactPoint | Constant):
+        return value
     fixed = _given_ball(value)
     if fixed is not None:
         if not fixed.is_finite():

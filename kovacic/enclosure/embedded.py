@@ -102,13 +102,13 @@ class Embedded:
         p, q, n, d = (arb_poly([c.real for c in self._embed(part).coeffs()]) for part in parts)
         return d * d * q, -2 * n * d * q, (n * n - n.derivative() * d + n * d.derivative()) * q - p * d * d
 
-    def bound(self, ball: acb) -> arb:
-        """Of |b/a| + |c/a| on the ball, for a z'' + b z' + c z = 0, z = g y."""
+    def coefficients(self, ball: acb) -> tuple[acb, acb]:
+        """b/a and c/a on the ball, for a z'' + b z' + c z = 0, z = g y."""
         total = self.value(self.S, ball)
         if self.gauge is None:
-            return arb(abs(total).upper())
+            return acb(0), -total
         gamma, slope = (self.value(f, ball) for f in (self.gauge, self.gauge.derivative()))
-        return arb((2 * abs(gamma) + abs(gamma * gamma - slope - total)).upper())
+        return -2 * gamma, gamma * gamma - slope - total
 
     def value(self, function: RatFunc, x: acb) -> acb:
         """Another function over the same field, on a ball."""

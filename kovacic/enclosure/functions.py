@@ -12,6 +12,7 @@ written in sin(u) and cos(u), since a pole of t alone is none of the equation.  
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -99,6 +100,8 @@ def _may_be_singular(term: Any, x: Any) -> bool:
 def _of_parsed(parsed: Any) -> Coefficients:
     """Without letters for constants."""
     found = in_the_given_variable(parsed.equation)
+    if not getattr(parsed, "letters", ()):
+        return replace(found, changed=parsed)
     for letter, meaning in reversed(getattr(parsed, "letters", ())):
         b, c, f = (part.xreplace({sympy.Symbol(letter): meaning}) for part in found.parts)
         found = Coefficients(found.variable, b, c, f)

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 
 from flint import acb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Classical, Closed, classical_of
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import check_apart
@@ -106,7 +107,8 @@ class Journey:
         if (None, prec) not in self._begun or self.chain or self.side is not None:
             return False
         traveller, _ = self._begun[None, prec]
-        return all(isinstance(target, ExactPoint) and traveller.knows(target) for target in targets)
+        with working_precision(prec):
+            return all(traveller.knows(middle(target)) for target in targets)
 
     def classical(self, work: int | None) -> Classical | None:
         """The equation that S is pulled back from, if it is found in so much work."""

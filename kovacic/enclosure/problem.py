@@ -4,7 +4,7 @@ values of its constants and parameters, and a decision where there is one."""
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
@@ -31,13 +31,17 @@ _BITS = 40  # to which constants are known where nothing was asked for
 
 @dataclass(frozen=True)
 class Coefficients:
-    """y'' + b y' + c y = f with any functions: SymPy expressions in `variable` and the names of `values`."""
+    """y'' + b y' + c y = f with any functions: SymPy expressions in `variable` and the names of `values`.
+
+    `changed` is the equation that was read or solved in another variable t, in which it is rational.
+    """
 
     variable: Any
     b: Any
     c: Any
     f: Any
     values: tuple[tuple[str, Number], ...] = ()
+    changed: Any = field(default=None, compare=False, repr=False)
 
     @property
     def parts(self) -> tuple[Any, Any, Any]:

@@ -68,30 +68,36 @@ def middle(number: Number) -> ExactPoint:
 def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
     """The state at a number in a ball from that at its midpoint."""
 
-    def bounds(ball: acb) -> tuple[arb, arb, bool]:
-        forcing = forcing_of(problem)
+    def coefficients(ball: acb) -> tuple[acb, acb, acb, bool]:
         if problem.embedded is not None:
-            size = problem.embedded.bound(ball)
+            b, c = problem.embedded.coefficients(ball)
         else:
-            a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
-            size = (abs(b / a) + abs(c / a)).upper()
-        right = acb(0) if forcing is None else forcing.value(ball)
-        return size, abs(right).upper(), problem.is_real and are_real([right])
+            top, first, last = (acb_poly(poly)(ball) for poly in problem.equation)
+            b, c = first / top, last / top
+        forcing = forcing_of(problem)
+        f = acb(0) if forcing is None else forcing.value(ball)
+        return b, c, f, problem.is_real and are_real([f])
 
-    return spread_by(bounds, number, state)
+    return spread_by(coefficients, number, state)
 
 
-def spread_by(bounds: Callable[[acb], tuple[arb, arb, bool]], number: object, state: State) -> State:
-    """As `spread`: with r the radius and, on the ball, K >= max(1, |b/a| + |c/a|) and F >= |f/a|, the `bounds`, (y, y') changes
-    by at most (exp(K r) - 1) (max(|y|, |y'|) + F).  Third comes True if b/a, c/a and f/a are real on the ball, a real one."""
+def spread_by(coefficients: Callable[[acb], tuple[acb, acb, acb, bool]], number: object, state: State) -> State:
+    """As `spread`, for y'' + b y' + c y = f with these b, c and f on a ball, and True if they are proven to be real there.
+
+    For any s > 0 the vector (y, s y') has the derivative (s y'/s, -b (s y') - s c y + s f).  With r the radius of the ball and
+    K >= max(1/s, |b| + s |c|) it changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K) [Gronwall].
+    """
     if not isinstance(number, Constant):
         return state
     ball = number.value()
-    size, forcing, real = bounds(ball)
-    largest = max(abs(v).upper() for v in state) + forcing
-    change = (max(arb(1), size) * abs(ball - to_acb(middle(number))).upper()).expm1() * largest
-    error = around_zero(change.upper(), real=real and are_real([ball, *state]))
-    return state[0] + error, state[1] + error
+    b, c, f, real = coefficients(ball)
+    steepness = (abs(b) + abs(c).sqrt()).upper()
+    s = (1 / steepness).mid() if steepness > 0 else arb(1)
+    K = (1 / s).max(abs(b) + s * abs(c))
+    largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
+    change = (K * abs(ball - to_acb(middle(number)))).expm1() * largest
+    real = real and are_real([ball, *state])
+    return state[0] + around_zero(change.upper(), real=real), state[1] + around_zero((change / s).upper(), real=real)
 
 
 def read_start(

@@ -42,7 +42,10 @@ class AskedSolution:
 
     def states(self, points: Sequence[object]) -> tuple[PointValue, ...]:
         """y and y' with the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
-        targets = tuple(as_number(p, "x") for p in points)
+        return self.states_at(tuple(as_number(p, "x") for p in points))
+
+    def states_at(self, targets: Sequence[Number]) -> tuple[PointValue, ...]:
+        """The same for numbers that were read."""
         _check_regular(self.journey.problem, targets)
         with Budget(self.limits).watched():
             if self.method is None and self.journey.knows(targets, start_bits(self.digits)):
@@ -159,7 +162,7 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
 def _may_be_singular(problem: NumericProblem, number: Number) -> bool:
     """Can't it be told from a singular point?  False for a rational point, unless the constants are known by balls."""
     if problem.embedded is not None:
-        return not problem.embedded.bound(to_ball(number)).is_finite()
+        return not all(value.is_finite() for value in problem.embedded.coefficients(to_ball(number)))
     if isinstance(number, ExactPoint):
         return False
     ball = to_ball(number)
