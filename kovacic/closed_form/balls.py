@@ -119,6 +119,10 @@ class BallEvaluator:
             return self(e.rewrite(sympy.log))
         value = self(e.args[0])
         name = _NAMES[e.func]
+        if isinstance(value, acb) and value.imag.is_zero() and hasattr(arb, name):
+            real = getattr(value.real, name)()  # FLINT's complex atanh isn't exactly real
+            if real.is_finite():
+                return acb(real)
         if hasattr(value, name):
             return getattr(value, name)()
         if name in _QUOTIENTS:

@@ -10,6 +10,7 @@ become smaller towards one; where they would be as small as 2^-60 of what lies o
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -29,7 +30,7 @@ from kovacic.enclosure.precision import Method, PointValue, number_of_digits, ra
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.start import middle, spread_by
 from kovacic.enclosure.through import Through
-from kovacic.enclosure.way import Local, Way, by_rays
+from kovacic.enclosure.way import Forecast, Local, Way, by_rays
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, count_work, limits_of
 
@@ -37,7 +38,9 @@ _STEEPEST = 40.0
 _SHARE = 0.15
 """The growth exp(lambda) in one disc: lambda is at most so large, or that share of the bits."""
 _LEAST = 60
-_MAX_DISCS = 200_000
+_SAMPLES = 32
+"""Points at which the coefficients are looked at for a forecast."""
+_ROUGH = 64
 _KEPT = 4
 """Precisions at which ways are kept."""
 _START = 512
@@ -81,8 +84,11 @@ def walk(functions: CoefficientField, a: ExactPoint, b: ExactPoint, prec: int) -
     square = length.norm_squared()
     t = fmpq(0)
     steepest = max(_STEEPEST, _SHARE * prec)
+    forecast = Forecast(a, b, lambda: _growth(functions, a, b), 2 * steepest)
+    forecast.refuse()
     e = _exponent(square)
-    for number in range(_MAX_DISCS):
+    number = 0
+    while t < 1:
         check_time()
         count_work(prec)
         rest = 1 - t
@@ -99,9 +105,19 @@ def walk(functions: CoefficientField, a: ExactPoint, b: ExactPoint, prec: int) -
         t += 2 * half
         leave = b if t == 1 else a + length.scaled(t)
         yield AnalyticStep(JetBasis(jets), enter, leave)
-        if t == 1:
-            return
-    raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
+        number += 1
+        forecast.check(number)
+
+
+def _growth(functions: CoefficientField, a: ExactPoint, b: ExactPoint) -> float:
+    """The integral of max(|b|, |c|^(1/2)) along the way, about: no bound."""
+    with working_precision(_ROUGH):
+        sizes = []
+        for k in range(_SAMPLES):
+            b_value, c_value, _ = functions.values(to_acb(a + (b - a).scaled(fmpq(2 * k + 1, 2 * _SAMPLES))))
+            sizes.append(float(abs(b_value).max(abs(c_value).sqrt()).mid()))
+        length = float(abs(to_acb(b - a)).mid())
+    return length * sum(size for size in sizes if size < math.inf) / _SAMPLES
 
 
 def _check_regular(functions: CoefficientField, point: ExactPoint, name: str, prec: int) -> None:

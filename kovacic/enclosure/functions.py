@@ -48,9 +48,6 @@ def coefficients_of_any(equation: Any, params: Mapping[str, object] | None, limi
     return found.given(params)
 
 
-#: Of S in t up to which coefficients are evaluated in t: beyond, as for cos(x) beside tan(x/5) and csc(x/9), powers of t cost
-#: more than the functions that they stand for.
-_DEGREES = 24
 _WITH_POLES = (sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.tanh, sympy.coth, sympy.sech, sympy.csch)
 
 
@@ -60,10 +57,7 @@ def _of_text(text: str, limits: Limits) -> Coefficients:
 
 
 def _of_input(equation: Any, limits: Limits) -> Coefficients:
-    """In t where there is such a variable: then what cancels is known.
-
-    As it is written where nothing can cancel, and its degrees are high in t.
-    """
+    """As they are written where nothing can cancel; else in t, where what cancels is known."""
     try:
         parsed = read_input(equation, limits=limits, exponentials=True)
     except NotRational:
@@ -72,12 +66,11 @@ def _of_input(equation: Any, limits: Limits) -> Coefficients:
         if reason.limit != "constants":
             raise
         return as_written(equation, None, limits)  # balls need no field of constants
-    if change_of(parsed) is None:
+    if change_of(parsed) is None or parsed.equation is None:
         return as_written(equation, None, limits)
-    if parsed.S.num.degree + parsed.S.den.degree > _DEGREES:
-        written = as_written(equation, None, limits)
-        if all(_nothing_cancels(part, written.variable) for part in written.parts):
-            return written
+    written = as_written(equation, None, limits)
+    if all(_nothing_cancels(part, written.variable) for part in written.parts):
+        return replace(written, changed=parsed)
     return _of_parsed(parsed)
 
 
@@ -100,12 +93,10 @@ def _may_be_singular(term: Any, x: Any) -> bool:
 def _of_parsed(parsed: Any) -> Coefficients:
     """Without letters for constants."""
     found = in_the_given_variable(parsed.equation)
-    if not getattr(parsed, "letters", ()):
-        return replace(found, changed=parsed)
     for letter, meaning in reversed(getattr(parsed, "letters", ())):
         b, c, f = (part.xreplace({sympy.Symbol(letter): meaning}) for part in found.parts)
         found = Coefficients(found.variable, b, c, f)
-    return found
+    return replace(found, changed=parsed)
 
 
 def as_written(equation: Any, var: Any, limits: Limits) -> Coefficients:
@@ -133,10 +124,13 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     if t.func is sympy.tan:  # a polynomial in t
         slope = rate
         b *= RatFunc(field.poly([1, 0, 1]))
-    right = rate**2 * _in(t, f)
-    if equation.h is not None:  # over the coefficient of y'', in x
-        right += equation.h
-    return Coefficients(x, slope * _in(t, b), rate**2 * _in(t, c), right)
+    if t.func is sympy.exp and t.has(sympy.I):
+        T = RatFunc(field.poly([0, 1]))
+        parts = _in_waves(t, b * T, rate), _in_waves(t, c, rate**2), _in_waves(t, f, rate**2)
+    else:
+        parts = slope * _in(t, b), rate**2 * _in(t, c), rate**2 * _in(t, f)
+    h = 0 if equation.h is None else equation.h  # over the coefficient of y'', in x
+    return Coefficients(x, parts[0], parts[1], parts[2] + h)
 
 
 def _of_any_change(equation: Equation, t: Any, x: Any) -> Coefficients:
@@ -166,6 +160,34 @@ def _in(t: Any, function: RatFunc) -> Any:
     denominator, powers = _divided(function.den, _sigma(t, function.field))
     rest = atoms.ratio(RatFunc(function.num, denominator, reduced=True)).xreplace({atoms.x: t})
     return rest * root ** (-2 * powers)
+
+
+def _in_waves(t: Any, function: RatFunc, factor: Any) -> Any:
+    """A constant times a rational function N/D of t = exp(i u), by cosines and sines of multiples of u.
+
+    With h half the sum of the lowest and the highest exponent in D both t^-h N and t^-h D are sums of c_k exp(i (k - h) u).
+    Where the quotient is real for real u, D is its own reversed conjugate up to a number of size 1, so that there is a constant
+    w for which w t^-h D is real, and then w t^-h N is.
+    """
+    if not function:
+        return sympy.Integer(0)
+    atoms = Atoms(sympy.Dummy("t"))
+    u = sympy.expand(-sympy.I * t.args[0])
+    below = list(atoms.coefficients(function.den))
+    lowest = next(k for k, c in enumerate(below) if c != 0)
+    half = sympy.Rational(lowest + len(below) - 1, 2)
+
+    def waves(coefficients: Any, w: Any) -> Any:
+        angles = ((c, (k - half) * u) for k, c in enumerate(coefficients))
+        return sympy.expand(
+            sympy.Add(*(w * c * (sympy.cos(angle) + sympy.I * sympy.sin(angle)) for c, angle in angles))
+        )
+
+    first, last = (
+        sympy.conjugate(c).xreplace({sympy.conjugate(s): s for s in c.free_symbols}) for c in (below[lowest], below[-1])
+    )
+    w = first + last or sympy.I * (first - last)
+    return waves(atoms.coefficients(function.num), w * factor) / waves(below, w)
 
 
 def _divided(poly: Poly, factor: Poly) -> tuple[Poly, int]:

@@ -49,8 +49,9 @@ _LEAF = 6
 _FIRST = 24
 _QUIET = 8
 """Terms of the recurrence that are computed one by one, those of the first block, and so many small ones at its end."""
+_TERMS = 2
 _MOST_TERMS = 40
-"""Terms for each bit, at most."""
+"""Terms for each bit, at most: of the coefficients in a disc, and of a solution."""
 _SPARE = 12
 _BOX = 4.0
 """Bounds by boxes are so many times too large."""
@@ -114,12 +115,16 @@ class CoefficientField:
         return found if all(size.is_finite() for size in found) else None
 
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
-        """The series for solutions to about 2^-prec; None where the disc of twice this scale has a singularity, or lambda is
-        above `steepest`."""
+        """The series for solutions to about 2^-prec; None where the disc of twice this scale has a singularity, lambda is above
+        `steepest`, or a function grows so much that its series would be long or cancel."""
         with working_precision(_ROUGH):
             h = arb((1, e))
             near = self.sizes(centre, h)
             if near is None or not _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
+                return None
+            inner = self.sizes(centre, h / 4)
+            # Beside a solution of size 1 what is smaller needn't be followed.
+            if inner is None or not near[2] * h * h <= (inner[2] * h * h).max(arb(1)) * arb(steepest).exp():
                 return None
             growth = int(_LOG2_E * min(steepest, float(_rate(near[0] * h, near[1] * h * h))))
             bits = prec + growth + _SPARE
@@ -132,6 +137,8 @@ class CoefficientField:
             if not bounds:
                 return None
             terms, rests = min((_terms(radius, sizes, h, bits) for radius, sizes in bounds), key=lambda found: found[0])
+            if terms > _TERMS * bits:  # the functions are as large as exp(bits) beside the way
+                return None
         precision = bits + growth + _SPARE
         with working_precision(precision):
             parts = self.series(centre, e, terms)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import sympy
@@ -25,6 +26,8 @@ from kovacic.enclosure.points import are_real, around_zero
 
 _MOST = 12
 """The highest order of a zero that is looked for."""
+_LONGEST = 60
+"""Coefficients of a polynomial that is moved to the middle of a ball, at most."""
 _NEAR = arb(0.5)
 _WIDER = (2.0, 1.25)
 """R/r, as tried."""
@@ -109,6 +112,15 @@ class CoefficientEvaluator(BallEvaluator):
         """A parameter is a number: log(a) with a = -2 is a constant."""
         return bool(argument.has(self.variable))
 
+    def _evaluated(self, e: Any) -> Any:
+        """A polynomial on a ball by its Taylor polynomial at the midpoint, since terms that cancel would widen it."""
+        x: Any = self.values.get(self.variable)
+        coefficients = _coefficients(e, self.variable) if e.is_Add and isinstance(x, acb) else None
+        if coefficients is None:
+            return super()._evaluated(e)
+        middle = acb(x.mid())
+        return acb_poly(list(map(self, coefficients)))(acb_poly([middle, 1]))(x - middle)
+
     def other(self, e: Any) -> Any:
         if not isinstance(e, Divided):
             return super().other(e)
@@ -165,6 +177,15 @@ class CoefficientEvaluator(BallEvaluator):
             values = {**self.values, symbol: acb_series([zero, acb(1)])}
             found = CoefficientEvaluator(values, variable=symbol)(function).coeffs()
         return [*found, *[acb(0)] * (terms - len(found))]
+
+
+@lru_cache(maxsize=1024)
+def _coefficients(e: Any, x: Any) -> list[Any] | None:
+    """Those of a polynomial of some degree from 2 on, from low to high; None for other expressions."""
+    if not e.is_polynomial(x):
+        return None
+    found: list[Any] = sympy.Poly(e, x).all_coeffs()[::-1]
+    return found if 2 < len(found) <= _LONGEST else None
 
 
 def _is_near(x: Any, zero: acb) -> bool:

@@ -43,7 +43,8 @@ class Through:
         cls, coefficients: Coefficients, x0: Number, data: tuple[Number, Number], *, chain: bool = False
     ) -> Through | None:
         """The solution with these values of y and y'; None unless t is real and the equation rational in t."""
-        if coefficients.changed is None:
+        changed: Any = coefficients.changed
+        if changed is None or getattr(changed, "letters", None):
             return None
         t = function_of_x(coefficients.changed.equation)
         x = coefficients.variable

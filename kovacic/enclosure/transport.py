@@ -31,9 +31,9 @@ from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.system import System, check_segment, distance_lower, is_apart
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
-from kovacic.enclosure.way import Local
+from kovacic.enclosure.way import MAX_DISCS, Forecast, Local
 from kovacic.errors import LimitExceeded
-from kovacic.limits import check_time, count_work, watched_seconds
+from kovacic.limits import check_time, count_work
 
 _LOG = logging.getLogger(__name__)
 
@@ -43,13 +43,9 @@ _GROWTH = 0.2  # growth of the solutions in one disc, as a share of the working 
 _MANY = 50
 # For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs
 _FEWER_BITS = 12.0
-_MAX_DISCS = 200_000
 _LARGEST_EXPONENT = 900  # of the scale of a disc whose size a double can be
 _ROUNDED = 1e-15  # more than the relative errors of doubles
 _EDGE = 1 + 2.0**-17  # a target so far from the centre, in scales, is surely within the reach of the bounds
-# steps and seconds after which the time of the others is known well enough to be foreseen
-_TRIED = 32
-_WORTH = 0.2
 
 
 @dataclass(frozen=True)
@@ -163,12 +159,13 @@ class Leg:
 
 def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
-    begun = watched_seconds(math.inf)
     split = is_split(system, prec) and not targets
     growth = growth_of_disc(prec, targets)
-    foreseen = _is_steep(system, a, b)
-    if foreseen:
-        _refuse(system, a, b, prec, 0.0)
+    # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
+    in_a_disc = 2 * (_allowed_growth(prec) + 10) * math.log(2)
+    forecast = Forecast(a, b, lambda: least_growth(system, a, b), in_a_disc)
+    if _is_steep(system, a, b):
+        forecast.refuse()
     how = ", by binary splitting" if split else ""
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
@@ -179,35 +176,13 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
             yield Leg(disc, None, multiply(stop, adjugate(start)))
         else:
             yield Leg(disc, expand(disc.frame, prec))
-        if not foreseen and number >= _TRIED:
-            used = begun - watched_seconds(math.inf)
-            if not used < _WORTH:
-                _refuse(system, a, b, prec, used / number)
-                foreseen = True
-        if number > _MAX_DISCS:
-            raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
+        forecast.check(number)
 
 
 def _is_steep(system: System, a: ExactPoint, b: ExactPoint) -> bool:
     """Would the way take too many steps if all were as short as the first one has to be?"""
     e = largest_exponent(system, a)
-    return e is not None and bool(power_of_two(2 * e) * _MAX_DISCS**2 < (b - a).norm_squared())
-
-
-def _refuse(system: System, a: ExactPoint, b: ExactPoint, prec: int, each: float) -> None:
-    """Raise as soon as it is clear that the limits don't allow all steps from a to b, of so many seconds each.
-
-    A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2: that gives the least
-    number of steps.
-    """
-    growth = least_growth(system, a, b)
-    least = growth / (2 * (_allowed_growth(prec) + 10) * math.log(2))
-    size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
-    reason = f"the solutions grow or oscillate by {size} on the way from {a} to {b}, which takes {least:.2g} steps"
-    if least > _MAX_DISCS:
-        raise LimitExceeded(f"{reason} or more, above the limit of {_MAX_DISCS}", limit="unknown_degree")
-    if each * (least - _TRIED) > watched_seconds(math.inf):
-        raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
+    return e is not None and bool(power_of_two(2 * e) * MAX_DISCS**2 < (b - a).norm_squared())
 
 
 def growth_of_disc(prec: int, targets: int) -> float:

@@ -6,6 +6,7 @@ question continues farther than to its own point, so that many questions in a ro
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_left
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
@@ -19,7 +20,12 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import watched_seconds
 
+_TRIED = 32
+_WORTH = 0.2
+"""Discs and seconds after which the time of the others is known well enough to be foreseen."""
+MAX_DISCS = 200_000
 _MOST_DISCS = 4000
 """Discs that a way keeps: some kilobytes each at 15 digits."""
 
@@ -85,6 +91,42 @@ class WayStep(Protocol):
 
     def local(self, state: State) -> Local:
         """The solution in the disc, from its state where the disc is entered."""
+
+
+@dataclass
+class Forecast:
+    """How many discs the way from a to b has at least, and whether the limits allow them.
+
+    `growth` gives int |S|^(1/2) or less on the way, `in_a_disc` is the most that one disc covers.
+    """
+
+    a: ExactPoint
+    b: ExactPoint
+    growth: Callable[[], float]
+    in_a_disc: float
+    begun: float = field(default_factory=lambda: watched_seconds(math.inf))
+    is_known: bool = False
+
+    def check(self, number: int) -> None:
+        """After so many discs: raise LimitExceeded if the time doesn't suffice for the others, as soon as that is clear."""
+        if number > MAX_DISCS:
+            raise LimitExceeded(f"the path needs more than {MAX_DISCS} steps", limit="unknown_degree")
+        used = self.begun - watched_seconds(math.inf)
+        if not self.is_known and number >= _TRIED and not used < _WORTH:
+            self.refuse(used / number)
+
+    def refuse(self, each: float = 0.0) -> None:
+        """Raise LimitExceeded if the limits don't allow all discs, of so many seconds each."""
+        self.is_known = True
+        growth = self.growth()
+        least = growth / self.in_a_disc
+        size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
+        way = f"on the way from {self.a} to {self.b}"
+        reason = f"the solutions grow or oscillate by {size} {way}, which takes {least:.2g} steps"
+        if least > MAX_DISCS:
+            raise LimitExceeded(f"{reason} or more, above the limit of {MAX_DISCS}", limit="unknown_degree")
+        if each * (least - _TRIED) > watched_seconds(math.inf):
+            raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
 
 
 def position(here: ExactPoint, x: ExactPoint) -> Any:

@@ -1,0 +1,59 @@
+"""Discs of equations with any functions: chosen by the size of all three coefficients, and foreseen where they are too many."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import numpy as np
+import pytest
+from build import bounded_work
+from scipy.integrate import solve_ivp
+
+import kovacic
+
+BUMPS = [
+    "exp(-x^2)",
+    "exp(-(x-5)^2)",
+    "erf(1/(x^2-2*x+2))",
+    "1/(1 + 25*(x-3)^2)",
+    "exp(-x^4/9)",
+    "sin(x^2/9)*exp(-x/5)",
+]
+
+
+def integrated(b: str, c: str, f: str, stops: list[float]) -> list[float]:
+    from scipy.special import erf
+
+    names = {"exp": np.exp, "sin": np.sin, "cos": np.cos, "erf": erf, "tanh": np.tanh}
+    code = [compile(part.replace("^", "**"), "equation", "eval") for part in (b, c, f)]
+
+    def slope(x: float, state: Any) -> list[float]:
+        b_value, c_value, f_value = (eval(part, names | {"x": x}) for part in code)
+        return [state[1], f_value - b_value * state[1] - c_value * state[0]]
+
+    return list(solve_ivp(slope, (0, stops[-1]), [1, 0], "DOP853", t_eval=stops, rtol=1e-10, atol=1e-12).y[0])
+
+
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.long) for seed in range(1, 8))])
+def test_bumps_are_passed_in_few_discs(seed: int) -> None:
+    rng = random.Random(seed)
+    b, c, f = rng.choice(["0", "tanh(x)"]), rng.choice(["1", "2 + cos(x)", *BUMPS]), rng.choice([*BUMPS, "0"])
+    equation = f"y'' + ({b})*y' + ({c})*y = {f}"
+    stops = [1.0, 2.0, 25.0]
+    with bounded_work(60_000):
+        found = kovacic.evaluate(equation, stops, x0=0, y0=1, dy0=0)
+        table = kovacic.tabulate(equation, 0, 25, x0=0, y0=1, dy0=0)
+    others = integrated(b, c, f, stops)
+    size = max(1.0, *map(abs, others))
+    for stop, ball, other in zip(stops, found, others, strict=True):
+        assert abs(float(ball) - other) < 1e-7 * size, equation
+        assert abs(table(stop) - float(ball)) < 1e-12 * size, equation
+
+
+@pytest.mark.parametrize(
+    ("equation", "x"), [("y'' + exp(x^2)*y = 0", 7), ("y'' + exp(exp(x))*y = 0", 5), ("y'' + exp(x)*y = x", 40)]
+)
+def test_too_many_discs_are_foreseen(equation: str, x: int) -> None:
+    with bounded_work(100), pytest.raises(kovacic.LimitExceeded, match=r"takes .* steps or more"):
+        kovacic.evaluate(equation, x, x0=0, y0=1, dy0=0)
