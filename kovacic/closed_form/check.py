@@ -148,7 +148,7 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
     # Legendre's Q_60 is the difference of two terms that agree in a hundred digits; hence the repetitions.
     for digits in (DIGITS + 15, 3 * DIGITS, 8 * DIGITS, 24 * DIGITS, 96 * DIGITS):
         check_time()
-        with ctx.workdps(digits):
+        with working_digits(digits):
             value = residual(expression, variable, S, gauge, check_point())
             bound = arb(10) ** -DIGITS
             if value < bound or value > bound:  # neither holds for a ball that contains the bound

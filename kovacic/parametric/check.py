@@ -14,11 +14,12 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 import sympy
-from flint import acb, ctx, fmpq
+from flint import acb, fmpq
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Status
@@ -184,7 +185,7 @@ def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any])
         x = user_variable(equation)
         t = function_of_x(equation).xreplace(values)
     try:
-        with ctx.workprec(_PRECISION):
+        with working_precision(_PRECISION):
             return not residual_in(y, x, t, S, equation.gauge, acb(fmpq(13, 7))).contains(0)
     except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
         return False

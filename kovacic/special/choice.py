@@ -23,6 +23,7 @@ from flint import acb, arb, ctx, fmpq
 from sympy import Integral, Symbol
 
 from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.check import check_point
@@ -195,14 +196,14 @@ class _Equation:
         den = self.S.den
         if not isinstance(den, RationalPoly):
             return True
-        with ctx.workdps(_DIGITS):
+        with working_digits(_DIGITS):
             point = _middle_of_the_domain(den)
             return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
 
 
 def _are_independent(pair: ClosedForm) -> bool:
     """Is the Wronskian known not to be zero at a point?"""
-    with ctx.workdps(_DIGITS):
+    with working_digits(_DIGITS):
         y, dy, _ = jet(pair.y1, pair.variable, check_point())
         z, dz, _ = jet(pair.y2, pair.variable, check_point())
         W = y * dz - dy * z

@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import arb
 
-from kovacic.enclosure.points import working_precision
+from kovacic.algebra.precision import working_precision
 from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.ends import CutEnd, End
 from kovacic.sturm_liouville.problem import Span, SturmProblem

@@ -10,17 +10,16 @@ there is one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import mul
 from typing import Any
 
 import sympy
-from flint import acb, acb_series, arb, ctx
+from flint import acb, acb_series, arb
 
+from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.balls import BallEvaluator
-from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball
@@ -97,20 +96,9 @@ def _sign(value: Any) -> int:
     return int(value > 0) - int(value < 0)
 
 
-@contextmanager
-def series_of(terms: int) -> Iterator[None]:
-    """With so many terms."""
-    before = ctx.cap
-    ctx.cap = terms
-    try:
-        yield
-    finally:
-        ctx.cap = before
-
-
 def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
     """The Taylor coefficients of e about x0, without zeros at the end.  Raises `InputError` where they aren't real."""
-    with series_of(terms):
+    with series_length(terms):
         try:
             value = BallEvaluator({x: acb_series([acb(x0), 1])})(e)
         except (ValueError, ZeroDivisionError) as error:

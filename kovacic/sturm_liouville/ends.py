@@ -17,8 +17,8 @@ from typing import Any
 import sympy
 from flint import acb, arb, ctx
 
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator
-from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.sturm_liouville.bounds import lower_bound
 from kovacic.sturm_liouville.discs import coefficients, size

@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import arb
 
-from kovacic.enclosure.points import working_precision
+from kovacic.algebra.precision import working_precision
 from kovacic.sturm_liouville.count import Reading
 from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball

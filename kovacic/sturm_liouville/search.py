@@ -12,8 +12,8 @@ from typing import Any
 
 from flint import arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, finite_ball
-from kovacic.enclosure.points import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 from kovacic.sturm_liouville.levels import Level

@@ -9,8 +9,8 @@ from typing import Any
 
 from flint import arb
 
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator
-from kovacic.enclosure.points import working_precision
 from kovacic.sturm_liouville.count import SeparatedCounter
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
 from kovacic.sturm_liouville.hill import PeriodicCounter
