@@ -714,3 +714,44 @@ def test_the_numbers_of_finitely_many_levels_are_listed(V: str, numbers: Any) ->
     assert found.levels[0].members == numbers
     if numbers:
         assert f"n = {', '.join(map(str, numbers))}\n" in found.text()
+
+
+@parametrize(
+    ("V", "options", "values"),
+    [
+        ("x^2", {}, None),
+        ("10*(exp(-2*x) - 2*exp(-x))", {}, None),
+        ("l*(l+1)/x^2 - Z/x", {"domain": HALF, "assume": {"l": ">=1", "Z": "positive"}}, {"l": 1, "Z": 2}),
+        ("0", {"domain": (0, 1)}, None),
+        ("x^6 - 15*x^2", {}, None),
+        ("2/x^2 - 4/x^3 + 1/x^4", {"domain": HALF}, None),
+        ("3/sin(x)^2", {"domain": (0, "pi")}, None),
+    ],
+    ordinary=1,
+)
+def test_pictures_show_each_level_at_its_height(V: str, options: Any, values: Any) -> None:
+    """What the legend names is drawn: the potential, and for each energy a multiple of its wave function above it."""
+    found = kovacic.spectrum(V, **options)
+    axes = found.plot(values, count=3).axes[0]
+    states = found.states(values, count=3)[:3]
+    curves = {line.get_label(): line.get_xydata() for line in axes.lines if not line.get_label().startswith("_")}
+    x = sympy.Symbol("x")
+    at = {sympy.Symbol(name): value for name, value in (values or {}).items()}
+    assert len(curves) == len(states) + 1
+    for state in states:
+        (drawn,) = (data for label, data in curves.items() if label.startswith(f"E_{state.number} ="))
+        points = drawn[100::200]
+        wanted = [float(sympy.re(state.wave.subs(x, a))) for a, _ in points]
+        heights = [b - float(state.energy) for _, b in points]
+        largest = max(range(len(points)), key=lambda k: abs(wanted[k]))
+        scale = heights[largest] / wanted[largest]
+        assert all(abs(h - scale * w) < 1e-9 * abs(heights[largest]) for h, w in zip(heights, wanted, strict=True))
+    for a, b in curves["V(x)"][100::200]:
+        assert abs(b - float(found.potential.subs(at).subs(x, a))) < 1e-9 * (1 + abs(b))
+
+
+def test_the_command_draws_the_levels(tmp_path: Any) -> None:
+    assert run(["spectrum", "x^2", "--plot", str(tmp_path / "levels.png")]) == 0
+    assert (tmp_path / "levels.png").read_bytes()[1:4] == b"PNG"
+    with pytest.raises(kovacic.InputError, match="no level is known"):
+        kovacic.spectrum("x^4").plot()

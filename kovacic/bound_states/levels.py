@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import sympy
 
 from kovacic.bound_states.zeros import levels_of, zeros_inside
-from kovacic.errors import InputError
+from kovacic.errors import InputError, needs
 from kovacic.exact import exact_text, whole
 from kovacic.numerals import as_latex, as_text
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
@@ -19,8 +19,13 @@ from kovacic.reading.symbolic import read_expression
 from kovacic.shown import json_line, latex, visible
 from kovacic.writing.formula import caret
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 #: The n that are tried for a potential without parameters: more levels than that are shown by their condition.
 _MOST = 200
+#: Longer exact energies are drawn as decimals.
+_SHORT = 12
 #: So many n are listed one by one.
 _LISTED = 6
 
@@ -219,6 +224,57 @@ class Spectrum:
             found.update((state.energy, state) for state in states)
         return tuple(sorted(found.values(), key=lambda state: state.energy))
 
+    def plot(self, values: Mapping[Any, Any] | None = None, count: int = 5) -> Figure:
+        """The potential, the lowest levels at their heights, and the wave functions on them.
+
+        Parameters
+        ----------
+        values : mapping
+            A real number for each parameter, by name; needed where there are parameters.
+        count : int
+            The most levels: 5 by default.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Functions are scaled to one height.  Raises `InputError` where no level is known, and `MissingExtra` without
+            Matplotlib and NumPy.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> figure = kovacic.spectrum("x^2").plot(count=3)
+        >>> [line.get_label() for line in figure.axes[0].lines[1::2]]
+        ['E_0 = 1', 'E_1 = 3', 'E_2 = 5']
+        """
+        with needs("plot", "a picture"):
+            import matplotlib  # noqa: F401
+        with needs("numeric", "a picture"):
+            import scipy  # noqa: F401
+
+            from kovacic.bound_states.picture import DrawnLevel, draw_levels
+        states = self.states(values, count)[:count]
+        if not states:
+            raise InputError("no level is known that could be drawn")
+        at = self._symbols_at(values or {})
+        x = sympy.Symbol(self.variable)
+
+        def function(expression: Any) -> Callable[[Any], Any]:
+            return cast(Callable[[Any], Any], sympy.lambdify(x, sympy.N(expression.xreplace(at), 17), "scipy"))
+
+        levels = [
+            DrawnLevel(float(s.energy), function(s.wave), f"{self.energy}_{s.number} = {_drawn(s.energy)}")
+            for s in states
+        ]
+        first, last = (float(end.xreplace(at)) for end in self.domain)
+        return draw_levels(
+            function(self.potential), levels, (first, last), variable=self.variable, title=self._title(at)
+        )
+
+    def _title(self, at: Mapping[Any, Any]) -> str:
+        kinetic = "" if self.kinetic == 1 else f"{_text(self.kinetic.xreplace(at))} "
+        return f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential.xreplace(at))}"
+
     def _check_admitted(self, at: Mapping[Any, Any]) -> None:
         """Raises `InputError` for values that the spectrum excludes."""
         for relation in self.excluded:
@@ -391,6 +447,12 @@ class Spectrum:
         True
         """
         return json_line(self.to_dict())
+
+
+def _drawn(energy: Any) -> str:
+    """Exact where that is short."""
+    text = _text(energy)
+    return text if len(text) <= _SHORT else f"{float(energy):.6g}"
 
 
 def _is_admitted(known: Known, value: Any) -> bool:

@@ -163,9 +163,12 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @options.ASSUME
 @click.option("--boundary", type=click.Choice(["friedrichs"]), help="The smaller solution, where one must be chosen.")
 @click.option("--max-degree", default=2, show_default=True, help="Quasi-exactly solvable levels up to this degree d.")
+@click.option(
+    "--plot", "picture", metavar="FILE", help="Draw the potential with its lowest levels to a file (png, pdf, svg)."
+)
 @options.formats(json="One line of JSON.", latex="A LaTeX formula.")
 @options.LIMIT
-def spectrum(potential: str, start: str, stop: str, form: str, **given: Any) -> int:
+def spectrum(potential: str, start: str, stop: str, form: str, picture: str | None, **given: Any) -> int:
     """For which energies E has -y'' + V y = E y a square integrable solution?
 
     \b
@@ -182,4 +185,6 @@ def spectrum(potential: str, start: str, stop: str, form: str, **given: Any) -> 
         print(answer.latex())
     else:
         print(options.fitted(answer.text(shell=True)))
+    if picture is not None:
+        answer.plot().savefig(picture)
     return DECIDED if answer.is_decided else UNDECIDED

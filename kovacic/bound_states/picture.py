@@ -1,0 +1,112 @@
+"""The picture of every textbook: a potential, its levels at their heights, and the wave functions on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Function = Callable[[Any], Any]
+#: Sample points of a curve.
+_POINTS = 1201
+#: A wave function is drawn as far as it exceeds this part of its greatest modulus.
+_TAIL = 0.03
+#: The largest distance at which the end of the tails is looked for.
+_FAR = 4096.0
+#: Wave functions are this part of the mean distance of two levels high.
+_HEIGHT = 0.45
+
+
+@dataclass(frozen=True)
+class DrawnLevel:
+    """A level at its height: a real function of x for arrays, of any scale, and what the legend says."""
+
+    energy: float
+    wave: Function
+    label: str
+
+
+def draw_levels(
+    potential: Function,
+    levels: Sequence[DrawnLevel],
+    domain: tuple[float, float],
+    *,
+    variable: str = "x",
+    title: str = "",
+) -> Figure:
+    """The potential and the levels, lowest first, where the wave functions are visible.
+
+    Parameters
+    ----------
+    potential : callable
+        V for arrays; values that aren't finite leave a gap.
+    levels : sequence of DrawnLevel
+        At least one.
+    domain : pair of floats
+        Its ends, -inf and inf among them.
+    variable, title : str
+        For the axis, and above the picture.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    from matplotlib.figure import Figure
+
+    first, last = _window(levels, domain)
+    x = np.linspace(first, last, _POINTS)[1:-1]
+    energies = [level.energy for level in levels]
+    spread = (max(energies) - min(energies)) / max(len(levels) - 1, 1) or max(abs(energies[0]), 1.0)
+    figure = Figure(figsize=(8, 5.5), layout="constrained")
+    axes = figure.add_subplot()
+    V = _values(potential, x)
+    axes.plot(x, V, color="black", lw=1.4, label=f"V({variable})")
+    for level in levels:
+        y = _values(level.wave, x)
+        y = y / np.nanmax(np.abs(y)) * _HEIGHT * spread
+        (line,) = axes.plot(x, level.energy + y, lw=1.3, label=level.label)
+        axes.fill_between(x, level.energy, level.energy + y, color=line.get_color(), alpha=0.15, lw=0)
+        axes.axhline(level.energy, color=line.get_color(), lw=0.7, ls="--")
+    bottom = min(min(energies) - spread, _lowest(V, min(energies), spread))
+    axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, max(energies) + spread), title=title)
+    axes.legend(loc="upper right", fontsize=9)
+    return figure
+
+
+def _lowest(V: Any, ground: float, spread: float) -> float:
+    """The least value of V, but not far below the ground state, where V isn't bounded below."""
+    finite = V[np.isfinite(V)]
+    return float(max(finite.min() - 0.1 * spread, ground - 6 * spread)) if finite.size else ground
+
+
+def _values(function: Function, x: Any) -> Any:
+    """The real values, NaN where they aren't finite."""
+    with np.errstate(all="ignore"):
+        values = np.real(np.broadcast_to(np.asarray(function(x), dtype=complex), x.shape)).astype(float)
+    return np.where(np.isfinite(values), values, np.nan)
+
+
+def _window(levels: Sequence[DrawnLevel], domain: tuple[float, float]) -> tuple[float, float]:
+    """The part of the domain outside of which no wave function is visible."""
+    first, last = domain
+    centre = first if np.isfinite(first) else (last if np.isfinite(last) else 0.0)
+    distance = 1.0
+    while True:
+        low = max(first, centre - distance)
+        high = min(last, centre + distance)
+        x = np.linspace(low, high, 4 * _POINTS)[1:-1]
+        sizes = [np.nan_to_num(np.abs(_values(level.wave, x))) for level in levels]
+        visible = [x[size > _TAIL * size.max()] for size in sizes]
+        left = min(part[0] for part in visible if part.size)
+        right = max(part[-1] for part in visible if part.size)
+        step = (high - low) / 50
+        is_inside = (left > low + step or low == first) and (right < high - step or high == last)
+        if is_inside or distance >= _FAR:
+            margin = 0.15 * (right - left)
+            return max(left - margin, first), min(right + margin, last)
+        distance *= 2
