@@ -138,3 +138,47 @@ def test_close_pairs_of_a_double_well_are_told_apart():
     assert all(level.alone for level in found)
     assert not found[0].value.overlaps(found[1].value)
     assert 0 < float(found[1].value - found[0].value) < 2e-16
+
+
+def test_spectrum_has_numeric_levels_beside_formulas_or_without():
+    quartic = kovacic.spectrum("x^4", levels=2, digits=10)
+    assert [level.zeros for level in quartic.numeric] == [0, 1]
+    assert quartic.to_dict()["numeric"]["levels"][0]["value"]["re"].startswith("1.0603620904")
+    assert "E = 1.060362" in str(quartic)
+    half_line = kovacic.spectrum("x^2", domain=HALF_LINE, levels=1, digits=10)  # with Friedrichs' condition, 4 n + 3
+    assert half_line.numeric[0].value.contains(3)
+    kink = kovacic.spectrum("abs(x)", levels=1, digits=8)
+    assert abs(float(kink.numeric[0].value) - 1.018792971647) < 1e-8
+    assert kovacic.spectrum("-x^4", levels=1).numeric.notes == ("a boundary condition is needed",)
+    with pytest.raises(kovacic.InputError, match="values of g"):
+        kovacic.spectrum("g*x^4", levels=1)
+
+
+def test_the_command_prints_levels_and_reports_failure(capsys):
+    from kovacic.cli.main import run
+
+    assert run(["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(pi)=0", "--count", "2"]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert len(printed) == 2
+    assert printed[0].startswith(("lambda = 1.0000000", "lambda = 0.9999999"))
+    assert run(["eigenvalues", "-y'' - cosh(x)*y = E*y", "--parameter", "E"]) == 2
+    arguments = ["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(1)=0", "--count", "1", "--json"]
+    assert run(arguments) == 0
+    assert '"zeros": 0' in capsys.readouterr().out
+
+
+def test_an_interrupted_command_prints_what_it_has_found(capsys, monkeypatch):
+    from kovacic.cli.main import INTERRUPTED, run
+    from kovacic.sturm_liouville.solve import Eigenproblem
+
+    whole = Eigenproblem.levels
+
+    def interrupted(self, count, digits):
+        for number, level in enumerate(whole(self, count, digits)):
+            if number == 1:
+                raise KeyboardInterrupt
+            yield level
+
+    monkeypatch.setattr(Eigenproblem, "levels", interrupted)
+    assert run(["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(1)=0"]) == INTERRUPTED
+    assert capsys.readouterr().out.startswith("lambda = 9.8696")

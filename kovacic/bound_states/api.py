@@ -27,6 +27,7 @@ from kovacic.bound_states.letters import between, in_their_meanings, with_named_
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.liouvillian import with_closed_forms
 from kovacic.bound_states.norms import norm_of
+from kovacic.bound_states.numeric import unsolved, with_numbers
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
 from kovacic.bound_states.quasi import (
@@ -39,7 +40,7 @@ from kovacic.bound_states.quasi import (
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, read_question
 from kovacic.bound_states.ranges import tidied
 from kovacic.equation import ENERGY
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
 from kovacic.numerals import as_text
@@ -72,6 +73,8 @@ def spectrum(
     assume: Mapping[Any, Any] | None = None,
     boundary: str | None = None,
     max_degree: int = DEFAULT_DEGREE,
+    levels: int | None = None,
+    digits: int = 15,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Spectrum:
     """The energies E for which -y'' + V y = E y has a square integrable solution, with the solutions.
@@ -97,6 +100,11 @@ def spectrum(
         solutions oscillate at an end no condition is distinguished, and there is no spectrum without one.
     max_degree : int
         Of a quasi-exactly solvable potential, the levels with a polynomial of at most this degree are given; 2 by default.
+    levels : int, optional
+        So many of the lowest levels are computed as proven numbers, `numeric` of the answer: for a potential without
+        parameters, which may then be any elementary function, abs(x), cosh(x) - x^2.
+    digits : int
+        Proven digits of these.
     limits : Limits
         Bounds on the input and on the work.
 
@@ -129,6 +137,8 @@ def spectrum(
     >>> quartic = kovacic.spectrum("x^4")
     >>> quartic.complete, quartic.closed_forms_complete, quartic.levels
     (False, True, ())
+    >>> print(kovacic.spectrum("x^4", levels=1, digits=10).numeric)
+    E = 1.06036209048 ± 3.1e-11  (0 zeros)
 
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
@@ -150,10 +160,16 @@ def spectrum(
             limits=limits,
             kinetic=read.kinetic,
         )
-        return read.physical(found)
-    return _spectrum(
-        V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, max_degree=most, limits=limits
-    )
+        return with_numbers(read.physical(found), levels, digits, limits)
+    try:
+        found = _spectrum(
+            V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, max_degree=most, limits=limits
+        )
+    except NotRational as reason:
+        if levels is None:
+            raise
+        found = unsolved(V, domain, energy, var, reason)
+    return with_numbers(found, levels, digits, limits)
 
 
 def _spectrum(

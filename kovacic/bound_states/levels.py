@@ -151,6 +151,10 @@ class Spectrum:
         The boundary condition that was given.
     notices : tuple of str
         What was noticed at reading: which name is the variable.
+    numeric : Eigenvalues
+        The lowest levels as proven numbers, if `levels` was given: a sequence, each with its `value` and its `zeros`.
+    numeric : Eigenvalues
+        The lowest levels as proven numbers, if `levels` was given: a sequence, each with its `value` and its `zeros`.
     hint, shell : str
         What to give beside for an answer, in Python and at the command line; empty where nothing helps.
     kinetic : sympy.Expr
@@ -175,6 +179,7 @@ class Spectrum:
     hint: str = ""
     shell: str = ""
     kinetic: Any = sympy.S.One
+    numeric: Any = ()
 
     @property
     def needs_boundary_condition(self) -> bool:
@@ -326,6 +331,7 @@ class Spectrum:
         for algebraic in self.algebraic:
             lines += _algebraic_lines(algebraic, self.energy)
         lines += [f"  {line}" for line in self._conclusion]
+        lines += [f"  {line}" for line in str(self.numeric).splitlines() if self.numeric != ()]
         hint = self.shell if shell else self.hint
         if hint:
             lines.append(f"  hint: {hint}")
@@ -410,6 +416,7 @@ class Spectrum:
         >>> oscillator.to_dict()["levels"][0]["energy"]
         '2*n + 1'
         """
+        numeric = {} if self.numeric == () else {"numeric": self.numeric.to_dict()}
         return {
             "potential": _text(self.potential),
             "kinetic": _text(self.kinetic),
@@ -428,6 +435,7 @@ class Spectrum:
             "reason": self.reason,
             "notices": [*self.notices],
             "hint": self.hint,
+            **numeric,
         }
 
     def to_json(self) -> str:

@@ -124,7 +124,7 @@ def read_question(
     with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True)
     S, parsed, of_parameters = with_values(given.S, with_parameters, assume, limits)
     assumed = assumed_of_letters(of_parameters, parsed.letters)
-    ends = [_read_end(value) for value in domain]
+    ends = [read_end(value) for value in domain]
     names = _names(parsed, ends, variable=variable.name, energy=energy)
     known = read_assumptions(assumed, V, names)
     for constant in _constants(given.expression, names):
@@ -211,7 +211,7 @@ def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:
     return {name: value for name, value in meanings.items() if name in names and name not in symbols}
 
 
-def _read_end(value: Any) -> Any:
+def read_end(value: Any) -> Any:
     """An end of the domain, a number, an expression or infinite.  Raises `InputError` for anything else."""
     text = exact_text(value, "an end of the domain")
     if text in _INFINITE:

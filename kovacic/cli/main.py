@@ -35,6 +35,7 @@ COMMANDS = {
     "explain": ("equations", "The derivation, step by step, as a reader of Kovacic's paper follows it."),
     "conditions": ("values", "For which values of the parameters do Liouvillian solutions exist?"),
     "spectrum": ("values", "Which energies? The bound states of a potential, with wave functions and norms."),
+    "eigenvalues": ("eigenvalues", "Eigenvalues of boundary problems, as proven numbers."),
     "batch": ("many", "Decide many equations from a file, in parallel, with a result for every line."),
     "scan": ("many", "Tabulate the case over a grid of parameter values."),
     "check": ("equations", "Prove answers in JSON anew, by a program that shares no code with this one."),

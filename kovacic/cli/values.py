@@ -166,6 +166,10 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @click.option(
     "--plot", "picture", metavar="FILE", help="Draw the potential with its lowest levels to a file (png, pdf, svg)."
 )
+@click.option(
+    "--levels", type=click.IntRange(min=1), metavar="N", help="The N lowest levels as proven numbers besides."
+)
+@click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits of these.")
 @options.formats(json="One line of JSON.", latex="A LaTeX formula.")
 @options.LIMIT
 def spectrum(potential: str, start: str, stop: str, form: str, picture: str | None, **given: Any) -> int:
@@ -187,4 +191,4 @@ def spectrum(potential: str, start: str, stop: str, form: str, picture: str | No
         print(options.fitted(answer.text(shell=True)))
     if picture is not None:
         answer.plot().savefig(picture)
-    return DECIDED if answer.is_decided else UNDECIDED
+    return DECIDED if answer.is_decided or answer.numeric else UNDECIDED

@@ -104,6 +104,8 @@ def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
         except (ValueError, ZeroDivisionError) as error:
             raise not_analytic(x, x0) from error
         found = list(value) if isinstance(value, acb_series) else [value]
+    if not all(c.is_finite() for c in found):
+        raise not_analytic(x, x0)
     if not all(c.imag.is_zero() for c in found):
         raise InputError(f"{e} isn't known to be real near {x} = {x0.mid().str(8, radius=False)}")
     real = [c.real for c in found]

@@ -275,13 +275,13 @@ def end_of(problem: SturmProblem, side: int) -> End:
     at = problem.ends[side]
     wish = problem.conditions[side]
     inwards = 1 - 2 * side
-    if isinstance(wish, Robin) and not wish.is_zero and not _is_regular(piece, problem, at):
+    if isinstance(wish, Robin) and not wish.is_zero and not is_regular(piece, problem, at):
         raise InputError(
             f"at {problem.x} = {at} the condition is y = 0, or that y is bounded: there is no value of y' there"
         )
     if at.is_infinite:
         return _infinite_end(problem.x, piece, at, inwards)
-    if _is_regular(piece, problem, at):
+    if is_regular(piece, problem, at):
         if not isinstance(wish, Robin):
             raise InputError(f"a condition is needed at {problem.x} = {at}", hint=f'for example "y({at}) = 0"')
         slope = problem.slope(at) if wish.beta != 0 else 0
@@ -301,7 +301,8 @@ def _reduced(e: Expr, t: Expr) -> Expr:
     return plain(e, t) if e.is_rational_function(t) else sympy.expand(e)
 
 
-def _is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
+def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
+    """Is an end a point at which the coefficients are analytic?"""
     if at.is_infinite:
         return False
     with working_precision(64):

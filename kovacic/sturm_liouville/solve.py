@@ -93,11 +93,13 @@ class Eigenproblem:
             self._found.append(found)
             yield found
 
-    def answer(self) -> Eigenvalues:
-        """The levels found so far, and what is known about them."""
-        return Eigenvalues(
-            tuple(self._found), self.search.complete, self.parameter, (*self.notes, *self._said()), self.problem
-        )
+    def answer(self, reason: str = "") -> Eigenvalues:
+        """The levels found so far, what is known about them, and the reason why there aren't more."""
+        found = tuple(self._found)
+        if reason:
+            return Eigenvalues(found, False, self.parameter, (*self.notes, reason), self.problem)
+        notes = (*self.notes, *self._said())
+        return Eigenvalues(found, self.search.complete, self.parameter, notes, self.problem)
 
     def _said(self) -> Iterator[str]:
         """What was assumed, and what isn't proven."""
