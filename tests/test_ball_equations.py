@@ -71,6 +71,13 @@ def test_a_wrong_term_in_a_printed_formula_is_seen(key, name, monkeypatch):
     assert not all(vanishes(part) for _, parts in residuals() for part in parts)
 
 
+def test_the_equations_of_motion_are_derived():
+    """(7): the one for u enters nothing else."""
+    found = dict(residuals())["(7)"]
+    assert len(found) == 3
+    assert all(map(vanishes, found))
+
+
 @pytest.mark.long
 def test_the_equations_of_a_ball_are_the_printed_ones():
     """`BallOnSphere` has its own short formulas; here for all parameters."""

@@ -119,8 +119,9 @@ class RollingBall:
 
     Examples
     --------
-    >>> RollingBall(m=1, R=2, a=0, A1=2, A3=1).on_sphere(R1=3).ratio
-    2/3
+    >>> body = RollingBall(m=1, R=2, a=0, A1=2, A3=1)
+    >>> body.on_sphere(R1=3).ratio, body.on_sphere(R1=-5).ratio, body.on_plane().ratio
+    (2/3, -2/5, 0)
     >>> RollingBall(m=1, R=1, a=0, A1="1/5", A3="1/2")
     Traceback (most recent call last):
     kovacic.errors.InputError: there is no such body: A3 <= 2 A1 fails, as 1/2 > 2/5
@@ -171,13 +172,6 @@ class RollingBall:
         ------
         InputError
             For 0, and for a ball that doesn't fit inside.
-
-        Examples
-        --------
-        >>> from kovacic.ball import RollingBall
-        >>> place = RollingBall(m=1, R=1, a=0, A1="2/5", A3="2/5").on_sphere(2)
-        >>> print(place.ratio)
-        1/2
         """
         radius = exact(R1, "R1")
         if radius == 0:
@@ -194,12 +188,6 @@ class RollingBall:
         -------
         BallOnSphere
             With the ratio R/R1 = 0.
-
-        Examples
-        --------
-        >>> from kovacic.ball import RollingBall
-        >>> print(RollingBall(m=1, R=1, a=0, A1="2/5", A3="2/5").on_plane().ratio)
-        0
         """
         return self._rolling(sp.oo)
 
@@ -271,11 +259,6 @@ class InRoots(Rolling):
     ----------
     rho : sympy.Expr
         R/R1.
-
-    Examples
-    --------
-    >>> print(InRoots(sp.Rational(1, 2)).ratio)
-    1/2
     """
 
     def __init__(self, rho: sp.Expr) -> None:

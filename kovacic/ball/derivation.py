@@ -132,9 +132,16 @@ def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
     return sp.Matrix([W[2, 1], W[0, 2], W[1, 0]])
 
 
-#: As printed: the surface, from the centre of mass, and e_u, e_v, e_n as columns, both in the axes of the ball.
-_ON_BALL = sp.Matrix([PRINTED["8"][name] for name in ("x", "y", "z")])
-_FRAME = sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
+def _surface() -> Any:
+    """The printed surface, from the centre of mass."""
+    return sp.Matrix([PRINTED["8"][name] for name in ("x", "y", "z")])
+
+
+def _frame() -> Any:
+    """The printed direction cosines: e_u, e_v, e_n as columns in the axes of the ball."""
+    return sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
+
+
 _BALL_CLOCK = {u: du, v: dv}
 _SPHERE_CLOCK = {u1: du1, v1: dv1, theta: dtheta}
 
@@ -142,10 +149,11 @@ _SPHERE_CLOCK = {u1: du1, v1: dv1, theta: dtheta}
 def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
     """(8) and (1): the surface is a sphere about its centre; its fundamental forms; the direction cosines."""
     forms = PRINTED["8"]
-    r_u = _ON_BALL.diff(u)
-    r_v = _ON_BALL.diff(v)
-    e_u, e_v, e_n = (_FRAME[:, k] for k in range(3))
-    from_centre = _ON_BALL - sp.Matrix([0, 0, a])
+    r = _surface()
+    r_u = r.diff(u)
+    r_v = r.diff(v)
+    e_u, e_v, e_n = (_frame()[:, k] for k in range(3))
+    from_centre = r - sp.Matrix([0, 0, a])
     first = [r_u.dot(r_u) - forms["E"], r_u.dot(r_v), r_v.dot(r_v) - forms["G"]]
     second = [r_u.diff(u).dot(e_n) - forms["L"], r_u.diff(v).dot(e_n), r_v.diff(v).dot(e_n) - forms["N"]]
     yield "(8)", [from_centre.dot(from_centre) - R**2, *first, *second]
@@ -156,19 +164,20 @@ def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
 def _kinematics() -> Iterator[tuple[str, list[Any]]]:
     """(2), (4) and (5)."""
     five = PRINTED["5"]
+    c = _frame()
     rolling = {du1: PRINTED["2"]["u1'"], dv1: PRINTED["2"]["v1'"]}
     # The frame at the contact point as (u1, v1, theta) tell it: the meridian and the circle on the sphere, turned by theta.
     out = sp.Matrix([sin(u1) * cos(v1), sin(u1) * sin(v1), cos(u1)])
     south = out.diff(u1)
     east = sp.Matrix([-sin(v1), cos(v1), 0])
     in_space = sp.Matrix.hstack(-sin(theta) * south + cos(theta) * east, cos(theta) * south + sin(theta) * east, -out)
-    slip = _FRAME.T * rate(_ON_BALL, _BALL_CLOCK) - in_space.T * rate(R1 * out, _SPHERE_CLOCK)
+    slip = c.T * rate(_surface(), _BALL_CLOCK) - in_space.T * rate(R1 * out, _SPHERE_CLOCK)
     yield "(2)", list(slip.xreplace(rolling))
-    in_frame = _turning(in_space, _SPHERE_CLOCK) - _turning(_FRAME, _BALL_CLOCK)
+    in_frame = _turning(in_space, _SPHERE_CLOCK) - _turning(c, _BALL_CLOCK)
     along = in_frame[0].xreplace(rolling) - five["tau"] * dv
     across = in_frame[1].xreplace(rolling) - five["sigma"] * du
     yield "(5)", [along, across, in_frame[2] - five["n"]]
-    omega = _FRAME * sp.Matrix([tau * dv, sigma * du, n])
+    omega = c * sp.Matrix([tau * dv, sigma * du, n])
     yield "(4)", [omega[i] - PRINTED["4"][f"omega_{i + 1}"] for i in range(3)]
 
 
@@ -176,18 +185,20 @@ def _dynamics() -> Iterator[tuple[str, list[Any]]]:
     """(3) with (6), and (7)."""
     five = PRINTED["5"]
     K = PRINTED["6"]
+    r = _surface()
+    c = _frame()
     energy = K["K11"] * du**2 + K["K22"] * dv**2 + 2 * K["K23"] * dv * n + K["K33"] * n**2  # 2 Theta
     # (3) and (4), in the axes of the ball.
     omega = sp.Matrix([PRINTED["4"][f"omega_{i}"] for i in (1, 2, 3)]).xreplace(
         {tau: five["tau"], sigma: five["sigma"]}
     )
-    w = omega.cross(_ON_BALL)
+    w = omega.cross(r)
     yield "(3), (6)", [m * w.dot(w) + A1 * (omega[0] ** 2 + omega[1] ** 2) + A3 * omega[2] ** 2 - energy]
     # In the frame, where v doesn't occur.
     omega = sp.Matrix([five["tau"] * dv, five["sigma"] * du, n])
-    turning = omega + _turning(_FRAME, _BALL_CLOCK)
-    axis = _FRAME.T * sp.Matrix([0, 0, 1])
-    velocity = (_FRAME.T * _ON_BALL).cross(omega)
+    turning = omega + _turning(c, _BALL_CLOCK)
+    axis = c.T * sp.Matrix([0, 0, 1])
+    velocity = (c.T * r).cross(omega)
     momentum = A1 * omega + (A3 - A1) * omega.dot(axis) * axis
     clock = {u: du, du: ddu, dv: ddv, n: dn}
     force, moment = (rate(vector, clock) + turning.cross(vector) for vector in (m * velocity, momentum))
@@ -213,7 +224,11 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
     first = nine["a1"] * n + nine["b1"] * dv - (sp.diff(K["K23"], u) * n + sp.diff(K["K22"], u) * dv)
     second = nine["a2"] * n + nine["b2"] * dv - (sp.diff(K["K33"], u) * n + sp.diff(K["K23"], u) * dv)
     yield "(10)", [ten["a1'"] * n + ten["b1'"] * dv - first, ten["a2'"] * n + ten["b2'"] * dv - second]
-    p = {name: value.xreplace({D: _D}) for key in ("system", "11") for name, value in PRINTED[key].items()}
+    p = {
+        name: value.xreplace({D: PRINTED["system"]["D"]})
+        for key in ("system", "11")
+        for name, value in PRINTED[key].items()
+    }
     # v' from the third of (4), in which c23 = 0.
     slope = (cos(u) * n - w3) / (PRINTED["5"]["tau"] * sin(u))
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
@@ -231,7 +246,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
 
 def _in_the_roots() -> Iterator[tuple[str, list[Any]]]:
     """(12) and (13): the roots in place of m and a; their sum gives a, and their product is linear in 1/m."""
-    p = {name: value.xreplace({D: _D}) for name, value in PRINTED["11"].items()}
+    p = {name: value.xreplace({D: PRINTED["system"]["D"]}) for name, value in PRINTED["11"].items()}
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
     place = InRoots(R / R1)
