@@ -229,6 +229,12 @@ def _polylog(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     return [value, first / z, (second - first) / z**2]
 
 
+def _exponential_integral(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
+    """E_s' = -E_(s-1) [DLMF 8.19.13]."""
+    (s,) = parameters
+    return [z.expint(s), -z.expint(s - 1), z.expint(s - 2)]
+
+
 def _hermite(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     (n,) = parameters
     return [2**k * prod((n - i for i in range(k)), start=acb(1)) * z.hermite_h(n - k) for k in range(3)]
@@ -240,6 +246,7 @@ _DERIVATIVES: dict[Any, Callable[[Sequence[Acb], Acb], list[Acb]]] = {
     sympy.bessely: partial(_bessel, "bessel_y"),
     sympy.besseli: partial(_bessel, "bessel_i"),
     sympy.besselk: partial(_bessel, "bessel_k"),
+    sympy.expint: _exponential_integral,
     sympy.hermite: _hermite,
     sympy.polylog: _polylog,
 }

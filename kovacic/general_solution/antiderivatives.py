@@ -23,7 +23,13 @@ import sympy
 from sympy import atan, cos, exp, log, sin, tan
 
 from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
-from kovacic.general_solution.special_integrals import dilogarithm, fresnel, in_complex_exponentials, incomplete_gamma
+from kovacic.general_solution.special_integrals import (
+    dilogarithm,
+    fresnel,
+    in_complex_exponentials,
+    incomplete_gamma,
+    without_crossings,
+)
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, wave_changes
 from kovacic.general_solution.zero import ball, samples
@@ -52,7 +58,7 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
         return None
     if _has_a_root_of_a_sum(integrand, x) and not _holds_on_every_side(found, integrand, x):
         return None
-    return found
+    return without_crossings(found, x)
 
 
 def _by_rules(integrand: Expr, x: Expr) -> Expr | None:

@@ -29,6 +29,7 @@ from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, exact
+from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.jumps import break_points, in_steps, on_piece
 from kovacic.general_solution.steps import JUMPING, taken_apart
@@ -261,7 +262,7 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
         return _ZERO
     integrand = sympy.powsimp(sympy.expand(p / h))
     integral = _integral(integrand, x)
-    if integral is not None:
+    if integral is not None and not jumps(h * integral, x, [h, p]):
         return sympy.powsimp(sympy.expand(h * integral))
     if start is None:
         return h * sympy.Integral(integrand, x)

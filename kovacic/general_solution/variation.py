@@ -26,6 +26,7 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, prepared, radicands
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import finite_value, size, slope
@@ -191,7 +192,13 @@ class Basis:
         for form in forms:
             candidates += [self._without_homogeneous(form), self._without_homogeneous(_gathered(form, self.x))]
         found = one_exponential(min(candidates, key=size))
-        return found if is_solution(found, coefficients, right, self.x) else None
+        return found if self._is_right(found, right, coefficients) else None
+
+    def _is_right(self, y: Expr, right: Expr, coefficients: tuple[Expr, Expr]) -> bool:
+        """Is it a solution, and without jumps at ordinary points?"""
+        if self.equation.change is None and not is_solution(y, coefficients, right, self.x):
+            return False
+        return not jumps(y, self.x, [*self.rates, right])
 
     def _without_homogeneous(self, total: Expr) -> Expr:
         """A sum without the terms that are multiples of y1 or y2."""
@@ -214,10 +221,11 @@ class Basis:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
                 return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, x, start))
-        solution = self._from_integrals(_with_open_ones(known, short, x, start))
-        if is_changed or is_solution(solution, coefficients, right, x):
-            return solution
-        # Integrals that are known may have other branches.
+        for integrals in (known, [None, None]):
+            solution = self._from_integrals(_with_open_ones(integrals, short, x, start))
+            if self._is_right(solution, right, coefficients):
+                return solution
+        # The Wronskian may be on another branch.
         return self._from_integrals([_open(e, x, start) for e in self._integrands(right, self._by_definition)])
 
     def _integrands(self, right: Expr, W: Expr) -> list[Expr]:

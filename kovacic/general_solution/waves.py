@@ -39,10 +39,52 @@ class WaveChange:
 
 
 def _at_tangent(found: Expr, angle: Expr, x: Expr) -> Expr:
-    """For x = tan(angle), in sines and cosines: atan(x) is the angle, and x^2 + 1 = 1/cos(angle)^2."""
+    """For x = tan(angle), in sines and cosines, without jumps where the tangent has poles.
+
+    A polynomial of the even degree d under a logarithm is Q(sin, cos)/cos^d, and x^2 + 1 = 1/cos^2: the logarithms of the
+    cosine cancel unless the integrand has poles there.
+    """
+    s, c = sin(angle), cos(angle)
     u = sympy.Dummy()
-    known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
-    return found.xreplace({x: u}).xreplace(known).xreplace({u: sin(angle) / cos(angle)})
+    found = found.xreplace({x: u})
+    in_cosine = sympy.Dummy()  # log(cos(angle)^2)
+    known = {arc: _continuous_angle(arc.args[0], angle, u) for arc in found.atoms(atan)}
+    for logarithm in found.atoms(log):
+        q = logarithm.args[0]
+        if q.is_polynomial(u) and sympy.degree(q, u) % 2 == 0:
+            d = sympy.degree(q, u)
+            homogeneous = sympy.expand(sympy.expand(q.subs(u, s / c) * c**d))
+            known[logarithm] = (
+                log(_single_waves(homogeneous).as_content_primitive()[1]) - sympy.Rational(d, 2) * in_cosine
+            )
+    whole = sympy.expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
+    return whole.xreplace({u**2 + 1: c**-2}).xreplace({u: s / c})
+
+
+def _continuous_angle(line: Expr, angle: Expr, u: Expr) -> Expr:
+    """atan(a tan(theta) + b), the line in u, plus pi wherever the tangent has a pole, up to a constant; else as it is.
+
+    (cos theta, a sin theta + b cos theta) = M v for v = (cos theta, sin theta).  M is a rotation, by the direction of
+    (1 + a, b) for a > 0, times a positive definite P; so the angle of M v is theta, plus a constant, plus that from v to
+    P v, which is below pi/2: D = v . P v > 0, N is the cross product of v and P v.
+    """
+    line = sympy.expand(line)
+    a, b = line.coeff(u, 1), line.coeff(u, 0)
+    if a.is_negative:
+        return -_continuous_angle(-line, angle, u)
+    if line != sympy.expand(a * u + b) or not a.is_positive or not b.is_real:
+        return atan(line)
+    s, c = sin(angle), cos(angle)
+    image = a * s + b * c
+    along = (c * c + s * image, c * image - s * c)
+    D = (1 + a) * along[0] + b * along[1]
+    N = (1 + a) * along[1] - b * along[0]
+    return angle + atan(sympy.cancel(_single_waves(N) / _single_waves(D)))
+
+
+def _single_waves(e: Expr) -> Expr:
+    """A sum of waves of multiples of one angle, for products of them."""
+    return sympy.expand(TR8(sympy.expand(e)))
 
 
 def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:

@@ -1,0 +1,219 @@
+"""Does a formula jump at a point where the solutions don't?
+
+A formula that satisfies the equation wherever it is analytic is a solution on an interval if y and y' are continuous there.
+They are on a ball on which every part of the formula is finite, and no argument of a function with a branch cut meets this
+cut, unless it is real all along and not zero: principal values are continuous on the cut itself.  An interval on which that
+isn't seen is halved, down to a short one, whose ends are compared, unless the equation is singular between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import islice, pairwise
+from typing import Any
+
+import sympy
+from flint import acb, arb, ctx, fmpq
+
+from kovacic.closed_form.jets import jet
+from kovacic.general_solution.zero import samples
+from kovacic.limits import check_time
+
+Expr = Any  # SymPy publishes no types
+Acb = Any  # flint's acb
+#: Beyond the first pole of tan(x/2) on either side, off the usual special points.
+_GRID = tuple(fmpq(p, 100) for p in (-713, -437, -219, -83, 41, 127, 271, 483, 731))
+#: How far beyond a place where an argument may cross a cut the formula is followed.
+_BEYOND = fmpq(37, 100)
+#: Bits, and how often an interval is halved before its ends are compared, and while they are.
+_BITS = 100
+_HALVINGS = 12
+_COMPARISONS = 12
+_NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
+
+
+def _argument(e: Expr) -> Expr:
+    return e.args[-1]
+
+
+def _beside_one(e: Expr) -> Expr:
+    return 1 - e.args[-1]
+
+
+def _squared_below_one(e: Expr) -> Expr:
+    return 1 - e.args[-1] ** 2
+
+
+def _above_minus_one(e: Expr) -> Expr:
+    return 1 + e.args[-1] ** 2
+
+
+def _square(e: Expr) -> Expr:
+    """Zero where the argument is: what has a sign isn't analytic there."""
+    return e.args[0] ** 2
+
+
+def _of_series(e: Expr) -> Expr:
+    """2F1 has a cut from 1 to oo, 2F0 one along the positive axis; with fewer parameters above they are entire."""
+    above, below = len(e.ap), len(e.bq)
+    if above <= below:
+        return None
+    return 1 - e.argument if above == below + 1 and below else -1 / e.argument
+
+
+#: Functions with branch cuts, and what lies on the negative axis where they have theirs; None for none.
+_CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
+    **dict.fromkeys((sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _argument),
+    **dict.fromkeys((sympy.bessely, sympy.besselk, sympy.yn), _argument),
+    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), lambda e: None if e.args[0].is_integer else e.args[1]),
+    **dict.fromkeys((sympy.atan, sympy.acot, sympy.asinh), _above_minus_one),
+    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh, sympy.assoc_legendre), _squared_below_one),
+    **dict.fromkeys((sympy.polylog, sympy.elliptic_k, sympy.elliptic_e), _beside_one),
+    **dict.fromkeys((sympy.legendre, sympy.gegenbauer, sympy.jacobi), lambda e: 1 + e.args[-1]),
+    **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), _square),
+    sympy.hyper: _of_series,
+}
+
+
+def cut_of(e: Expr) -> Expr | None:
+    """An expression that meets the axis from -oo to 0 where a function or a power has its branch cut; None without one."""
+    if e.is_Pow and not isinstance(e, sympy.exp):
+        return None if e.exp.is_integer else e.base
+    rule = _CUTS.get(e.func)
+    return None if rule is None else rule(e)
+
+
+def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
+    """Is a jump of y or y' seen, for real x, where none of the coefficients b/a, c/a, f/a is singular?
+
+    Letters have values that fit their assumptions, those of either sign where it isn't known.
+
+    >>> x = sympy.Symbol("x")
+    >>> jumps(sympy.atan(2 * sympy.tan(x / 2)), x, [x]), jumps(sympy.log(x), x, [1 / x])
+    (True, False)
+    """
+    y = _without_integrals(y, x)
+    if not _cuts_of(y, x):
+        return False
+    with ctx.workprec(_BITS):
+        return any(
+            _Course(x, _with_roots(y.xreplace(numbers)), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere()
+            for numbers in _letters(y.free_symbols - {x})
+        )
+
+
+def _without_integrals(y: Expr, x: Expr) -> Expr:
+    """With an entire function for each integral: they are continuous, and any such function does in their place."""
+    integrals = sorted(y.atoms(sympy.Integral), key=str)
+    return y.xreplace({e: sympy.cos(x * (k + 1) / 3) for k, e in enumerate(integrals)})
+
+
+def _with_roots(y: Expr) -> Expr:
+    """With the terms of each `RootSum`: those of roots to so many digits lie on the same sides of cuts."""
+    sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in y.atoms(sympy.RootSum)}
+    return y.xreplace(sums)
+
+
+def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
+    """Values of letters, and the opposite ones of those whose sign isn't known."""
+    for numbers in islice(samples(symbols), 1):
+        yield numbers
+        turned = {s: -value for s, value in numbers.items() if s.is_positive is None and s.is_negative is None}
+        if turned:
+            yield numbers | turned
+
+
+def _cuts_of(y: Expr, x: Expr) -> list[Expr]:
+    cuts = (cut_of(e) for e in y.atoms(sympy.Function, sympy.Pow) if e.has(x))
+    return [*dict.fromkeys(cut for cut in cuts if cut is not None)]
+
+
+def _is_beside_cut(cut: Acb) -> bool:
+    """Does a ball stay off the axis from -oo to 0; or is it real, and without 0?"""
+    if not cut.is_finite() or cut.contains(0):
+        return False
+    return bool(cut.imag == 0 or not cut.imag.contains(0) or cut.real > 0)
+
+
+@dataclass(frozen=True)
+class _Course:
+    """A formula with numbers for its letters, and the coefficients of its equation, along the real axis."""
+
+    x: Expr
+    y: Expr
+    coefficients: Sequence[Expr]
+
+    @cached_property
+    def _cuts(self) -> list[Expr]:
+        return _cuts_of(self.y, self.x)
+
+    def jumps_somewhere(self) -> bool:
+        """Between two of the points that the arguments of its functions suggest."""
+        return any(self._jumps_between(a, b, _HALVINGS) for a, b in pairwise(self._points()))
+
+    def _points(self) -> list[Any]:
+        """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""
+        points = {*_GRID}
+        for e in self.y.atoms(sympy.Function, sympy.Pow):
+            place = _crossing(e, self.x)
+            if place is not None and not _GRID[0] < place < _GRID[-1]:
+                points |= {place - _BEYOND, place + _BEYOND}
+        return sorted(points)
+
+    def _jumps_between(self, a: Any, b: Any, halvings: int) -> bool:
+        check_time()
+        here = acb(arb(a).union(arb(b)))
+        if self._is_analytic(here, [self.y], self._cuts):
+            return False
+        if halvings == 0:
+            is_ordinary = self._is_analytic(here, self.coefficients, _cuts_of(sympy.Tuple(*self.coefficients), self.x))
+            return is_ordinary and any(self._differ(a, b, order) for order in (0, 1))
+        middle = (3 * a + 4 * b) / 7
+        return self._jumps_between(a, middle, halvings - 1) or self._jumps_between(middle, b, halvings - 1)
+
+    def _is_analytic(self, here: Acb, functions: Sequence[Expr], cuts: Sequence[Expr]) -> bool:
+        """Are all functions finite on a real ball, with no argument on a cut; or continuous along one?"""
+        try:
+            if not all(_is_beside_cut(jet(cut, self.x, here)[0]) for cut in cuts):
+                return False
+            return all(value.is_finite() for e in functions for value in jet(e, self.x, here)[:2])
+        except _NOT_EVALUATED:
+            return False
+
+    def _differ(self, a: Any, b: Any, order: int) -> bool:
+        """Do the values of y, or of y', at the ends of ever shorter intervals stay apart?"""
+        left, right = (self._value(p, order) for p in (a, b))
+        first = abs(right - left)
+        for _ in range(_COMPARISONS):
+            c = (3 * a + 4 * b) / 7
+            middle = self._value(c, order)
+            if bool(abs(middle - left) > abs(right - middle)):
+                b, right = c, middle
+            else:
+                a, left = c, middle
+        rest = abs(right - left)
+        return bool(rest > first / 4) and bool(rest > arb(2) ** (-_BITS // 2) * (1 + abs(left)))
+
+    def _value(self, point: Any, order: int) -> Acb:
+        """Not finite where it isn't known."""
+        try:
+            return jet(self.y, self.x, acb(arb(point)))[order]
+        except _NOT_EVALUATED:
+            return acb("nan")
+
+
+def _crossing(e: Expr, x: Expr) -> Any:
+    """The x, rounded, at which an argument m x + c is real, or a tangent of it has its first pole; None for others."""
+    is_tangent = e.func in (sympy.tan, sympy.cot)
+    argument = e.args[0] if is_tangent else cut_of(e)
+    if argument is None:
+        return None
+    line = sympy.expand(argument)
+    if not line.is_polynomial(x) or sympy.degree(line, x) != 1:
+        return None
+    m, c = (complex(line.coeff(x, k)) for k in (1, 0))
+    if is_tangent:
+        return fmpq(round((1.58 - c.real) / m.real * 100), 100)
+    return fmpq(round(-c.imag / m.imag * 100), 100) if m.imag else None
