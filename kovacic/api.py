@@ -17,7 +17,7 @@ from kovacic.verify import Verification, verify
 from kovacic.verify.normal_form import is_normal_form
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from kovacic.parametric.assumptions import Assumptions
 
@@ -57,12 +57,13 @@ def find_answer(
     f: Any = None,
     var: str | None = None,
     assume: Mapping[Any, Any] | None = None,
+    parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Answer:
     """What `kovacic.solve` returns, as data: arguments and exceptions are the same."""
     start = time.perf_counter()
     coefficients = {"a": a, "b": b, "c": c, "f": f}
-    S, parsed, assume = _read(S, coefficients, var, assume, limits)
+    S, parsed, assume = _read(S, coefficients, var, assume, parameters, limits)
     budget = Budget(limits)
     decision, notices, assumed, known = _decided(parsed, S, assume, budget, certify=True)
     try:
@@ -113,7 +114,12 @@ def _text_of(S: Any, parsed: Parsed) -> str:
 
 @limited
 def decide(
-    S: Any, *, var: str | None = None, assume: Mapping[Any, Any] | None = None, limits: Limits = DEFAULT_LIMITS
+    S: Any,
+    *,
+    var: str | None = None,
+    assume: Mapping[Any, Any] | None = None,
+    parameters: Sequence[str] = (),
+    limits: Limits = DEFAULT_LIMITS,
 ) -> Verdict:
     """The case of y'' = S(x) y alone, without the polynomial of omega and without the second check.
 
@@ -125,6 +131,8 @@ def decide(
         The name of the variable; by default the only symbol, or x.
     assume : mapping
         What is known of parameters, or their values, as for `kovacic.solve`.
+    parameters : sequence of str
+        Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
         Bounds on the input and on the work; by default those of `Limits()`.
 
@@ -148,28 +156,34 @@ def decide(
     >>> kovacic.decide("a/x^2", assume={"a": 2}).case
     1
     """
-    S, parsed, assume = _read(S, {}, var, assume, limits)
+    S, parsed, assume = _read(S, {}, var, assume, parameters, limits)
     decision, *_ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
 def _read(
-    S: Any, coefficients: Mapping[str, Any], var: str | None, assume: Mapping[Any, Any] | None, limits: Limits
+    S: Any,
+    coefficients: Mapping[str, Any],
+    var: str | None,
+    assume: Mapping[Any, Any] | None,
+    parameters: Sequence[str],
+    limits: Limits,
 ) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
     """The input with the values among the assumptions, as given and as it was read, and the other assumptions."""
-    from kovacic.reading.read import read_coefficients, read_input
+    from kovacic.reading.read import declared, read_coefficients, read_input
 
+    names = declared(parameters, assume)
     given = {name: value for name, value in coefficients.items() if value is not None}
     if S is None and coefficients:
         if "a" not in given:
             raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f= with at least a=")
         a, b, c, f = (given.get(name, 0) for name in "abcf")
-        parsed = read_coefficients(a, b, c, f, var=var, limits=limits)
+        parsed = read_coefficients(a, b, c, f, var=var, limits=limits, names=names)
     elif given:
         hint = "write all of it as text, \"y'' = x*y + sin(x)\", or give a=, b=, c= and f= alone"
         raise InputError(f"one equation is expected, and there are S and {', '.join(given)}", hint=hint)
     else:
-        parsed = read_input(S, var=var, limits=limits, exponentials=True)
+        parsed = read_input(S, var=var, limits=limits, exponentials=True, names=names)
     if not assume:
         return S, parsed, assume
     from kovacic.reading.substitution import with_values

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
 from kovacic.parametric.parametric_answer import ParametricAnswer
+from kovacic.reading.read import declared
 from kovacic.solution import Solution
 
 
@@ -111,6 +112,7 @@ def conditions(
     var: Any = None,
     assume: Mapping[Any, Any] | None = None,
     max_degree: int = DEFAULT_DEGREE,
+    parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Conditions:
     """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
@@ -129,6 +131,8 @@ def conditions(
     max_degree : int
         Where a condition has a natural number d in it, its determinants are shown up to d = `max_degree`, 2 by default;
         `determinant` of the condition computes others.
+    parameters : sequence of str
+        Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
         Bounds on the input and on the work.
 
@@ -160,4 +164,5 @@ def conditions(
     AAECC 3 (1992).
     """
     limits = limits_of(limits)
-    return Conditions.of(find_conditions(S, var=var, assume=assume, max_degree=max_degree, limits=limits))
+    names = declared(parameters, assume)
+    return Conditions.of(find_conditions(S, var=var, assume=assume, max_degree=max_degree, limits=limits, names=names))

@@ -16,7 +16,7 @@ from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.verify import Verification
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from matplotlib.figure import Figure
@@ -542,6 +542,7 @@ def solve(
     f: Any = None,
     var: str | None = None,
     assume: Mapping[Any, Any] | None = None,
+    parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Solution:
     """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
@@ -560,6 +561,8 @@ def solve(
     assume : mapping
         What is known of parameters: {"n": "integer"} or {"n": ">=0"}, in the words of `conditions`; a notice says for which of
         these values the answer holds.  With {"n": 3} the number is put in.  Assumptions of SymPy symbols are used, too.
+    parameters : sequence of str
+        Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
         Bounds on the input and on the work; by default those of `Limits()`.
 
@@ -612,4 +615,5 @@ def solve(
 
     Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
     """
-    return Solution.of(find_answer(S, a=a, b=b, c=c, f=f, var=var, assume=assume, limits=limits))
+    found = find_answer(S, a=a, b=b, c=c, f=f, var=var, assume=assume, parameters=parameters, limits=limits)
+    return Solution.of(found)

@@ -306,10 +306,10 @@ START = ["--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]
     [
         (["solve", "-j*x"], "y'' = -j x y"),
         (["solve", "-o"], "y'' = -o y"),
-        (["solve", "-hx"], "y'' = -hx y"),
-        (["solve", "-jsn*x"], "y'' = -jsn x y"),
+        (["solve", "-hx"], "y'' = -h x y"),
+        (["solve", "-js*n*x", "--var", "j"], "y'' = -j s n y"),
         (["solve", "-v^2", "--no-solutions"], "y'' = -v^2 y"),
-        (["solve", "--no-solutions", "-vv"], "y'' = -vv y"),
+        (["solve", "--no-solutions", "-vv"], "y'' = -v v y"),
         (["solve", "--", "--x"], "y'' = x y"),
         (["explain", "-o*x"], "Kovacic's algorithm for y'' = -o x y"),
         (["conditions", "-h*x"], "y'' = -h x y, parameters h"),

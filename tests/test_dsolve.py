@@ -659,7 +659,7 @@ def test_special_functions_where_nothing_is_proven() -> None:
 def test_values_as_one_text() -> None:
     assert dsolve("y'' + y = 0", ics="y(0)=0, y'(0)=2") == dsolve("y'' + y = 0", ics={"y(0)": 0, "y'(0)": 2})
     for text in ("y(0)=1, y(0)=2", "y(0)", "=1"):
-        with pytest.raises(kovacic.InputError, match="aren't initial values"):
+        with pytest.raises(kovacic.InputError, match=r"isn't an initial value|given twice"):
             dsolve("y'' + y = 0", ics=text)
 
 

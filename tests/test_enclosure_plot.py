@@ -19,7 +19,6 @@ from matplotlib.lines import Line2D
 
 import kovacic
 from kovacic import Ball
-from kovacic.reading.latex import without_latex
 from kovacic.reading.symbolic import read_expression
 
 
@@ -294,7 +293,7 @@ def formula_of(latex: str) -> Any:
             argument, _, after = rest.rpartition(r"\right)")
             place = sympy.Symbol("w")
             return formula_of(f"{before} w {after}").subs(place, function(formula_of(argument)))
-    return read_expression(without_latex(latex, latex))
+    return read_expression(latex)
 
 
 def demand_what_the_label_says(label: str, at: Any, drawn: Any, variable: sympy.Symbol) -> bool:

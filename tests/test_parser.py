@@ -16,11 +16,9 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
+from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import parse_with
-from kovacic.reading.lexer import tokenize
-from kovacic.reading.notation import plain
 from kovacic.reading.parser import Site, evaluate
-from kovacic.reading.pasted import unwrapped
 
 # Far from every root that the small numbers of the strategies produce.
 POINTS = (Fraction(10007, 13), Fraction(-9973, 17))
@@ -101,7 +99,7 @@ PIECES = [
 def test_garbage_is_refused_with_a_position_or_read(text: str) -> None:
     outcome = outcome_of(text, Limits(exponent=200, degree=500, bits=20_000, digits=50))
     if isinstance(outcome, InputError):
-        assert outcome.text == text or outcome.text == plain(unwrapped(text).text).text
+        assert outcome.text == text
         assert outcome.position is not None
         assert 0 <= outcome.position <= len(outcome.text)
         assert outcome.message in str(outcome)
@@ -528,7 +526,6 @@ def test_sympy_floats_are_exact_and_noticed() -> None:
         (x**x, "the variable in the exponent"),
         (x**n, r"x\*\*n isn't a rational function"),
         (sympy.sqrt(n) * x, "isn't rational in the parameters"),
-        (sympy.pi, "isn't a rational number"),
         (sympy.zoo, "isn't a rational number"),
         (sympy.Function("f")(x), "isn't a rational function"),
         (sympy.Pow(x - x, -1, evaluate=False), "division by zero"),
@@ -708,7 +705,6 @@ WRONG = [
     "90°",
     "x°",
     "$x^2",
-    "{x}",
     "[x",
     "x^-",
     "x^x",
@@ -718,21 +714,16 @@ WRONG = [
     "0/0",
     "x(x)",
     "a(x+1)",
-    "xy''",
     "x y'' y",
     "2 3",
     "x 2",
     "Derivative(y(x), x, z)",
     "y(x)'' = x",
     'y"" = x*y',
-    "D^2 y = x y",
-    "'x^2'",
-    '"x^2"',
     "x^2#comment",
     "x^2 % 3",
     "x!",
     "|x|",
-    "∛x",
     "∞",
     "pi*x*y",
     "I*x+oo",

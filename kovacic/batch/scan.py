@@ -121,7 +121,7 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
         raise InputError("a scan needs a parameter", hint="n=0:10:1/4")
     if len(set(names)) < len(names) or var in names:
         raise InputError(f"the names {', '.join(names)} aren't different parameters")
-    template = Template(as_text(expression).strip(), names)  # as the answers have it
+    template = Template(as_text(expression).strip(), names, var)  # as the answers have it
     return (
         Item(
             number,

@@ -47,6 +47,7 @@ from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
 from kovacic.parametric.functions import over_parameters
+from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.formula import caret
 
@@ -75,6 +76,7 @@ def spectrum(
     max_degree: int = DEFAULT_DEGREE,
     levels: int | None = None,
     digits: int = 15,
+    parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Spectrum:
     """The energies E for which -y'' + V y = E y has a square integrable solution, with the solutions.
@@ -105,6 +107,8 @@ def spectrum(
         parameters, which may then be any elementary function, abs(x), cosh(x) - x^2.
     digits : int
         Proven digits of these.
+    parameters : sequence of str
+        Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
         Bounds on the input and on the work.
 
@@ -144,6 +148,7 @@ def spectrum(
     """
     most = whole(max_degree, "max_degree")
     check_mapping(assume)
+    names = declared(parameters, assume)
     V, var = without_left_side(V, var)
     if is_equation(V):
         read = read_schroedinger(V, var, energy, limits)
@@ -159,11 +164,20 @@ def spectrum(
             max_degree=most,
             limits=limits,
             kinetic=read.kinetic,
+            names=names,
         )
         return with_numbers(read.physical(found), levels, digits, limits)
     try:
         found = _spectrum(
-            V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, max_degree=most, limits=limits
+            V,
+            domain=domain,
+            energy=energy,
+            var=var,
+            assume=assume,
+            boundary=boundary,
+            max_degree=most,
+            limits=limits,
+            names=names,
         )
     except NotRational as reason:
         if levels is None:
@@ -183,13 +197,22 @@ def _spectrum(
     max_degree: int,
     limits: Limits,
     kinetic: Any = sympy.S.One,
+    names: Sequence[str] = (),
 ) -> Spectrum:
     """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V."""
     V, roots = with_named_roots(V)
     if roots:
         assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}
     question = read_question(
-        V, domain, energy=energy, var=var, assume=assume, boundary=boundary, limits=limits, kinetic=kinetic
+        V,
+        domain,
+        energy=energy,
+        var=var,
+        assume=assume,
+        boundary=boundary,
+        limits=limits,
+        kinetic=kinetic,
+        names=names,
     )
     meanings = {**dict(question.parsed.letters), **roots}
     budget = Budget(limits)

@@ -16,8 +16,10 @@ from kovacic.exact import exact_text
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
+from kovacic.reading.quotients import expression_of
 from kovacic.reading.read import read_input
-from kovacic.reading.source import USUAL_VARIABLES, chosen_variable
+from kovacic.reading.source import source_of
 from kovacic.reading.substitution import with_values
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
 from kovacic.reading.symbolic import names_of, read_expression
@@ -109,19 +111,20 @@ def read_question(
     boundary: str | None,
     limits: Limits,
     kinetic: Any = sympy.S.One,
+    names: Sequence[str] = (),
 ) -> SpectralProblem:
     """The question that `kovacic.spectrum` was asked; its parameters are described there.
 
     Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
     """
     _check_options(energy, boundary)
-    given = _read_potential(V, energy)
+    given = _read_potential(V, energy, None if var is None else str(var), names)
     variable = _Variable(str(var))
     if var is None:
         variable = _variable_of(given.expression)
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-    with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True)
+    with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True, names=names)
     S, parsed, of_parameters = with_values(given.S, with_parameters, assume, limits)
     assumed = assumed_of_letters(of_parameters, parsed.letters)
     ends = [read_end(value) for value in domain]
@@ -131,8 +134,8 @@ def read_question(
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)
     potential = given.expression
-    if isinstance(S, str):  # the values of parameters are in it
-        potential = read_expression(S[: S.rindex(" - ")])
+    if S is not given.S:
+        potential = _with_values(potential, assume or {}, {*names} | {energy, variable.name})
     return SpectralProblem(
         potential,
         parsed,
@@ -145,6 +148,13 @@ def read_question(
         notices=variable.notices,
         kinetic=signs.real(sympy.sympify(kinetic)),
     )
+
+
+def _with_values(potential: Any, assume: Mapping[Any, Any], left: Iterable[str]) -> Any:
+    """The potential with the values of the parameters that aren't left."""
+    gone = {str(name): value for name, value in assume.items() if str(name) not in left}
+    values = {sympy.Symbol(name): read_expression(exact_text(value, "a value")) for name, value in gone.items()}
+    return potential.xreplace(values)
 
 
 def _check_options(energy: Any, boundary: str | None) -> None:
@@ -175,9 +185,9 @@ def _variable_of(expression: Any) -> _Variable:
     return _Variable(DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",))
 
 
-def _read_potential(V: Any, energy: str) -> _Potential:
+def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _Potential:
     """Raises `InputError` for what isn't a real potential."""
-    potential = _as_written(V, energy)
+    potential = _as_written(V, energy, var, names)
     expression = potential.expression
     if energy in {s.name for s in expression.free_symbols}:
         raise InputError(
@@ -194,10 +204,16 @@ def _read_potential(V: Any, energy: str) -> _Potential:
     return potential
 
 
-def _as_written(V: Any, energy: str) -> _Potential:
+def _as_written(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _Potential:
     """The potential as text, as an expression, or as a number."""
     if isinstance(V, str):
-        return _Potential(read_expression(V, what="the potential"), f"({V}) - {energy}")
+        source = source_of(V, var, SYMBOLIC, names=(*names, energy))
+        if source.unknown:
+            raise InputError(
+                "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
+            )
+        expression = expression_of(source, SYMBOLIC, what="the potential")
+        return _Potential(expression, expression - sympy.Symbol(energy))
     expression = V
     if not hasattr(V, "free_symbols"):
         expression = read_expression(exact_text(V, "the potential"))

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 @click.option("--explain", "derived", is_flag=True, hidden=True)
 @click.option("--ics", multiple=True, hidden=True)
 @options.VAR
+@options.NAMES
 @options.ASSUME
 @options.LIMIT
 @click.pass_context
@@ -59,7 +60,7 @@ def solve(
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     kovacic solve --as mathematica "x^2 + 3"
     """
-    from kovacic.reading.lexer import is_equation
+    from kovacic.reading.pieces import is_equation
     from kovacic.views.text import render, solution_lines
 
     if form != "json":
@@ -142,6 +143,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
     help='Conditions: "y(0)=1, y\'(0)=0", "y(0)=0, y(pi)=0", "y(0)=bounded, y(oo)=0".',
 )
 @options.VAR
+@options.NAMES
 @options.LIMIT
 def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
     """The general solution of a linear equation of second order; with values, or --ics, the one that has these.
@@ -238,6 +240,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
 @options.VAR
+@options.NAMES
 @options.ASSUME
 @options.LIMIT
 def explain(

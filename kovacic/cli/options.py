@@ -267,6 +267,13 @@ ASSUME = click.option(
     callback=_assumptions,
     help="What is known about a parameter: n=integer, n>=0, 0<n<20, n!=1, n=3, n=m^2.",
 )
+NAMES = click.option(
+    "--names",
+    "parameters",
+    metavar="NAME",
+    multiple=True,
+    help="A parameter whose name has more than one letter: --names EI, --names mass.",
+)
 LIMIT = click.option(
     "--limit",
     "limits",
@@ -350,6 +357,7 @@ def answer_each(
     var: str | None,
     limits: Limits,
     assume: dict[str, str] | None,
+    parameters: Sequence[str],
     gap: str,
     refuse: Callable[[str, KovacicError], None] | None = None,
 ) -> int:
@@ -366,7 +374,7 @@ def answer_each(
     for text in _expressions(equations):
         try:
             with waiting("deciding"):
-                answer = solve(text, var=var, assume=assume, limits=limits)
+                answer = solve(text, var=var, assume=assume, parameters=parameters, limits=limits)
             is_open = answer.status is Status.UNDECIDED and not answer.assumed
             outcome = UNDECIDED if is_open else DECIDED
             outcomes.append(outcome)

@@ -111,6 +111,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     "(amsmath, amssymb, graphicx); or a page of its own for a browser.",
 )
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
+@options.NAMES
 @options.ASSUME
 @click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
 @click.option("--all", "everything", is_flag=True, help="All regions, however many.")
@@ -160,6 +161,7 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @click.option("--to", "stop", default="oo", show_default=True, metavar="B", help="The right end.")
 @click.option("--energy", default="E", show_default=True, metavar="NAME", help="The name of the energy.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
+@options.NAMES
 @options.ASSUME
 @click.option("--boundary", type=click.Choice(["friedrichs"]), help="The smaller solution, where one must be chosen.")
 @click.option("--max-degree", default=2, show_default=True, help="Quasi-exactly solvable levels up to this degree d.")

@@ -17,14 +17,12 @@ from sympy.core.function import AppliedUndef
 from kovacic.errors import InputError
 from kovacic.exact import exact_real, exact_text, is_complex
 from kovacic.numerals import plain_text
-from kovacic.reading.parser import listed
-from kovacic.reading.pasted import plain_values
+from kovacic.reading.pieces import conditions_in
+from kovacic.reading.symbolic import Points, read_expression
 
 Expr = Any  # SymPy publishes no types
 #: The word that stands for a value.
 BOUNDED = "bounded"
-#: oo as it is written in texts.
-_INFINITY = {"oo", "inf", "infty", "infinity", "Infinity", "∞"}
 _NO_VALUES = (sympy.nan, sympy.zoo)
 
 
@@ -60,31 +58,11 @@ def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
     if not isinstance(ics, str):
         return dict(ics or {})
     found: dict[Any, Any] = {}
-    for text in _conditions_in(ics):
-        place, _, value = (piece.strip() for piece in text.partition("="))
-        is_complete = place and value
-        if not is_complete or place in found:
-            raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
+    for place, value in conditions_in(ics):
+        if place in found:
+            raise InputError(f"{place} is given twice in {ics!r}", hint='write "y(0)=1, y\'(0)=0", every value once')
         found[place] = value
     return found
-
-
-def _conditions_in(text: str) -> Iterator[str]:
-    """The single conditions, as plain texts."""
-    if not text.strip():
-        return
-    for given in listed(text):
-        yield from plain_values(given)
-
-
-@dataclass(frozen=True)
-class _Call:
-    """y(argument), or y'(argument) for order 1, in a text from `start` to `end`."""
-
-    start: int
-    end: int
-    order: int
-    argument: str
 
 
 class ConditionReader:
@@ -130,54 +108,18 @@ class ConditionReader:
             raise self._no_condition(side)
         return self._checked(self._expression(side), side)
 
-    # ------------------------------------------------------------------------------------------------ texts
-
     def _text(self, text: str, *, is_key: bool) -> Expr:
         """`y(0)`, `y'(0) - h*y(0)`, or a constant."""
-        pieces = []
-        rest = text
-        while (call := self._first_call(rest)) is not None:
-            symbol = self._symbol(self._point(call.argument), call.order)
-            pieces += [rest[: call.start], f"({symbol.name})"]
-            rest = rest[call.end :]
-        pieces.append(rest)
-        if is_key and len(pieces) == 1:
+        value = read_expression(text, what="the initial value", values=Points(self.unknown, self._at))
+        if is_key and not self._terms:
             raise self._no_condition(text)
-        return self._checked(_read("".join(pieces), self._terms), text)
+        return self._checked(value, text)
 
-    def _first_call(self, text: str) -> _Call | None:
-        """The first y(...) or y'(...) in a text."""
-        start = text.find(self.unknown)
-        while start >= 0:
-            found = self._call_at(text, start)
-            if found is not None:
-                return found
-            start = text.find(self.unknown, start + len(self.unknown))
-        return None
-
-    def _call_at(self, text: str, start: int) -> _Call | None:
-        """The call of the unknown function, whose name is at `start`; None where that is a part of another name, or none."""
-        before = text[:start][-1:]
-        after = text[start + len(self.unknown) :]
-        primes = len(after) - len(after.lstrip("'"))
-        call = after[primes:].lstrip()
-        is_part_of_a_name = before.isalnum() or before == "_"
-        if is_part_of_a_name or not call.startswith("("):
-            return None
-        inner = _within(call)
-        if primes > 1 or inner is None:
-            raise self._no_condition(text)
-        return _Call(start=start, end=len(text) - len(call) + len(inner) + 2, order=primes, argument=inner)
-
-    def _point(self, text: str) -> Expr:
-        plain = text.replace(" ", "")
-        if plain.lstrip("+-") not in _INFINITY:
-            return self._checked(_read(text, {}), text)
-        if plain.startswith("-"):
-            return -sympy.oo
-        return sympy.oo
-
-    # -------------------------------------------------------------------------------------- SymPy's expressions
+    def _at(self, point: Expr, order: int) -> Expr:
+        """What stands for y(a) or y'(a) in an expression."""
+        if order > 1:
+            raise self._no_condition(self.unknown + "'" * order + f"({point})")
+        return self._symbol(self._place(point), order)
 
     def _expression(self, given: Any) -> Expr:
         """With symbols for y(a), y(x).diff(x).subs(x, a) in either form that SymPy gives it."""
@@ -227,23 +169,6 @@ class ConditionReader:
         if isinstance(key, str):
             return InputError(f"{key!r} isn't an initial value", hint=f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}")
         return InputError(f"{key} isn't an initial value", hint="write {y(0): 1, y(x).diff(x).subs(x, 0): 2}")
-
-
-def _within(call: str) -> str | None:
-    """What stands between the first parenthesis and the one that closes it."""
-    depth = 0
-    for position, character in enumerate(call):
-        depth += {"(": 1, ")": -1}.get(character, 0)
-        if depth == 0:
-            return call[1:position]
-    return None
-
-
-def _read(text: str, symbols: Mapping[Expr, Any]) -> Expr:
-    from kovacic.reading.symbolic import read_expression
-
-    value = read_expression(text, what="the initial value")
-    return value.xreplace({sympy.Symbol(symbol.name): symbol for symbol in symbols})
 
 
 def _exact(given: Any) -> Expr:

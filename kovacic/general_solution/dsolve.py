@@ -60,6 +60,7 @@ def dsolve(
     n: Any = 6,
     *,
     var: str | None = None,
+    parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Any:
     """The general solution of a linear equation of second order as a SymPy `Eq(y(x), ...)` with constants C1 and C2.
@@ -164,7 +165,8 @@ def dsolve(
     if is_list and len(eq) > 1:
         found, notices = _system(eq, func, ics, limits)
     else:
-        found, notices = _answered(_single(eq, "equation"), _single(func, "function"), ics=ics, var=var, limits=limits)
+        one, function = _single(eq, "equation"), _single(func, "function")
+        found, notices = _answered(one, function, ics=ics, var=var, parameters=parameters, limits=limits)
         found = [found] if is_list else found
     for notice in notices:
         warn_user(notice)
@@ -222,6 +224,7 @@ def _answered(
     *,
     ics: Any = None,
     var: str | None = None,
+    parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
     special: bool = False,
 ) -> tuple[Expr, list[str]]:
@@ -229,7 +232,7 @@ def _answered(
     budget = Budget(limits)
     with budget.watched():
         try:
-            question = read_question(eq, func, ics, var, budget.limits)
+            question = read_question(eq, func, ics, var, budget.limits, parameters)
         except InputError as reason:
             first_order = _first_order(eq, func, ics, var, budget.limits)
             if first_order is None:

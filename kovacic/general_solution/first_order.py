@@ -38,6 +38,7 @@ from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, is_zero, samples
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
+from kovacic.reading.pieces import Paste
 from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import function_of
@@ -104,7 +105,7 @@ def value_of(conditions: Sequence[Condition]) -> GivenValue | None:
 
 def read_first_order(eq: Any, func: Any, var: str | None, limits: Limits) -> FirstOrderEquation | None:
     """The equation, None if it isn't of this kind.  Raises `InputError` for what can't be read."""
-    if isinstance(eq, str):
+    if isinstance(eq, str | Paste):
         eq = expression_of(source_of(eq, var, limits, equation=True), limits)
     if not isinstance(eq, sympy.Basic):
         return None

@@ -6,7 +6,6 @@ the user's symbols into an expression, and everything that is compared or evalua
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,9 +21,8 @@ from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.reading.parser import listed
-from kovacic.reading.pasted import plain_values, unwrapped, without_spacing
-from kovacic.reading.read import read_input
+from kovacic.reading.pieces import Paste, taken_apart
+from kovacic.reading.read import declared, read_input
 from kovacic.reading.symbolic import function_of, functions_in
 
 Expr = Any  # SymPy publishes no types
@@ -75,7 +73,9 @@ class Question:
         return {plain: symbol for plain, symbol in pairs.items() if plain != symbol}
 
 
-def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits) -> Question:
+def read_question(
+    eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, parameters: Sequence[str] = ()
+) -> Question:
     """The question.  Raises `InputError` for what isn't one."""
     eq, ics = apart(eq, ics)
     values = as_mapping(ics)
@@ -88,7 +88,7 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
         eq = _in_symbols(eq, renamed)
         func = _in_symbols(func, renamed)
         values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
-    read = _read_equation(eq, func, var, limits)
+    read = _read_equation(eq, func, var, limits, declared(parameters))
     if read.equation.variable in (PI, EULER):
         raise InputError(f"{read.equation.variable} is a number", hint="take another name for the variable")
     reader = ConditionReader(read.function, read.equation.unknown)
@@ -116,57 +116,17 @@ def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) 
     return {_letter(name, whole): whole for name, whole in wholes.items()}
 
 
-#: y(0) = 1, y'(pi) = 0: what stands behind an equation in one text with it.
-_VALUE = re.compile(r"\w+['’′″]*\s*\([^=]*\)\s*=")
-#: The words that stand between an equation and its values.
-_WORDS = re.compile(
-    r"(?<![\s,+*/^=(-])[\s,]+(?:(?:and|with|where|subject to)\s+)?"
-    r"(?=\w+['’′″´`]*\s?[(\[](?![^\W\d][)\]])[^()\[\]=]*[)\]]\s?=)"
-)
-
-
-def _comma(found: re.Match[str]) -> str:
-    """A comma for a word, or the end of a line, between an equation and its values."""
-    is_space = not found[0].strip(" ,")
-    if is_space and "," not in found[0]:
-        return found[0]
-    return ", "
-
-
 def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
     if not isinstance(eq, str):
         return eq, ics
-    equation, values = _pieces(eq)
-    others = [value for value in values if _VALUE.match(value) is None]
-    if len(others) == len(values):
-        return eq, ics
-    if others:
-        raise InputError(
-            f"{others[0]} behind the equation isn't a value",
-            hint="write y(0) = 1, y'(0) = 1/2 or 0.5, with commas between",
-        )
-    if ics:
+    paste = taken_apart(eq)
+    values = dict(paste.conditions)
+    if len(values) < len(paste.conditions):
+        raise paste.error("a value is given twice", paste.scans("condition")[-1], "write every value once")
+    if values and ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
-    return equation, ", ".join(values)
-
-
-def _pieces(text: str) -> tuple[str, list[str]]:
-    """What stands before the first comma that separates, and behind each."""
-    whole = _WORDS.sub(_comma, without_spacing(unwrapped(text).text))
-    equation, *parts = listed(_with_commas(whole))
-    values: list[str] = []
-    for part in parts:
-        if part.strip():
-            values += plain_values(part)
-    return equation, values
-
-
-def _with_commas(text: str) -> str:
-    """Without the signs around a formula in LaTeX; elsewhere with commas for semicolons."""
-    if text.lstrip().startswith("$"):
-        return text.replace("$", " ")
-    return text.replace(";", ",")
+    return paste, values or ics
 
 
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
@@ -218,6 +178,8 @@ def _sought(func: Any) -> _Sought:
     """From y(x), y or None.  Raises `InputError` for anything else."""
     if func is None:
         return _Sought()
+    if isinstance(func, str):
+        func = _named(func)
     if isinstance(func, AppliedUndef):
         applied = func
         name = func.func
@@ -229,13 +191,22 @@ def _sought(func: Any) -> _Sought:
     return _Sought(applied, name)
 
 
-def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read:
+def _named(text: str) -> Any:
+    """The function that a text names: y(x), or y.  Raises `InputError`."""
+    name, _, argument = text.replace(" ", "").removesuffix(")").partition("(")
+    if not name.isidentifier() or (argument and not argument.isidentifier()):
+        raise InputError(f"{text!r} isn't a function", hint='give "y(x)" or "y"')
+    function = sympy.Function(name)
+    return function(sympy.Symbol(argument)) if argument else function
+
+
+def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits, names: Sequence[str]) -> _Read:
     """An equation that has been read, a text, or a SymPy equation.  Raises `InputError` for anything else."""
     sought = _sought(func)
     if isinstance(eq, Equation):
         return _Read(eq, sought.function(eq.unknown, eq.variable))
-    if isinstance(eq, str):
-        return _read_text(eq, sought, var, limits)
+    if isinstance(eq, str | Paste):
+        return _read_text(eq, sought, var, limits, names)
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
     function = sought.function_in(eq)
@@ -244,14 +215,14 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read
     return _Read(parsed.equation, function, parsed.letters)
 
 
-def _read_text(text: str, sought: _Sought, var: str | None, limits: Limits) -> _Read:
+def _read_text(text: str | Paste, sought: _Sought, var: str | None, limits: Limits, names: Sequence[str]) -> _Read:
     """An equation as text; the unknown function may be given as y(x), or as y."""
     if sought.applied is not None:
         var = str(sought.applied.args[0])
     unknown = None
     if sought.name is not None:
         unknown = str(sought.name)
-    parsed = read_input(text, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True)
+    parsed = read_input(text, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True, names=names)
     equation = parsed.equation
     assert equation is not None
     variable = equation.variable

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -28,11 +28,17 @@ DEFAULT_DEGREE = 2
 
 
 def find_conditions(
-    S: Any, *, var: Any, assume: Mapping[Any, Any] | None, max_degree: int, limits: Limits
+    S: Any,
+    *,
+    var: Any,
+    assume: Mapping[Any, Any] | None,
+    max_degree: int,
+    limits: Limits,
+    names: Sequence[str] = (),
 ) -> ParametricAnswer:
     """What `kovacic.conditions` returns, as data: arguments and exceptions are the same."""
     with Budget(limits).watched():
-        parsed = read_input(S, var=var, limits=limits, exponentials=True)
+        parsed = read_input(S, var=var, limits=limits, exponentials=True, names=names)
         given = parsed
         S, parsed, assume = with_values(S, parsed, assume, limits)
     parsed, letters = spelled(parsed)

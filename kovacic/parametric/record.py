@@ -31,6 +31,7 @@ from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
+from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.written import WrittenReader
 
@@ -104,10 +105,17 @@ def equation_from(data: Mapping[str, Any] | None, variable: str, names: tuple[st
     if data is None:
         return None
     has_letters = not all(name.isidentifier() for name in names)
-    text = data["text"]
-    found, _ = spelled(
-        read_input(text, var=variable, unknown=data["unknown"], limits=_LIMITS, equation=True, exponentials=has_letters)
+    declared = words_among(name for name in names if name.isidentifier())
+    parsed = read_input(
+        data["text"],
+        var=variable,
+        unknown=data["unknown"],
+        limits=_LIMITS,
+        equation=True,
+        exponentials=has_letters,
+        names=declared,
     )
+    found, _ = spelled(parsed)
     read = found.equation
     if read is None:
         raise InputError(f"{data['text']!r} isn't an equation")

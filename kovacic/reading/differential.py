@@ -22,8 +22,9 @@ from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
-from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
-from kovacic.reading.names import FUNCTION_NAMES, TRANSCENDENTAL_HINT
+from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, Operator, is_rational
+from kovacic.reading.names import FUNCTION_NAMES, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
+from kovacic.reading.naming import OPERATOR
 from kovacic.reading.parser import Site
 
 _ORDER = 2
@@ -39,6 +40,8 @@ class EquationReader(RationalReader):
         arithmetic = LinearArithmetic(limits, variable, unknown, self.coefficient)
         super().__init__({variable: VARIABLE}, variable, arithmetic, constants)
         self.unknown = unknown
+        #: D stands for the derivative.
+        self.has_operator = False
 
     def coefficient(self, expression: Any) -> Any:
         """A rational function of x and pi, or of x and e, with that number as a parameter."""
@@ -62,6 +65,9 @@ class EquationReader(RationalReader):
 
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
+        if isinstance(value, Operator):
+            hint = f"write what it is applied to: (D^2 + 1) {self.unknown} = 0"
+            raise NotLinear("the operator D is applied to nothing", hint=hint)
         parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
         zero = Monomial(0, 0)
         rest = parts.pop(REST, zero)
@@ -83,8 +89,6 @@ class EquationReader(RationalReader):
         what = f"is of order {order}" if order else f"contains no derivative of {y}"
         said = f"an equation of second order is expected, and this one {what}"
         hint = f"for example {y}'' = (x^2 + 3) {y}"
-        if "D" in self.constants.parameters:
-            hint = f"D isn't read as an operator: write {y}' for D {y}, and {y}'' for D^2 {y}"
         if text is None:
             return NotLinear(said, hint=hint)
         return NotLinear(said, hint=hint, text=text, position=0, length=len(text))
@@ -146,6 +150,10 @@ class EquationReader(RationalReader):
     def name(self, name: str) -> Any:
         if name == self.unknown:
             return _derivative_of_unknown(0)
+        if name == OPERATOR and self.has_operator:
+            return Operator({1: Monomial(1, 0)})
+        if name in self.declared:
+            return self.constants.parameter(name)
         if name != self.variable and name in ("e", "pi", "π"):
             import sympy
 
@@ -197,6 +205,8 @@ class EquationReader(RationalReader):
         try:
             return super().call(head, arguments, site)
         except NotRational:
+            if head in SEVERAL_ARGUMENTS and not any(isinstance(argument, tuple) for argument in arguments):
+                return self.arithmetic.of_several(head, arguments)
             if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
                 raise
             return self.arithmetic.applied(head, arguments[0])

@@ -6,8 +6,7 @@ operation.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, Protocol
 
 from kovacic.algebra.poly import Poly
@@ -16,15 +15,15 @@ from kovacic.equation import DEFAULT_VARIABLE, UNKNOWN
 from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
-from kovacic.reading.lexer import PRIMES, tokenize
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT
+from kovacic.reading.dialects import tokenize
+from kovacic.reading.lexer import PRIMES
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT, is_function
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
 
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
-_FUNCTIONS = frozenset({*FUNCTION_NAMES, *ROOTS})
 _LARGEST_INDEX = 100
 #: Names that steps and impulses have elsewhere.
 _STEPS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
@@ -65,6 +64,8 @@ class RationalReader:
         self.arithmetic = arithmetic
         self.constants = constants
         self.decimals: list[str] = []
+        #: Names that are parameters, whatever they look like.
+        self.declared: Collection[str] = ()
 
     def notices(self) -> list[str]:
         """What the user should know about how the text was read."""
@@ -85,10 +86,13 @@ class RationalReader:
         value = self.names.get(name)
         if value is not None:
             return value
+        if name in self.declared:
+            return self.constants.parameter(name)
         if name == "I":
             return self.constants.radical(QQ.poly([-1]), 2, name)  # type: ignore[return-value]
-        if (meant := as_function(name)) is not None:
-            raise NotRational(f"{name} looks like a function without its parentheses", hint=f"write {meant}")
+        if is_function(name):
+            said = f"{name} looks like a function without its parentheses"
+            raise NotRational(said, hint=f"write {name}(...), a power of it {name}(...)^2")
         if name in NUMBER_NAMES:
             raise NotRational(
                 f"{name} is {NUMBER_NAMES[name]}; constants are rational or algebraic numbers",
@@ -126,6 +130,10 @@ class RationalReader:
                 return self._radical(arguments[0], index, site)
             if len(arguments) == 2 and not index:
                 return self._radical(arguments[0], self._index(arguments[1]), site)
+        if head in ("Integer", "S") and len(arguments) == 1 and not has_pairs:
+            return arguments[0]  # type: ignore[no-any-return]
+        if head == "Rational" and len(arguments) == 2 and not has_pairs:
+            return self.arithmetic.divide(*arguments)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
@@ -194,18 +202,3 @@ def usage(name: str) -> str:
         return f"for a product write {name}*(...), for a step heaviside(...), for an impulse dirac(...)"
     known = ", ".join(sorted(FUNCTION_NAMES))
     return f"for a product write {name}*(...); the functions are {known}, of one argument"
-
-
-def as_function(name: str) -> str | None:
-    """sin(x) for sinx, sin(2*x) for sin2x, sin(...) for sin: what a name probably means; None for other names."""
-    if name in _FUNCTIONS:
-        return f"{name}(...), a power of it {name}(...)^2"
-    found = _GLUED.fullmatch(name)
-    if found is None or found["function"] not in _FUNCTIONS:
-        return None
-    factors = [part for part in (found["number"], found["letter"], found["plain"]) if part]
-    return f"{found['function']}({'*'.join(factors)})"
-
-
-#: sinx, sin2x, cos3omega: a function, a number and a letter.
-_GLUED = re.compile(r"(?P<function>[A-Za-z]+?)(?:(?P<number>\d+)(?P<letter>[a-z]+)|(?P<plain>[xtz]))")

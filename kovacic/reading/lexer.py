@@ -1,123 +1,164 @@
-"""Text into numbers, names and signs, with their positions."""
+"""Text into one stream of tokens: signs, numbers and words as anybody types them, each with its place in the text.
+
+`scanned` is the only reader of characters.  It knows alphabets and typography (dashes, curved primes, x in italics, dots above
+letters, raised and lowered characters), and no notation: that is `dialects`, which makes `Tokens` for the parser.
+"""
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass
-from functools import cache, cached_property
-from string import ascii_letters, digits
+from typing import NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, ParseError
 from kovacic.limits import Limits
 
-# Superscript digits count as word characters for `re`; they must not become part of a name.
-_SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-PRIMES = "'’′″"
-
-_SIGNS = {
-    "PLUS": ["+"],
-    "MINUS": ["-", "−"],
-    "STAR": ["*", "·", "×", "⋅", "∙"],
-    "SLASH": ["/", "÷", "∕"],
-    "CIRCUMFLEX": ["^", "**"],
-    "LPAR": ["("],
-    "RPAR": [")"],
-    "COMMA": [","],
-    "EQUAL": ["="],
-}
-
-#: The kinds of the signs and of the shortest numbers and names, which are most of a text.
-_KINDS = {
-    **{sign: kind for kind, signs in _SIGNS.items() for sign in signs},
-    **dict.fromkeys(digits, "NUMBER"),
-    **dict.fromkeys(ascii_letters, "NAME"),
-}
-
-
-@cache
-def _terminals(ascii_only: bool) -> re.Pattern[str]:
-    """The pattern of one terminal, or else of one character; for ASCII text a short one, which compiles fast."""
-    beyond = "" if ascii_only else _SUPERSCRIPTS
-    primes = "'" if ascii_only else f"[{PRIMES}]"
-    superscript = "" if ascii_only else rf"[⁺⁻]?[{_SUPERSCRIPTS}]+ |"
-    alphabet = re.ASCII if ascii_only else re.UNICODE
-    return re.compile(
-        rf"""
-        (?: [0-9]+ (?:\.[0-9]*)? | \.[0-9]+ ) (?: [eE][+-]?[0-9]+(?!\w) )?
-      | [^\W\d_{beyond}] [^\W{beyond}]* {primes}*
-      | {superscript} \*\* | \S
-        """,
-        re.VERBOSE | alphabet,
-    )
-
-
-def _kind(piece: str) -> str:
-    """The kind of a terminal that isn't in `_KINDS`; `OTHER` if it is none."""
-    first = piece[0]
-    last = piece[-1]
-    if first in digits or (first == "." and last in digits):
-        return "NUMBER"
-    if last in _SUPERSCRIPTS:
-        return "SUPERSCRIPT"
-    if first.isalnum() and not first.isdecimal():
-        return "PRIMED" if last in PRIMES else "NAME"
-    return "OTHER"
-
-
-_HINTS = {
-    "[": "use round parentheses ( )",
-    "]": "use round parentheses ( )",
-    "{": "use round parentheses ( )",
-    "}": "use round parentheses ( )",
-    "!": "write factorials out as numbers",
-    "\\": "this isn't LaTeX that is read; write for example (x^2 + 1)/(2*x)",
-    "|": "write abs(...); on the right-hand side of an equation it is read",
-    "√": "square roots aren't rational functions; write S with rational numbers",
-    ";": "give one expression at a time; values are separated by commas: y'' + y = 0, y(0) = 1",
-    "_": "names begin with a letter, and digits aren't grouped: write 1000000, x1",
-    "'": "primes belong to the unknown function of an equation, as in y''",
-    '"': "leave the quotation marks out",
-    "%": "write percentages as fractions: 1/100",
-    "∞": "infinity isn't a number here",
-    "°": "angles are in radians: 90 degrees are pi/2",
-    "$": "leave the $ out, or put the whole text between two of them",
-    **dict.fromkeys(
-        "<>≤≥≠", "an equation has the sign =; what is known about a parameter is given apart, as assumption"
-    ),
-}
-
-
-#: Names of derivatives, and what an equation contains, and S alone doesn't.
+PRIMES = "'"
+#: Names of derivatives.
 DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
-_MARKS = ("=", *PRIMES, *(f"{name}(" for name in DERIVATIVES))
+
+_SUPERSCRIPTS = "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
+_LOWERED = "₀₁₂₃₄₅₆₇₈₉"
+_FRACTIONS = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
+#: A prime for each dot above a letter that functions have; others with dots are letters of an alphabet.
+_DOTTED = frozenset("xyzuvwqrsθφψ")
+_DOTS = {"\u0307": "'", "\u0308": "''"}
+#: What a character stands for; all else stands for itself.
+_CHARACTERS = {
+    **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015−", "-"),
+    **dict.fromkeys("´‘’′", "'"),
+    **dict.fromkeys("“”„″", '"'),
+    **dict.fromkeys("\u00ad\u200b\u200c\u200d\u2060\u2061\u2062\u2063\ufeff", ""),
+    **dict.fromkeys("·×⋅∙", "*"),
+    **dict.fromkeys("÷∕\u2044", "/"),
+    "‴": "'" * 3,
+    "∂": "d",
+    "\u00a0": " ",
+    "∞": "oo",
+    "ϕ": "φ",
+    **_DOTS,
+}
+
+_NO_LETTERS = f"Α-Ωα-ωħ{_SUPERSCRIPTS}{_LOWERED}{_FRACTIONS}"
+_TOKEN = re.compile(
+    rf"""
+    (?P<NUMBER> (?: [0-9]+ (?:\.[0-9]*)? | \.[0-9]+ ) (?: [eE][+-]?[0-9]+(?!\w) )? )
+  | (?P<COMMAND> \\[A-Za-z]+ | \\. )
+  | (?P<WORD> [Α-Ωα-ωħ] (?: _[A-Za-z0-9]+ | [0-9]+ )? | [^\W\d_{_NO_LETTERS}] [^\W{_NO_LETTERS}]* )
+  | (?P<PRIMES> ['"`]+ )
+  | (?P<SUPERSCRIPT> [⁺⁻]? [⁰¹²³⁴⁵⁶⁷⁸⁹]+ )
+  | (?P<NEWLINE> \n )
+  | (?P<SIGN> \*\* | := | == | @@ | \.[*/^] | \S )
+    """,
+    re.VERBOSE | re.DOTALL,
+)
 
 
-def is_equation(text: str) -> bool:
-    """Does a text mean an equation rather than S alone: has it an equals sign, a prime or a derivative?"""
-    return any(map(text.__contains__, _MARKS))
+class Token(NamedTuple):
+    """A token and its place: `kind` is NUMBER, COMMAND (of LaTeX), WORD, PRIMES, SUPERSCRIPT, NEWLINE or SIGN."""
+
+    kind: str
+    text: str
+    start: int
+    end: int
+
+
+def scanned(text: str) -> list[Token]:
+    """The tokens of a text.
+
+    >>> [token.text for token in scanned("ẍ + ½x² = 3e-1")]
+    ['x', "''", '+', '(', '1', '/', '2', ')', 'x', '²', '=', '3e-1']
+    """
+    plain, origins = text, None
+    if not text.isascii():
+        pieces = [_ordinary(text, k) for k in range(len(text))]
+        plain = "".join(pieces)
+        origins = [k for k, piece in enumerate(pieces) for _ in piece]
+    tokens: list[Token] = []
+    for found in _TOKEN.finditer(plain):
+        start, end = found.span()
+        if origins is not None:
+            start, end = origins[start], origins[end - 1] + 1
+        tokens.append(Token(str(found.lastgroup), found[0], start, end))
+    return tokens
+
+
+def _ordinary(text: str, k: int) -> str:
+    """What stands for a character of a text."""
+    character = text[k]
+    if character.isascii():
+        return character
+    if character in _CHARACTERS:
+        return _CHARACTERS[character]
+    before = text[k - 1 : k]
+    if character in _FRACTIONS:
+        is_mixed = before.isdecimal()
+        return character if is_mixed else f"({unicodedata.normalize('NFKC', character)})".replace("\u2044", "/")
+    kind = unicodedata.decomposition(character).partition(">")[0]
+    plain = unicodedata.normalize("NFKC", character)
+    if kind == "<super" and character not in _SUPERSCRIPTS:
+        return _raised(text, k, plain)
+    if kind == "<super":
+        return _raised(text, k, plain) if _is_raised_word(text, k) else character
+    if kind == "<sub" and character.isnumeric() and not (before.isalpha() or before in _LOWERED):
+        return character
+    if kind == "<sub":
+        return plain if before and unicodedata.decomposition(before).startswith("<sub") else f"_{plain}"
+    letter, *dots = list(unicodedata.normalize("NFD", character))
+    if letter in _DOTTED and "".join(dots) in _DOTS:
+        return letter + _DOTS["".join(dots)]
+    return plain if kind == "<font" else character
+
+
+def has_dots(text: str) -> bool:
+    """True if a letter has dots above it, which are derivatives by the time."""
+    for character in () if text.isascii() else text:
+        letter, *dots = list(unicodedata.normalize("NFD", character))
+        if letter in _DOTS or (letter in _DOTTED and "".join(dots) in _DOTS):
+            return True
+    return False
+
+
+def _is_super(text: str, k: int) -> bool:
+    return 0 <= k < len(text) and unicodedata.decomposition(text[k]).startswith("<super>")
+
+
+def _is_raised_word(text: str, k: int) -> bool:
+    """True if the raised characters about the one at k include others than digits and signs."""
+    first, last = k, k
+    while k - first < 9 and _is_super(text, first - 1):
+        first -= 1
+    while last - k < 9 and _is_super(text, last + 1):
+        last += 1
+    return any(character not in _SUPERSCRIPTS for character in text[first : last + 1])
+
+
+def _raised(text: str, k: int, plain: str) -> str:
+    """Its part of ^(2x) for raised characters that aren't a number."""
+    opening = "" if _is_super(text, k - 1) else "^("
+    closing = "" if _is_super(text, k + 1) else ")"
+    return f"{opening}{plain.replace('−', '-')}{closing}"
 
 
 @dataclass(frozen=True)
 class Tokens:
-    """The terminals of a text: token k is `pieces[k]`, of the kind `kinds[k]`; the last one is `$END`, and empty."""
+    """The tokens of an expression: token k is `pieces[k]`, of the kind `kinds[k]`; the last one is `$END`, and empty.
+
+    They stand in `text`, which the user gave, from `starts` to `ends`.
+    """
 
     text: str
     kinds: list[str]
     pieces: list[str]
-
-    @cached_property
-    def starts(self) -> list[int]:
-        """Where the tokens begin in the text: found when somebody asks, as for an error."""
-        matches = _terminals(self.text.isascii()).finditer(self.text)
-        return [*(match.start() for match in matches), len(self.text)]
-
-    @cached_property
-    def ends(self) -> list[int]:
-        """Where the tokens end in the text."""
-        return [start + len(piece) for start, piece in zip(self.starts, self.pieces, strict=True)]
+    starts: list[int]
+    ends: list[int]
+    #: The variable that the notation stands for where none is named, and whether it is LaTeX.
+    variable: str | None = None
+    latex: bool = False
 
     def are(self, k: int, *kinds: str) -> bool:
-        """Have the tokens from number k on these kinds?  Not where the text ends before."""
+        """True if the tokens from number k on have these kinds."""
         return self.kinds[k : k + len(kinds)] == [*kinds]
 
     def piece(self, begin: int, end: int) -> str:
@@ -126,7 +167,7 @@ class Tokens:
 
     def span(self, begin: int, end: int) -> tuple[int, int]:
         """Position and length of the text of the tokens begin, ..., end - 1."""
-        return self.starts[begin], self.ends[end - 1] - self.starts[begin]
+        return self.starts[begin], max(0, self.ends[end - 1] - self.starts[begin])
 
     def error(
         self,
@@ -151,51 +192,44 @@ class Tokens:
         return found
 
 
+_HINTS = {
+    "!": "write factorials out as numbers",
+    "|": "a bar is missing; write abs(...)",
+    "√": "write sqrt(...)",
+    ";": "give one expression at a time",
+    "_": "names begin with a letter, and digits aren't grouped: write 1000000, x1",
+    "'": "primes belong to the unknown function of an equation, as in y''",
+    '"': "primes belong to the unknown function of an equation, as in y''",
+    "%": "write percentages as fractions, 1/100; a comment stands behind a space: % like this",
+    "#": "a comment stands behind a space: # like this",
+    "°": "angles are in radians: 90 degrees are pi/2",
+    "$": "leave the $ out, or put the whole text between two of them",
+    ".": "decimals are written 1.5; a derivative is y.diff(x, 2), or y''",
+    ":": "leave the colon out",
+    **dict.fromkeys(
+        "<>≤≥≠", "an equation has the sign =; what is known about a parameter is given apart, as assumption"
+    ),
+}
+
+
+def unexpected(text: str, token: Token) -> ParseError:
+    """What to say of a character that means nothing."""
+    char = text[token.start] if token.start < len(text) else token.text[0]
+    shown = repr(char) if char.isprintable() else f"U+{ord(char):04X}"
+    hint = _HINTS.get(token.text[0])
+    if char in _LOWERED:
+        hint = "write indices as ordinary digits: x1"
+    elif char.isnumeric():
+        hint = "write numbers with the digits 0 to 9: 1/2"
+    return ParseError(
+        f"unexpected character {shown}",
+        text=text,
+        position=token.start,
+        hint=hint or "there are numbers, names, + - * / ^ ( ) = and y''",
+    )
+
+
 def check_length(text: str, limits: Limits, *, what: str) -> None:
     if len(text) > limits.text_length:
         said = f"{what} has {len(text)} characters, above the limit of {limits.text_length}"
         raise LimitExceeded(said, limit="text_length")
-
-
-def tokens_of(text: str, limits: Limits, *, what: str, hint: str | None = None) -> Tokens:
-    """The tokens of a text that isn't empty and not too long; `what` it is and the `hint` are for the message."""
-    check_length(text, limits, what=what)
-    tokens = tokenize(text)
-    if len(tokens.kinds) == 1:
-        raise ParseError(f"there is no expression: {what} is empty", text=text, position=0, hint=hint)
-    return tokens
-
-
-def tokenize(text: str) -> Tokens:
-    """The terminals of `text`; raises `ParseError` at a character that no terminal begins with."""
-    ascii_only = text.isascii()
-    pieces = _terminals(ascii_only).findall(text)
-    kinds = [_KINDS.get(piece) or _kind(piece) for piece in pieces]
-    for k, kind in enumerate(kinds):
-        if kind == "LPAR" and k and kinds[k - 1] in ("NAME", "PRIMED"):
-            kinds[k - 1] = "HEAD"
-        elif kind == "NAME" and not ascii_only and not pieces[k].isidentifier():
-            kinds[k] = "OTHER"
-    tokens = Tokens(text, [*kinds, "$END"], [*pieces, ""])
-    if "OTHER" in kinds:
-        k = kinds.index("OTHER")
-        raise _unexpected(text, tokens.starts[k], tokens.ends[k])
-    return tokens
-
-
-def _unexpected(text: str, start: int, end: int) -> ParseError:
-    offending = text[start:end]
-    position = next((start + k for k, char in enumerate(offending) if not offending[: k + 1].isidentifier()), start)
-    char = text[position]
-    shown = repr(char) if char.isprintable() else f"U+{ord(char):04X}"
-    return ParseError(f"unexpected character {shown}", text=text, position=position, hint=_hint_for(char))
-
-
-def _hint_for(char: str) -> str:
-    if char in _HINTS:
-        return _HINTS[char]
-    if "₀" <= char <= "₉":
-        return "write indices as ordinary digits: x1"
-    if char.isnumeric():
-        return "write numbers with the digits 0 to 9: 1/2"
-    return "there are numbers, names, + - * / ^ ( ) = and y''"

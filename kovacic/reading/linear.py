@@ -19,12 +19,14 @@ from kovacic.equation import over
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic, Monomial
-from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS
+from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS, SEVERAL_ARGUMENTS
 
 #: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
 _LARGEST_BITS = 14_000
 #: The largest power that SymPy is asked for.
 _LARGEST_EXPONENT = 1000
+#: The highest power of an operator with D.
+_HIGHEST_POWER = 10
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
@@ -41,6 +43,12 @@ class LinearForm:
 
     def __init__(self, parts: Mapping[int, Any]) -> None:
         self.parts = parts
+
+
+class Operator(LinearForm):
+    """`parts[k]` is the coefficient of D^k: what a linear form is before it is applied to the unknown function."""
+
+    __slots__ = ()
 
 
 def is_rational(value: Any) -> bool:
@@ -93,7 +101,7 @@ class LinearArithmetic(Arithmetic):
 
     def negate(self, value: Any) -> Any:
         if isinstance(value, LinearForm):
-            return LinearForm({k: self.negate(c) for k, c in value.parts.items()})
+            return type(value)({k: self.negate(c) for k, c in value.parts.items()})
         if is_rational(value):
             return super().negate(value)
         return -value
@@ -118,18 +126,25 @@ class LinearArithmetic(Arithmetic):
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
         """The sum, some terms of which have no unknown function."""
+        are_operators = [isinstance(term, Operator) for term in terms if isinstance(term, LinearForm)]
+        if any(are_operators) and not all(are_operators):
+            raise NotLinear("an operator beside what it is applied to", hint=f"write (D^2 + 1) {self.unknown} = 0")
+        constant = 0 if any(are_operators) else REST
+        kind = Operator if any(are_operators) else LinearForm
         parts: dict[int, list[Any]] = {}
         for term in terms:
             if isinstance(term, LinearForm):
                 for k, c in term.parts.items():
                     parts.setdefault(k, []).append(c)
             else:
-                parts.setdefault(REST, []).append(term)
-        return LinearForm({k: self.sum(coefficients) for k, coefficients in parts.items()})
+                parts.setdefault(constant, []).append(self._coefficient_of(term) if constant == 0 else term)
+        return kind({k: self.sum(coefficients) for k, coefficients in parts.items()})
 
     def multiply(self, left: Any, right: Any) -> Any:
         if is_rational(left) and is_rational(right):
             return super().multiply(left, right)
+        if isinstance(left, Operator):
+            return self._applied(left, right if isinstance(right, LinearForm) else Operator({0: right}))
         if isinstance(left, LinearForm) and isinstance(right, LinearForm):
             said = f"a product of {self.unknown} or its derivatives: the equation isn't linear"
             raise NotLinear(said, hint=LINEAR_HINT)
@@ -142,7 +157,22 @@ class LinearArithmetic(Arithmetic):
     def _multiple(self, form: LinearForm, factor: Any) -> LinearForm:
         """A form times what has no unknown function."""
         coefficient = self._coefficient_of(factor)
-        return LinearForm({k: self.multiply(c, coefficient) for k, c in form.parts.items()})
+        return type(form)({k: self.multiply(c, coefficient) for k, c in form.parts.items()})
+
+    def _applied(self, operator: Operator, form: LinearForm) -> Any:
+        """The sum of c_k D^k, applied to a form, or to another operator: D c = c' + c D."""
+        terms = []
+        for k in range(max(operator.parts) + 1):
+            if k in operator.parts:
+                terms.append(self._multiple(form, operator.parts[k]))
+            form = self.derivative(form)
+        return self.sum(terms)
+
+    def of_several(self, head: str, arguments: Sequence[Any]) -> Any:
+        """One of the functions of `SEVERAL_ARGUMENTS`, by SymPy."""
+        import sympy
+
+        return self._checked(getattr(sympy, SEVERAL_ARGUMENTS[head])(*map(self.expression, arguments)))
 
     def _coefficient_of(self, factor: Any) -> Any:
         """What has no unknown function, as a factor of it."""
@@ -169,6 +199,11 @@ class LinearArithmetic(Arithmetic):
             return super().power(base, n)
         if not isinstance(base, LinearForm):
             return self.symbolic_power(base, self.constant(n))
+        if isinstance(base, Operator) and 0 < n <= _HIGHEST_POWER:
+            power = base
+            for _ in range(n - 1):
+                power = self._applied(base, power)
+            return power
         if n != 1:
             raise NotLinear(
                 f"a power of {self.unknown} or of a derivative: the equation isn't linear", hint=LINEAR_HINT
@@ -217,8 +252,9 @@ class LinearArithmetic(Arithmetic):
         """The derivative with respect to the variable."""
         if isinstance(value, LinearForm):
             # (c y^(k))' = c' y^(k) + c y^(k+1)
-            slopes = [LinearForm({k: self.derivative(c)}) for k, c in value.parts.items()]
-            higher = [LinearForm({k + 1: c}) for k, c in value.parts.items() if k != REST]
+            kind = type(value)
+            slopes = [kind({k: self.derivative(c)}) for k, c in value.parts.items()]
+            higher = [kind({k + 1: c}) for k, c in value.parts.items() if k != REST]
             return self.sum([*slopes, *higher])
         if is_rational(value):
             return self.closed(value).derivative()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
+
 #: Names that stand for numbers unless the caller says that the variable has this name.
 NUMBER_NAMES = {
     "I": "the imaginary unit",
@@ -17,7 +20,7 @@ NUMBER_NAMES = {
 
 _FUNCTIONS = """
     exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
-    Heaviside DiracDelta
+    Heaviside DiracDelta floor
 """
 
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
@@ -34,6 +37,21 @@ FUNCTION_NAMES |= {
     "Gamma": "gamma",
 }  # gamma(...) may be a product
 
+#: The functions of several arguments, by the names of SymPy's.
+SEVERAL_ARGUMENTS = {
+    "max": "Max",
+    "Max": "Max",
+    "min": "Min",
+    "Min": "Min",
+    "SingularityFunction": "SingularityFunction",
+}
+#: Calls that other systems write about numbers.
+NUMBER_CALLS = frozenset({"Rational", "Integer", "S"})
+#: The functions whose parentheses may be left out.
+BARE = frozenset(
+    "sinh cosh tanh coth sech csch sin cos tan cot sec csc arcsin arccos arctan exp log ln".split()  # noqa: SIM905
+)
+
 _GREEK = """
     alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron rho sigma tau upsilon phi chi psi omega
     Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega
@@ -41,9 +59,55 @@ _GREEK = """
 
 #: Names of Greek letters, each of which is a letter of its own; pi is a number.
 GREEK = frozenset(_GREEK.split())
+#: Letters of physicists that have names, and common names of numbers without dimension.
+SPECIAL_LETTERS = frozenset({"hbar", "ell", "pi", "eps", "lam"})
 
 #: A pattern for a name of one letter, or of a Greek one.
-LETTER = rf"(?:{'|'.join(sorted(GREEK, key=len, reverse=True))}|[^\W\d_])"
+LETTER = rf"(?:{'|'.join(sorted(GREEK | SPECIAL_LETTERS, key=len, reverse=True))}|[^\W\d_])"
+_LETTER_WITH_INDEX = re.compile(rf"{LETTER}(?:_\w+|\d+|\d*_)?")
 
 #: What to do with a transcendental number.
 TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"
+
+
+def is_letter(name: str) -> bool:
+    """True for x, x1, omega, omega_0, k_x; a word isn't a letter."""
+    return _LETTER_WITH_INDEX.fullmatch(name) is not None
+
+
+def words_among(names: Iterable[object]) -> tuple[str, ...]:
+    """The names that have to be declared where a text with them is read again."""
+    return tuple(name for name in names if isinstance(name, str) and not is_letter(name))
+
+
+def is_function(name: str) -> bool:
+    return name in FUNCTION_NAMES or name in ("sqrt", "cbrt", "root") or name in SEVERAL_ARGUMENTS
+
+
+#: The parts of a word that was glued together: functions, Greek letters, letters with digits.
+_PARTS = re.compile(
+    rf"(?P<function>{'|'.join(sorted(BARE | {'sqrt'}, key=len, reverse=True))})|(?P<letter>{LETTER})|(?P<number>\d+)"
+)
+
+
+def unglued(word: str) -> str:
+    """The product that a word probably is: x*sin(x) for xsinx, a*b*c for abc.
+
+    >>> unglued("xsinx"), unglued("Fcoswt"), unglued("sin2x"), unglued("EI")
+    ('x*sin(x)', 'F*cos(w*t)', 'sin(2*x)', 'E*I')
+    """
+    factors: list[str] = []
+    inside: list[str] | None = None
+    for found in _PARTS.finditer(word):
+        if found["function"]:
+            if inside:
+                factors[-1] += f"({'*'.join(inside)})"
+            factors.append(found[0])
+            inside = []
+        elif inside is None:
+            factors.append(found[0])
+        else:
+            inside.append(found[0])
+    if inside is not None:
+        factors[-1] += f"({'*'.join(inside) or '...'})"
+    return "*".join(factors)

@@ -17,8 +17,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.reading.lexer import DERIVATIVES, Tokens
-from kovacic.reading.names import FUNCTION_NAMES, GREEK
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
@@ -232,10 +231,18 @@ class _Parser:
         return False
 
     def implicit_product(self, k: int) -> bool:
-        """The token begins the second factor."""
+        """The token begins the second factor; a quotient before a derivative is its factor: 1/2m y'' is (1/(2m)) y''."""
         self.reduce(_IMPLICIT, k)
+        level, slash = self.pending[-1]
+        if level == _PRODUCT and self.kinds[slash] == "SLASH" and self.is_derivative(k):
+            self.operands[-1].split = 0
+            self.reduce(_PRODUCT, k)
         self.pending.append((_IMPLICIT, k))
         return _PREFIX[self.kinds[k]](self, k)
+
+    def is_derivative(self, k: int) -> bool:
+        piece = self.pieces[k]
+        return piece.endswith(PRIMES) or (self.kinds[k] == "HEAD" and piece in DERIVATIVES)
 
     def close(self, k: int) -> bool:
         self.complete(k)
@@ -392,31 +399,12 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
         return
     if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and reader.follows_without_sign(tokens.pieces[right]):
         return
-    if _are_apart(tokens, left, right):
-        return
+    if tokens.kinds[left] == "NAME" and tokens.kinds[right] in ("NAME", "HEAD", "LPAR"):
+        return  # letters that stand apart, as `naming` has found
     first = shortened(tokens.pieces[left])
     second = shortened(tokens.pieces[right])
     message = f"an operator is missing between {first!r} and {second!r}"
     raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
-
-
-def _are_apart(tokens: Tokens, left: int, right: int) -> bool:
-    """Are these a letter and another letter or a call, with a space between: a x, a sin(x); or a factor before parentheses?"""
-    if tokens.kinds[left] != "NAME":
-        return False
-    if tokens.kinds[right] == "LPAR":  # `source` has found that the name is no function
-        return True
-    if tokens.kinds[right] not in ("NAME", "HEAD"):
-        return False
-    if tokens.ends[left] == tokens.starts[right] or not is_letter(tokens.pieces[left]):
-        return False
-    return is_letter(tokens.pieces[right]) or tokens.pieces[right] in FUNCTION_NAMES
-
-
-def is_letter(name: str) -> bool:
-    """x, x1, omega, omega_0, k_x; not a word."""
-    bare = name.partition("_")[0].rstrip("0123456789")
-    return len(bare) == 1 or bare in GREEK or bare in ("pi", "hbar", "ell")
 
 
 def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError:

@@ -42,17 +42,17 @@ def multiplied_out(expression: Expr, function: Expr) -> Expr | None:
     return sympy.expand(polynomial.as_expr().xreplace(dict(zip(unknown, derivatives, strict=True))))
 
 
-def expression_of(source: Source, limits: Limits) -> Expr:
+def expression_of(source: Source, limits: Limits, *, what: str = "the equation") -> Expr:
     """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
-    reader = _TextReader(source.variable, source.unknown, limits)
+    reader = _TextReader(source.variable, source.unknown, limits, what)
     return reader.arithmetic.expression(source.walk(reader))
 
 
 class _TextReader(SymbolicReader):
     """What a text means; the unknown function y is y(x)."""
 
-    def __init__(self, variable: str, unknown: str, limits: Limits) -> None:
-        super().__init__(None, "the equation", limits)
+    def __init__(self, variable: str, unknown: str, limits: Limits, what: str) -> None:
+        super().__init__(None, what, limits)
         self.unknown = unknown
         self.x = sympy.Symbol(variable)
         self.function = sympy.Function(unknown)(self.x)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -11,12 +11,13 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import DEFAULT_VARIABLE, PI, Equation, Parsed
+from kovacic.equation import DEFAULT_VARIABLE, Equation, Parsed
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.exact import exact_real, exact_text, is_rational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.parser import shown
-from kovacic.reading.source import Source, read_source, source_of
+from kovacic.reading.pieces import Paste
+from kovacic.reading.source import Source, as_equation, read_source, source_of
 
 
 def read_input(
@@ -27,6 +28,7 @@ def read_input(
     exponentials: bool = False,
     unknown: Any = None,
     equation: bool = False,
+    names: Collection[str] = (),
 ) -> Parsed:
     """S as a rational function with the name of its variable, from whatever the user has.
 
@@ -37,15 +39,18 @@ def read_input(
     SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  With `exponentials`,
     coefficients may be rational in exp(k x), or sines, ... of multiples of k x: the equation then has a `change` of variable.
     `equation` says that it is one, and `unknown` is the name of its function, or y(x), where more than one occurs.
+    `names` are declared parameters: names of more than one letter have to be.
     Raises `InputError` and `LimitExceeded`.
 
     >>> str(read_input("x^2 + 3").S), str(read_input(([3, 0, 1], [1])).S)
     ('x**2 + 3', 'x**2 + 3')
     """
     variable = _variable_name(var)
-    if isinstance(S, str) or _is_sympy(S):
-        source = source_of(S, variable, limits, unknown=unknown, equation=equation)
-        return _with_note(_read(S, source, limits, exponentials=exponentials))
+    if isinstance(S, str | Paste) or _is_sympy(S):
+        source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
+        parsed = _with_note(_read(S, source, limits, exponentials=exponentials))
+        lost = tuple(note for note in source.notes if note not in parsed.notices)
+        return replace(parsed, notices=(*lost, *parsed.notices)) if lost else parsed
     if is_rational(S):
         return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
     if isinstance(S, RatFunc):
@@ -63,6 +68,16 @@ def read_input(
     )
 
 
+def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]:
+    """The names that a user has declared: parameters, and what assumptions or values are about.  Raises `InputError`."""
+    if isinstance(parameters, str):
+        raise InputError(f"parameters={parameters!r} isn't a list of names", hint=f"parameters=[{parameters!r}]")
+    for name in parameters:
+        if not isinstance(name, str) or not name.isidentifier():
+            raise InputError(f"{name!r} can't be the name of a parameter", hint="take letters and digits: EI, k_0")
+    return (*parameters, *map(str, assume if isinstance(assume, Mapping) else ()))
+
+
 def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
     """What a source means, made of the text or expression that was given.
 
@@ -76,13 +91,12 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
             raise
         return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
     except NotRational as error:
-        is_with_pi = error.excerpt == PI or (exponentials and _constants_in(given) == {PI})
-        if is_with_pi and not source.unknown:
-            with suppress(InputError):  # a constant of equations
-                return read_source(source_of(f"y'' = ({given})*y", source.variable, limits), limits)
+        if not source.unknown:
+            with suppress(InputError):  # pi and e are constants of equations
+                return read_source(as_equation(source), limits)
         if not exponentials:
             raise
-        if not isinstance(given, str):
+        if source.tokens is None:
             quotient = _divided(given, source, limits)
             if quotient is not None:
                 return quotient
@@ -113,15 +127,6 @@ def _in_other_functions(source: Source, error: NotRational, limits: Limits) -> P
     return found
 
 
-def _constants_in(given: Any) -> set[str]:
-    """The names of numbers like pi in a SymPy expression."""
-    if not hasattr(given, "atoms"):
-        return set()
-    from sympy import NumberSymbol
-
-    return {str(number) for number in given.atoms(NumberSymbol)}
-
-
 def _multiplied_out(given: Any, source: Source, limits: Limits) -> Any:
     """An equation without the unknown function in denominators; None where that doesn't make it linear."""
     from sympy import Equality, Function, Symbol
@@ -129,7 +134,7 @@ def _multiplied_out(given: Any, source: Source, limits: Limits) -> Any:
     from kovacic.reading.quotients import expression_of, multiplied_out
     from kovacic.reading.symbolic import functions_in
 
-    if isinstance(given, str):
+    if source.tokens is not None:
         try:
             return multiplied_out(expression_of(source, limits), Function(source.unknown)(Symbol(source.variable)))
         except InputError:
@@ -211,7 +216,9 @@ def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parse
     return replace(found, notices=(*said, *found.notices), letters=tuple(meanings.items()))
 
 
-def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
+def read_coefficients(
+    a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, names: Collection[str] = ()
+) -> Parsed:
     """The equation a y'' + b y' + c y = f; each coefficient is a string, a number, a `RatFunc` or a SymPy expression.
 
     Raises `InputError` and `LimitExceeded`; positions refer to the equation as it was put together.
@@ -226,7 +233,7 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
         equation = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
         return read_source(source_of(equation, None, unknown=y, equation=True), limits)
     line = "({})*y'' + ({})*y' + ({})*y = {}".format(*map(_coefficient_text, given))
-    return read_input(line, var=var, limits=limits)
+    return read_input(line, var=var, limits=limits, names=names)
 
 
 def _coefficient_text(value: Any) -> str:

@@ -17,8 +17,11 @@ from kovacic.errors import InputError
 from kovacic.exact import exact_text
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numerals import plain_text
-from kovacic.reading.lexer import Tokens, tokenize
+from kovacic.reading.dialects import tokenize
+from kovacic.reading.lexer import Tokens
+from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
+from kovacic.reading.source import source_of
 
 #: What is known about a parameter, in words and inequalities; anything else is its value.
 _WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*")
@@ -39,8 +42,8 @@ class Template:
     '(4*(-1/2)^2 - 1)/(4*x^2) - (-1/2)'
     """
 
-    def __init__(self, text: str, names: Sequence[str]) -> None:
-        tokens = tokenize(text)
+    def __init__(self, text: str, names: Sequence[str], variable: str | None = None) -> None:
+        tokens = _tokens(text, names, variable)
         places = [k for k, piece in enumerate(tokens.pieces) if piece in names]
         for k in places:
             if tokens.kinds[k] != "NAME":
@@ -64,6 +67,16 @@ class Template:
         for name, piece in zip(self._names, others, strict=True):
             filled += [f"({values[name]})", piece]
         return "".join(filled)
+
+
+def _tokens(text: str, names: Sequence[str], variable: str | None) -> Tokens:
+    """The tokens of a text, products that are glued together apart where it can be told."""
+    try:
+        tokens = source_of(text, variable, names=names).tokens
+    except InputError:  # of which the reader of the filled text will speak
+        return tokenize(text)
+    assert tokens is not None
+    return tokens
 
 
 def _as_function(tokens: Tokens, k: int) -> InputError:
@@ -137,8 +150,9 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
     _check_parameters(values, parameters_of(parsed.S.field))
     texts = {name: value_text(value, name, parsed.variable, limits) for name, value in values.items()}
     template = _text_with_parameters(S, parsed)
-    filled = Template(template, [*texts]).filled(texts)
-    read = read_input(filled, var=_user_variable(parsed), limits=limits, exponentials=True)
+    filled = Template(template, [*texts], _user_variable(parsed)).filled(texts)
+    declared = words_among(parameters_of(parsed.S.field))
+    read = read_input(filled, var=_user_variable(parsed), limits=limits, exponentials=True, names=declared)
     others = {name: what for name, what in told.items() if str(name) not in texts}
     return Substituted(filled, read, others or None)
 

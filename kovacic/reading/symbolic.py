@@ -11,7 +11,7 @@ n*exp(2) + 2*sqrt(2)
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
@@ -25,13 +25,16 @@ from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
+from kovacic.reading.dialects import tokens_of
 from kovacic.reading.expression import OperationPlace, RationalReader
-from kovacic.reading.lexer import tokens_of
+from kovacic.reading.lexer import PRIMES
 from kovacic.reading.linear import LinearArithmetic, Symbols
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, SEVERAL_ARGUMENTS
 from kovacic.reading.parser import Site, evaluate, shown
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
+#: Infinity as it is written in texts.
+_INFINITE = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
 _CONSTANTS = {"pi": sympy.pi, "π": sympy.pi, "e": sympy.E, "I": sympy.I}
 
 
@@ -176,16 +179,33 @@ def divided(eq: Any) -> Any:
     return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(expanded)))
 
 
+@dataclass(frozen=True)
+class Points:
+    """The unknown function of conditions, and what stands for its k-th derivative at a point: `at(point, k)`."""
+
+    unknown: str
+    at: Callable[[Any, int], Any]
+
+
 def read_expression(
-    text: str, *, names: Mapping[str, Any] | None = None, what: str = "the expression", limits: Limits = LIMITS
+    text: str,
+    *,
+    names: Mapping[str, Any] | None = None,
+    what: str = "the expression",
+    limits: Limits = LIMITS,
+    values: Points | None = None,
 ) -> Any:
     """The SymPy expression that a text denotes in `names`, pi, e, I and the elementary functions; decimals are exact.
 
-    Without `names`, every other name is a symbol.  Raises `InputError`, with the position, for anything else (`what` says
+    Without `names`, every other name is a symbol; with `values` calls of the unknown
+    function are its values.  Raises `InputError`, with the position, for anything else (`what` says
     in the message what the text stands for), and `LimitExceeded` for a text, a number or a power that is too large.
     """
     tokens = tokens_of(text, limits, what=what)
     reader = SymbolicReader(names, what, limits)
+    if values is not None:
+        reader.values = values
+        reader.names = {**reader.names, **_INFINITE}
     return reader.arithmetic.expression(evaluate(tokens, reader))
 
 
@@ -197,6 +217,7 @@ class SymbolicReader(RationalReader):
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits) -> None:
         super().__init__({**_CONSTANTS, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
         self.any_name = names is None
+        self.values: Points | None = None
         self.what = what
 
     def name(self, name: str) -> Any:
@@ -205,6 +226,9 @@ class SymbolicReader(RationalReader):
         if not self.any_name or name in NUMBER_NAMES:
             raise InputError(f"{self.what} can't contain {name}")
         return sympy.Symbol(name)
+
+    def follows_without_sign(self, name: str) -> bool:
+        return self.values is not None and name.rstrip(PRIMES) == self.values.unknown
 
     def derivative(self, text: str) -> Any:
         raise InputError(f"{self.what} can't contain the derivative {text}")
@@ -219,8 +243,13 @@ class SymbolicReader(RationalReader):
             return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
+        function = head.rstrip(PRIMES)
+        if self.values is not None and function == self.values.unknown and len(arguments) == 1:
+            return self.values.at(self.arithmetic.expression(arguments[0]), len(head) - len(function))
         if head == "root" and len(arguments) == 2:
             return self.power(arguments[0], self.arithmetic.divide(Monomial(1, 0), arguments[1]), site)
+        if head in SEVERAL_ARGUMENTS and not any(isinstance(argument, tuple) for argument in arguments):
+            return self.arithmetic.of_several(head, arguments)
         if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)

@@ -45,6 +45,7 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
+from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.written import WrittenReader
 from kovacic.shown import json_line, strict_json
@@ -216,7 +217,8 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
     """The input.  Raises `ValueError` where S, the equation or the gauge aren't those of the data."""
     change = (data.get("equation") or {}).get("change") or {}
     given = change.get("variable", variable)
-    parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable)
+    names = words_among((data.get("field") or {}).get("parameters") or ())
+    parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable, names=names)
     is_over_the_same = parsed.variable == variable and _is_field(data.get("field"), parsed.S.field)
     if not is_over_the_same or _Reader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
         raise ValueError("S isn't that of the input")

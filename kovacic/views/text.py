@@ -10,7 +10,7 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.reading.lexer import is_equation
+from kovacic.reading.pieces import is_equation
 from kovacic.shown import in_one_line, visible
 from kovacic.views.sentences import (
     SOLVABLE,

@@ -1,0 +1,421 @@
+"""What every name in a text is: the variable, the unknown function, a parameter, a function, a number, a product of letters.
+
+The world of names is closed.  A name is one letter (Latin, Greek, or the name of a Greek letter) with an index or digits, a
+function, a number such as pi, one of a few letters of physics, or it has been declared.  Two letters that are glued together
+are their product if one of them is the variable or the unknown function; anything else is refused, with what was probably
+meant.  It is decided here once; the reasons are notes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from kovacic.equation import DEFAULT_VARIABLE, ENERGY, UNKNOWN
+from kovacic.errors import InputError, ParseError
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
+from kovacic.reading.names import FUNCTION_NAMES, GREEK, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
+
+#: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
+USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
+#: Of these, the names of constants: they are the variable where a function or several powers of them occur.
+_OFTEN_CONSTANT = frozenset("TXZsuτξρζ") | {"tau", "xi", "rho", "zeta"}
+#: Beside a frequency z and zeta are damping ratios: x'' + 2 zeta omega x' + omega^2 x = 0.
+_DAMPING_RATIOS = frozenset({"zeta", "ζ", "z"})
+_FREQUENCIES = ("omega", "ω", "w")
+_USUAL_UNKNOWNS = frozenset("xyzuvwqf")
+_NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
+OPERATOR = "D"
+
+
+@dataclass(frozen=True)
+class Named:
+    """The tokens of an expression in which every name is known; the `unknown` is empty for S alone."""
+
+    tokens: Tokens
+    variable: str
+    unknown: str
+    notes: tuple[str, ...]
+    #: D stands for the derivative.
+    has_operator: bool = False
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """What the user has said of names: `variable` and `unknown` where they are given, and the `declared` parameters."""
+
+    variable: str | None = None
+    unknown: str | None = None
+    declared: frozenset[str] = frozenset()
+
+    def equation(self, tokens: Tokens) -> Named:
+        """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
+        notes = [*_guesses(tokens)]
+        has_operator = OPERATOR not in self.declared and _has_operator(tokens)
+        y = self.unknown or _primed(tokens, self.declared) or _differentiated(tokens)
+        if y is None:
+            y = _operand(tokens) if has_operator else UNKNOWN
+        _check_stiffness(tokens, self.declared)
+        x, why = (self.variable, None) if self.variable else _variable_of(tokens, y, self.declared)
+        split, products = self._with_products(tokens, x, y)
+        notes += [*([why] if why else []), *products, *_imaginary(split, x, y, self.declared)]
+        _check_two_exponents(split, y)
+        return Named(_with_factors(split, x, y), x, y, tuple(notes), has_operator)
+
+    def S(self, tokens: Tokens) -> Named:
+        """The names of S alone."""
+        x = self.variable or _variable_of_S(tokens, self.declared)
+        if x in ("e", "E"):
+            _check_decimals(tokens, x)
+        split, products = self._with_products(tokens, x, "")
+        if x != "e":
+            _check_two_exponents(split, "")
+        notes = [*_guesses(tokens), *products]
+        if self.variable is None and x not in USUAL_VARIABLES and x in split.names():
+            notes.append(f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)")
+        return Named(_with_factors(split, x, ""), x, "", tuple(notes))
+
+    def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
+        """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
+        columns: list[list[tuple[str, str, int, int]]] = []
+        notes: dict[str, None] = {}
+        for k, row in enumerate(zip(tokens.kinds, tokens.pieces, tokens.starts, tokens.ends, strict=True)):
+            kind, piece, start, end = row
+            name = piece.rstrip(PRIMES)
+            if kind not in ("NAME", "PRIMED", "HEAD") or self._is_known(tokens, k, name, x, y):
+                columns.append([row])
+                continue
+            if not _is_product(name, x, y):
+                raise self._unknown_name(tokens, k, x, y)
+            if tokens.are(k - 1, "CIRCUMFLEX") or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
+                hint = f"write ({name[0]}*{name[1]}) for the product"
+                raise tokens.error(ParseError, f"{name} in an exponent can be read in two ways", k, k + 1, hint=hint)
+            notes[f"{name} was read as {name[0]}*{name[1]}"] = None
+            columns.append([("NAME", name[0], start, start + 1), (kind, piece[1:], start + 1, end)])
+        rows = [row for column in columns for row in column]
+        if not notes:
+            return tokens, []
+        kinds, pieces, starts, ends = (list(column) for column in zip(*rows, strict=True))
+        return replace(tokens, kinds=kinds, pieces=pieces, starts=starts, ends=ends), list(notes)
+
+    def _is_known(self, tokens: Tokens, k: int, name: str, x: str, y: str) -> bool:
+        if name in (x, y) or name in self.declared:
+            return True
+        if tokens.kinds[k] == "HEAD" and (name in DERIVATIVES or name in NUMBER_CALLS or is_function(name)):
+            return True
+        if name in NUMBER_NAMES or is_function(name):
+            return True
+        numbered = [other for other in tokens.names() if other.rstrip("0123456789") in (x, y) and other not in (x, y)]
+        if numbered == [name] and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
+            return False  # x2 alone may be a product, or a power; x1 and x2 are two points
+        return is_letter(name) or tokens.kinds[k] == "HEAD"
+
+    def _unknown_name(self, tokens: Tokens, k: int, x: str, y: str) -> InputError:
+        """What to say of a name that means nothing here."""
+        piece = tokens.pieces[k]
+        name = piece.rstrip(PRIMES)
+        declare = f"or declare it: parameters=[{name!r}]"
+        shell = f"or declare it: --names {name}"
+        meant = unglued(name)
+        bare = name.rstrip("0123456789")
+        if {*name} == {"E", "I"}:
+            meant = "one letter for a stiffness, as B"
+        elif bare in (x, y):
+            digits = name[len(bare) :]
+            meant = f"{bare}^{digits} or {digits}*{bare}"
+        elif name == f"d{x}":
+            meant = f"{y}' or d{y}/d{x} for a derivative"
+        elif name in ("asinx", "acosx", "atanx") or name.startswith(("asin", "acos", "atan")):
+            inside = name[4:] and f"({unglued(name[4:])})"
+            meant = f"a*{name[1:4]}{inside} for the product, {name[:4]}{inside} for the inverse function"
+        elif len(name) > 4 and meant.count("*") == len(name) - 1:
+            meant = "nothing for a word that isn't part of the equation"
+            return tokens.error(
+                ParseError,
+                f"{name} is a word that isn't known here",
+                k,
+                k + 1,
+                hint=f"leave it out, {declare}",
+                shell=f"leave it out, {shell}",
+            )
+        said = f"{name} is one name, and not a known one"
+        return tokens.error(
+            ParseError, said, k, k + 1, hint=f"write {meant}, {declare}", shell=f"write {meant}, {shell}"
+        )
+
+
+# ------------------------------------------------------------------------------------------------- what is asked back
+
+
+def _guesses(tokens: Tokens) -> Iterator[str]:
+    """What may have been meant in another way: x^1/2 is x/2."""
+    for k, kind in enumerate(tokens.kinds):
+        if kind == "CIRCUMFLEX" and tokens.are(k + 1, "NUMBER", "SLASH", "NUMBER") and tokens.pieces[k + 1] == "1":
+            below = tokens.pieces[k + 3]
+            yield f"^1/{below} was read as (...)^1 divided by {below}; a root is written ^(1/{below})"
+            return
+
+
+def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
+    """Raises `ParseError` for E I, which may be a stiffness, or the energy times the imaginary unit."""
+    if "I" in declared:
+        return
+    names = [k for k, kind in enumerate(tokens.kinds) if kind == "NAME" and tokens.pieces[k] in ("E", "I")]
+    for k, other in pairwise(names):
+        is_product = other == k + 1 or (other == k + 2 and tokens.kinds[k + 1] == "STAR")
+        if is_product and {tokens.pieces[k], tokens.pieces[other]} == {"E", "I"}:
+            hint = "take one letter for a stiffness, as B; or declare I as a parameter: parameters=['I']"
+            shell = "take one letter for a stiffness, as B; or declare I as a parameter: --names I"
+            said = "E I may be a stiffness, or an energy times the imaginary unit"
+            raise tokens.error(ParseError, said, k, other + 1, hint=hint, shell=shell)
+
+
+def _check_decimals(tokens: Tokens, variable: str) -> None:
+    """Raises `ParseError` for 2e-3 with the variable e: it is 0.002, or 2*e - 3."""
+    for k, text in enumerate(tokens.pieces):
+        if tokens.kinds[k] != "NUMBER" or variable not in text:
+            continue
+        mantissa, _, rest = text.partition(variable)
+        other = f"{mantissa}*{variable}{rest}"
+        if rest[0] in "+-":
+            other = f"{mantissa}*{variable} {rest[0]} {rest[1:]}"
+        message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
+        hint = "write decimals without an exponent, and products with *"
+        raise tokens.error(ParseError, message, k, k + 1, hint=hint)
+
+
+def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
+    """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
+    for k, kind in enumerate(tokens.kinds):
+        if kind != "CIRCUMFLEX" or tokens.pieces[k - 1] != "e":
+            continue
+        number = k + 2 if tokens.are(k + 1, "MINUS") else k + 1
+        is_glued = tokens.are(number, "NUMBER", "NAME") and tokens.ends[number] == tokens.starts[number + 1]
+        if is_glued and tokens.pieces[number + 1] != unknown:
+            power = tokens.piece(k + 1, number + 1)
+            factor = tokens.pieces[number + 1]
+            whole = tokens.piece(k - 1, number + 2)
+            hint = f"write e^({power}*{factor}) or e^({power})*{factor}"
+            raise tokens.error(ParseError, f"{whole} can be read in two ways", k - 1, number + 2, hint=hint)
+
+
+def _imaginary(tokens: Tokens, x: str, y: str, declared: Collection[str]) -> Iterator[str]:
+    names = tokens.names()
+    if "i" in names and "i" not in (x, y) and "i" not in declared:
+        yield "i is a parameter; the imaginary unit is I"
+
+
+# ------------------------------------------------------------------------------------------------- products
+
+
+def _is_product(name: str, x: str, y: str) -> bool:
+    """True for two glued letters one of which is the variable or the unknown function."""
+    return len(name) == 2 and name.isalpha() and bool({*name} & {x, y}) and not is_letter(name)
+
+
+def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
+    """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
+    alone = {*tokens.names(), x} - {y}
+    kinds = list(tokens.kinds)
+    for k, kind in enumerate(tokens.kinds[:-3]):
+        name = tokens.pieces[k]
+        is_applied = tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
+        if (
+            kind == "HEAD"
+            and name in alone
+            and not is_applied
+            and name not in FUNCTION_NAMES
+            and name not in DERIVATIVES
+        ):
+            kinds[k] = "NAME"
+    return tokens if kinds == tokens.kinds else replace(tokens, kinds=kinds)
+
+
+# ------------------------------------------------------------------------------------------------- the unknown function
+
+
+def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
+    """The first name that has primes; x'' for mx''."""
+    for k, piece in enumerate(tokens.pieces):
+        bare = piece.rstrip(PRIMES)
+        if tokens.kinds[k] not in ("PRIMED", "HEAD") or bare == piece:
+            continue
+        is_glued = len(bare) == 2 and not is_letter(bare) and bare not in declared and bare[1] in _USUAL_UNKNOWNS
+        return bare[1] if is_glued else bare
+    return None
+
+
+def _differentiated(tokens: Tokens) -> str | None:
+    """y in the first one of diff(y, x), diff(y(x), x) and diff(y)."""
+    for k, kind in enumerate(tokens.kinds[:-3]):
+        if kind != "HEAD" or tokens.pieces[k] not in DERIVATIVES:
+            continue
+        inner = tokens.pieces[k + 2]
+        is_called = tokens.are(k + 2, "HEAD") and not is_function(inner) and inner not in DERIVATIVES
+        is_name = tokens.are(k + 2, "NAME", "COMMA") or tokens.are(k + 2, "NAME", "RPAR")
+        if is_called or is_name:
+            return inner
+    return None
+
+
+def _has_operator(tokens: Tokens) -> bool:
+    """True where D is a derivative: no other one occurs."""
+    has_other = any(
+        (kind == "PRIMED" and piece.endswith("''")) or (kind == "HEAD" and piece in DERIVATIVES)
+        for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True)
+    )
+    return OPERATOR in tokens.names() and not has_other
+
+
+def _operand(tokens: Tokens) -> str:
+    """What the operator D is applied to."""
+    names = tokens.names()
+    usual = [name for name in names if name in _USUAL_UNKNOWNS]
+    return UNKNOWN if UNKNOWN in names or not usual else usual[-1]
+
+
+# ------------------------------------------------------------------------------------------------- the variable
+
+
+def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str, str | None]:
+    """The variable of an equation, and a note where it was guessed.
+
+    It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
+    if it occurs; else the only usual letter that occurs as only a variable does; else x, and all names are parameters.
+    """
+    named = _argument_of(tokens, y)
+    if named is not None:
+        return named, None
+    excluded = {*_NO_VARIABLES, y, *declared}
+    names = [name for name in _letters(tokens, declared) if name not in excluded and is_letter(name)]
+    default = tokens.variable or DEFAULT_VARIABLE
+    if default == y:
+        default = "t"
+    for likely in (DEFAULT_VARIABLE, default, "t"):
+        if likely in names:
+            return likely, None
+    likely_ones = [name for name in names if name in USUAL_VARIABLES and _varies(tokens, name, names)]
+    if len(likely_ones) > 1:
+        raise _which(tokens, y, likely_ones)
+    if likely_ones:
+        return likely_ones[0], f"{likely_ones[0]} is taken for the variable"
+    if not names:
+        return default, None
+    which = "a parameter" if len(names) == 1 else "parameters"
+    return default, f"{default} is the variable, {', '.join(names[:6])} {which}"
+
+
+def _letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
+    """The plain names, those of two glued letters apart."""
+    found: dict[str, None] = {}
+    for name in tokens.names():
+        is_glued = len(name) == 2 and name.isalpha() and not is_letter(name) and name not in declared
+        found.update(dict.fromkeys(name if is_glued else [name]))
+    return [name for name in found if not is_function(name)]
+
+
+def _argument_of(tokens: Tokens, unknown: str) -> str | None:
+    """The name in y''(x), or in D(y, x); None where the unknown function stands alone."""
+    for k, piece in enumerate(tokens.pieces):
+        if piece.rstrip(PRIMES) != unknown:
+            continue
+        if tokens.are(k, "HEAD", "LPAR", "NAME", "RPAR") or tokens.are(k, "NAME", "COMMA", "NAME"):
+            return tokens.pieces[k + 2]
+        if tokens.are(k - 2, "HEAD", "LPAR", "NAME", "COMMA", "LPAR", "NAME"):  # Derivative(y, (x, 2))
+            return tokens.pieces[k + 3]
+    return None
+
+
+def _varies(tokens: Tokens, name: str, names: Collection[str]) -> bool:
+    """True where a name occurs as only a variable does: in a function, as a power, in a denominator or a sum.
+
+    T, tau, rho, zeta, ... are often constants: they have to occur in a function, or in several powers.
+    """
+    is_damped = any(other.startswith(_FREQUENCIES) for other in names)
+    if name in _DAMPING_RATIOS and is_damped:
+        return False
+    has_small = name.lower() != name and name.lower() in names
+    if has_small:
+        return False
+    places = [k for k, piece in enumerate(tokens.pieces) if piece == name and tokens.kinds[k] == "NAME"]
+    if any(_is_in_function(tokens, k) for k in places):
+        return True
+    powers = [k for k in places if tokens.kinds[k + 1] in ("CIRCUMFLEX", "SUPERSCRIPT")]
+    if name in _OFTEN_CONSTANT:
+        return bool(powers) and len(places) > len(powers) > 0
+    if name == "z" or powers or len(places) > 1:
+        return True
+    return any(tokens.kinds[k - 1] == "SLASH" or _is_in_sum(tokens, k) for k in places)
+
+
+def _is_in_function(tokens: Tokens, k: int) -> bool:
+    """True inside the parentheses of a function, or in an exponent."""
+    depth = 0
+    for j in range(k - 1, max(-1, k - 200), -1):
+        depth += (tokens.kinds[j] == "RPAR") - (tokens.kinds[j] == "LPAR")
+        if depth < 0:
+            before = tokens.kinds[j - 1] if j else ""
+            if before == "HEAD" and is_function(tokens.pieces[j - 1]):
+                return True
+            if before == "CIRCUMFLEX":
+                return True
+            depth = 0
+    return tokens.kinds[k - 1] == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS")
+
+
+def _is_in_sum(tokens: Tokens, k: int) -> bool:
+    """True within parentheses beside + or -: (1 - r)."""
+    depth = 0
+    for j in range(k - 1, max(-1, k - 200), -1):
+        depth += (tokens.kinds[j] == "RPAR") - (tokens.kinds[j] == "LPAR")
+        if depth < 0:
+            break
+        if depth == 0 and tokens.kinds[j] == "EQUAL":
+            return False
+    else:
+        return False
+    return tokens.kinds[k - 1] in ("PLUS", "MINUS") or tokens.kinds[k + 1] in ("PLUS", "MINUS")
+
+
+def _which(tokens: Tokens, unknown: str, usual: list[str]) -> InputError:
+    """The question back, where several names could be the variable."""
+    hint = f"write {unknown}''(x) for the derivative, or name the variable:"
+    k = tokens.names().get(usual[-1], 0)
+    return tokens.error(
+        InputError,
+        f"{', '.join(usual[:6])}: which is the variable?",
+        k,
+        k + 1,
+        hint=f"{hint} var={usual[0]!r}",
+        shell=f"{hint} --var {usual[0]}",
+    )
+
+
+def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
+    """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
+    no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
+    names = [name for name in _letters(tokens, declared) if name not in no_variables and is_letter(name)]
+    try:
+        return chosen_variable(names)
+    except InputError as error:
+        k = tokens.names().get(names[1], 0)
+        raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
+
+
+def chosen_variable(names: list[str]) -> str:
+    """The only name, or x.  Raises `InputError` where neither is among several names."""
+    if len(names) == 1:
+        return names[0]
+    if not names or DEFAULT_VARIABLE in names:
+        return DEFAULT_VARIABLE
+    usual = [name for name in names if name in USUAL_VARIABLES and name.islower()]
+    likely = (usual or names)[0]
+    raise InputError(
+        f"which of {', '.join(names[:6])} is the variable?",
+        hint=f"name it: var={likely!r}; the others are parameters",
+        shell=f"name it: --var {likely}; the others are parameters",
+    )
+
+
+__all__ = ["GREEK", "OPERATOR", "USUAL_VARIABLES", "Named", "Vocabulary", "chosen_variable"]
