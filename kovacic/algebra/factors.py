@@ -61,7 +61,7 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     """
     moduli = [p ** max(1, k // 2) for p, k in factors]
     if len(factors) < _FEW_FACTORS:
-        return [_expansion(num, den, p**k, modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
+        return [(num % modulus, den // p**k % modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
     one = num.field.poly([1])
     tree = products([p**k for p, k in factors])
     if len(factors) >= _MANY_FACTORS:
@@ -71,12 +71,6 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     cofactors = _combined([one] * len(factors), tree)
     of_moduli = products(moduli)
     return list(zip(_remainders(num, of_moduli), _remainders(cofactors, of_moduli), strict=True))
-
-
-def _expansion(num: Poly, den: Poly, power: Poly, modulus: Poly) -> tuple[Poly, Poly]:
-    """(N, q) at one factor p^k: numerator and cofactor modulo p^nu."""
-    cofactor = den // power
-    return num % modulus, cofactor % modulus
 
 
 def _leading_terms(

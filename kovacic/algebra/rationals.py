@@ -207,14 +207,10 @@ class RationalPoly(Poly):
             degree, least = sorted((self.degree, other.degree), reverse=True)
             seconds = _GCD_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
             if seconds > watched_seconds(inf):  # coprime ones take a moment only, and one prime tells
-                common = self._degree_of_gcd_modulo(other, next(primes()))
+                f, g = (nmod_poly(part.rep.numer().coeffs(), next(primes())) for part in (self, other))
+                common = int(f.gcd(g).degree())  # at least that over Q, unless p divides both leading coefficients
                 check_duration(seconds * common / least, f"the gcd of polynomials of degree {degree} and {least}")
         return RationalPoly(self.rep.gcd(other.rep))
-
-    def _degree_of_gcd_modulo(self, other: RationalPoly, p: int) -> int:
-        """At least that over Q, if p doesn't divide both leading coefficients."""
-        f, g = (nmod_poly(part.rep.numer().coeffs(), p) for part in (self, other))
-        return int(f.gcd(g).degree())
 
     def reversed(self, shift: int = 0) -> RationalPoly:
         return RationalPoly(fmpq_poly([0] * shift + self.rep.coeffs()[::-1]))
@@ -354,11 +350,6 @@ def foresee_move(degree: int, bits: int, point_bits: int) -> None:
     check_duration(_MOVE_SECONDS * float(written) ** _MOVE_POWER, what)
 
 
-def _is_power(polynomial: Any) -> bool:
-    """Is it c x^n?"""
-    return not any(polynomial.coeffs()[:-1])
-
-
 def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
     """Quotient and remainder, in pieces of the dividend where that takes long, with a look at the clock between them.
 
@@ -369,7 +360,7 @@ def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
     if dividend.degree() <= _LOOK_DEGREE or dividend.degree() < size or size <= 0:
         return divmod(dividend, divisor)  # type: ignore[no-any-return]
     check_time()
-    if _is_power(divisor):  # FLINT divides as by any other polynomial
+    if not any(divisor.coeffs()[:-1]):  # c x^n, by which FLINT divides as by any other polynomial
         return dividend.right_shift(size) / divisor[size], dividend.mul_low(fmpq_poly([1]), size)
     over_integers = divisor.numer().leading_coefficient() == 1
     above, below = (dividend.numer(), divisor.numer()) if over_integers else (dividend, divisor)
@@ -388,7 +379,8 @@ def _exact_quotient(dividend: Any, divisor: Any) -> Any:
     """
     check_time()
     size = divisor.degree()
-    if _has_remainder_modulo(dividend, divisor, next(primes())):
+    below = nmod_poly(divisor, next(primes()))
+    if below.degree() == size and nmod_poly(dividend, below.modulus()) % below:  # a remainder modulo p, and so over Q
         return None
     bits = divisor.height_bits()
     seconds = _QUOTIENT_SECONDS * size * (dividend.degree() - size) * bits
@@ -397,12 +389,6 @@ def _exact_quotient(dividend: Any, divisor: Any) -> Any:
     above, below = (part / content for part, content in zip((dividend, divisor), contents, strict=True))
     quotient, rest = _in_pieces(above, below, max(size // _PIECES, _SHORTEST_PIECE))
     return None if rest else fmpq_poly(quotient) * fmpq(*contents)
-
-
-def _has_remainder_modulo(dividend: Any, divisor: Any, p: int) -> bool:
-    """Does the division leave one modulo p, and so over Q?"""
-    below = nmod_poly(divisor, p)
-    return below.degree() == divisor.degree() and bool(nmod_poly(dividend, p) % below)
 
 
 def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
@@ -426,13 +412,10 @@ def _may_take_long(polynomial: Any) -> bool:
         return False
     if degree > _LONG_DEGREE:
         return watched_seconds(inf) < inf
-    return may_be_late(_FACTOR_SECONDS * degree**3) and not _has_few_factors(polynomial)
-
-
-def _has_few_factors(polynomial: Any) -> bool:
-    """Has it few of them modulo a prime, which are soon put together?"""
+    if not may_be_late(_FACTOR_SECONDS * degree**3):
+        return False
     _, factors = nmod_poly(polynomial, _SMALL_PRIME).factor()
-    return len(factors) <= _FEW_FACTORS and all(k == 1 for _, k in factors)
+    return len(factors) > _FEW_FACTORS or any(k > 1 for _, k in factors)  # a few modulo p are soon put together
 
 
 def _factored(polynomial: Any) -> list[tuple[Any, int]]:

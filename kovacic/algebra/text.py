@@ -28,7 +28,8 @@ def quotient_str(num: Any, den: Any, variable: str) -> str:
     below: str = den.integer_str(variable)
     if below == "1":
         return above
-    return f"{_parenthesised(above, _is_sum(above))}/{_parenthesised(below, _is_sum(below) or _is_product(below))}"
+    is_product = "*" in below.replace("**", "^")
+    return f"{_parenthesised(above, _is_sum(above))}/{_parenthesised(below, _is_sum(below) or is_product)}"
 
 
 def _parenthesised(text: str, is_needed: bool) -> str:
@@ -37,7 +38,3 @@ def _parenthesised(text: str, is_needed: bool) -> str:
 
 def _is_sum(text: str) -> bool:
     return " " in text
-
-
-def _is_product(text: str) -> bool:
-    return "*" in text.replace("**", "^")

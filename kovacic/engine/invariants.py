@@ -131,12 +131,18 @@ class _Search:
         forms = self._verified(self.lifter.add(bundle, bases) or [])
         if forms:
             return forms
-        if not self._are_forms(bundle, bases):
-            self._begin_again()
-            return []
+        # equation (2) of `riccati` modulo p: is every P really an invariant there, beyond the terms that were looked at?
+        problem = self.problem
+        for h, basis in zip(bundle, bases, strict=True):
+            D, T, R0 = h(problem.D), h(problem.T), h(self.R0)
+            if any(numerators(D, T, R0, P, self.m, self.m + 1)[-1] for P in basis):
+                self.margin *= 2  # more equations, from the beginning
+                self.lifter = Lifter(problem.field)
+                return []
         if dimensions == {1} and not self.recurrence_tried and self._is_recurrence_cheaper():
             self.recurrence_tried = True
-            return self._by_recurrence()
+            P = polynomial_invariant(problem, self.m, self.N, self.valuations)  # over the field itself
+            return [] if P is None else self._verified([P])
         return []
 
     def _verified(self, proposal: Sequence[Poly]) -> list[Form]:
@@ -144,35 +150,14 @@ class _Search:
         forms = [Form(self.m, self.R0, P) for P in proposal]
         return forms if all(form.is_form(self.problem) for form in forms) else []
 
-    def _are_forms(self, bundle: Sequence[Homomorphism], bases: Sequence[list[Any]]) -> bool:
-        """Are all that were found modulo the primes forms there?"""
-        return all(self._all_close(h, basis) for h, basis in zip(bundle, bases, strict=True))
-
-    def _all_close(self, h: Homomorphism, basis: Sequence[Any]) -> bool:
-        return all(_closes(h, self.problem, self.m, self.R0, P) for P in basis)
-
-    def _begin_again(self) -> None:
-        """With more equations."""
-        self.margin *= 2
-        self.lifter = Lifter(self.problem.field)
-
     def _is_recurrence_cheaper(self) -> bool:
-        return _recurrence_is_cheaper(self.problem, self.m, self.N, self.lifter.primes_used)
+        """True if lifting by primes has already cost as much as the recurrence would.
 
-    def _by_recurrence(self) -> list[Form]:
-        """The invariant that is found over the field itself, verified; none if there is none."""
-        P = polynomial_invariant(self.problem, self.m, self.N, self.valuations)
-        return [] if P is None else self._verified([P])
-
-
-def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -> bool:
-    """Has lifting by primes already cost as much as the recurrence would?
-
-    Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as N + 20 of
-    them; measured by `benchmarks/lifting.py`.
-    """
-    products = ((m + 1) * (problem.D.degree + 1)) ** 2
-    return problem.field == QQ and primes_used * (N + 20) >= products
+        Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as N + 20 of
+        them; measured by `benchmarks/lifting.py`.
+        """
+        products = ((self.m + 1) * (self.problem.D.degree + 1)) ** 2
+        return self.problem.field == QQ and self.lifter.primes_used * (self.N + 20) >= products
 
 
 class ModularSpace(NamedTuple):
@@ -211,8 +196,3 @@ def invariants_modulo(
         P = sum((column.truncate(N + 1) * value for column, value in zip(columns, c, strict=True)), columns[0] * 0)
         space.append(translate(P, -point % p))
     return ModularSpace(echelon_by_degree(space), point)
-
-
-def _closes(h: Homomorphism, problem: Problem, m: int, R0: Poly, P: Any) -> bool:
-    """Equation (2) of `riccati`, modulo p: is P really an invariant there, beyond the terms that were looked at?"""
-    return not numerators(h(problem.D), h(problem.T), h(R0), P, m, m + 1)[-1]

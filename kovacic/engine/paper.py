@@ -382,13 +382,11 @@ class _Trial:
         self.x = x
         self.D = problem.D.over(field)
         self.T = problem.T.over(field)
-        self.factors = [self._factor(point) for point in points[1:]]
-
-    def _factor(self, point: SingularPoint) -> Poly:
-        """x - c, or the polynomial of conjugate poles that are taken together."""
-        if point.at is None:
-            return point.place.factor.over(self.field)
-        return self.field.poly([0, 1]) - point.at
+        # x - c, or the polynomial of conjugate poles that are taken together
+        self.factors = [
+            point.place.factor.over(field) if point.at is None else field.poly([0, 1]) - point.at
+            for point in points[1:]
+        ]
 
     def degree(self, family: Family) -> int:
         return natural(family.d)
@@ -468,10 +466,6 @@ def _conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tupl
     found = []
     for i in range(1 + max(image.degree for image in images)):
         terms = [in_sympy(image[i], x) * a for image, a in zip(images, coefficients, strict=True)]
-        found.append(_primitive(expand(Add(*terms))))
+        total = expand(Add(*terms))
+        found.append(total.primitive()[1] if total.is_Add else total)
     return unknowns, tuple(dict.fromkeys(e for e in found if e))
-
-
-def _primitive(expression: Any) -> Any:
-    """A sum without the common factor of its coefficients; anything else as it is."""
-    return expression.primitive()[1] if expression.is_Add else expression

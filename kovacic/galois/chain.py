@@ -145,14 +145,9 @@ def _pole(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fraction]:
     y = q.derivative() * regular.den * regular.num.inverse_modulo(q) % q  # for the residue 1
     square = H.field.rational_value(h % q * (y * y % q).inverse_modulo(q) % q)
     assert square is not None
-    residue = _rational_root(square)
-    return Points(q, y * residue), residue
-
-
-def _rational_root(square: Fraction) -> Fraction:
     root = QQ.rational_value(QQ.sqrt(QQ.poly([square])) or QQ.poly([]))
     assert root
-    return abs(root)
+    return Points(q, y * abs(root)), abs(root)
 
 
 def _in_x(model: Model, f: CurveFunction) -> CurveFunction:

@@ -56,7 +56,8 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
     residues = rational_residues(f.theta)
     are_all_rational = False
     if F is None or _is_square(problem, F):
-        forms = _quadratic_forms(problem)
+        found = invariants(problem, 2)
+        forms = found if isinstance(found, list) else []  # else evidence that there are none
         are_all_rational = len(forms) == 3
         if F is None and forms:
             F = forms[0].semi_invariant(problem)
@@ -71,12 +72,6 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
         return Group(GroupKind.CYCLIC, Ground.ALL_INVARIANT, n, F)
     # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
     return Group(GroupKind.ADDITIVE, Ground.RESIDUES, n, F)
-
-
-def _quadratic_forms(problem: Problem) -> list[Form]:
-    """A basis of the rational forms of degree 2."""
-    found = invariants(problem, 2)
-    return found if isinstance(found, list) else []
 
 
 def _is_square(problem: Problem, F: SemiInvariant) -> bool:

@@ -94,7 +94,9 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
     if rho and S.field.ground != QQ:
         return None
-    N = _gauge_order(rho)
+    residues = rational_residues(rho)
+    # that of the gauge's own group; None where it is infinite
+    N = None if isinstance(residues, Ground) else lcm(1, *(residue.denominator for residue in residues))
     kind = normal_form.kind
     f = decision.semi_invariant
     if N == 1:
@@ -114,14 +116,6 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     if kind is GroupKind.INFINITE_DIHEDRAL:
         return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
     return _finite_gauge(S, normal_form, f, rho, N)
-
-
-def _gauge_order(rho: RatFunc) -> int | None:
-    """N, the order of the gauge's own group; None where it is infinite."""
-    residues = rational_residues(rho)
-    if isinstance(residues, Ground):
-        return None
-    return lcm(1, *(residue.denominator for residue in residues))
 
 
 def _special_linear(N: int | None) -> str:

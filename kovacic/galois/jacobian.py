@@ -74,12 +74,9 @@ class Jacobian:
         """The order of a class: of a multiple that is zero, without the prime factors that aren't needed."""
         order = self._vanishing_multiple(value)
         for q, _ in fmpz(order).factor():
-            while order % int(q) == 0 and self._is_zero(order // int(q), value):
+            while order % int(q) == 0 and self.multiple(order // int(q), value) == self.zero:
                 order //= int(q)
         return order
-
-    def _is_zero(self, k: int, value: DivisorClass) -> bool:
-        return self.multiple(k, value) == self.zero
 
     def _vanishing_multiple(self, value: DivisorClass) -> int:
         """Some n > 0 with n D = 0, from the interval of Hasse and Weil in which the number of all classes lies.

@@ -55,9 +55,14 @@ class Inspector:
         """
         if not all(self.holds(item, structure) for item in evidence):
             return False
-        no_invariant = any(_is_about_invariant(item, structure) for item in evidence)
-        no_unique_omega = structure is not Structure.REDUCIBLE or any(map(_is_about_omega, evidence))
-        return any(map(_is_decisive, evidence)) or (no_invariant and no_unique_omega)
+        rules = {item.rule for item in evidence if isinstance(item, NecessaryCondition)}
+        if rules - {Rule.NOT_A_SQUARE}:
+            return True
+        # NOT_A_SQUARE, like NoRationalOmega, says no more than that there is no unique omega
+        no_unique_omega = bool(rules) or any(isinstance(item, NoRationalOmega) for item in evidence)
+        m = INVARIANT_DEGREE[structure]
+        no_invariant = any(isinstance(item, NoInvariant) and item.invariant_degree == m for item in evidence)
+        return no_invariant and (no_unique_omega or structure is not Structure.REDUCIBLE)
 
     def holds(self, item: Evidence, structure: Structure) -> bool:
         """Is what one item says so, and does it say something about this structure?"""
@@ -141,18 +146,3 @@ def _under_some(homomorphisms: Iterator[Homomorphism], claim: Callable[[Homomorp
         except BadPrimeError:
             continue
     return False
-
-
-def _is_about_invariant(item: Evidence, structure: Structure) -> bool:
-    return isinstance(item, NoInvariant) and item.invariant_degree == INVARIANT_DEGREE[structure]
-
-
-def _is_about_omega(item: Evidence) -> bool:
-    """NOT_A_SQUARE, like NoRationalOmega, says no more than that there is no unique omega."""
-    return isinstance(item, NoRationalOmega) or (
-        isinstance(item, NecessaryCondition) and item.rule is Rule.NOT_A_SQUARE
-    )
-
-
-def _is_decisive(item: Evidence) -> bool:
-    return isinstance(item, NecessaryCondition) and item.rule is not Rule.NOT_A_SQUARE
