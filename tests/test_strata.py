@@ -19,8 +19,10 @@ import sympy
 from build import Conditions, parametrize
 
 import kovacic
+from kovacic.decision import Structure
 from kovacic.parametric.claims import Classes, DegreeExists
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import RegionVerdict
 from tests.parametric_formulas import as_sympy, numbers_in, residual, vanishes
 from tests.printed import printed_verdict, wrongly_printed
 
@@ -84,7 +86,9 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
         "kovacic.parametric.solutions.translated",
         lambda y, equation: y + x**7,
     ),
+    "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems._verdict", lambda form: G_M),
 }
+G_M = RegionVerdict(Structure.REDUCIBLE, family=("G_m",), abelian=("abelian",))
 
 
 @pytest.mark.parametrize("fault", PLANTED)

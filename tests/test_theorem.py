@@ -359,7 +359,10 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
         ("k*(1+g/x)", "abelian exactly where both exponential factors occur"),
         ("x*y''+(1-x)*y'+m*y=0", "abelian exactly where both exponential factors occur"),
         (hypergeometric(("1/2", "1/2", "n")), "abelian"),
-        (hypergeometric(("l", "1/2", "1/3")), "abelian where l is rational; elsewhere exactly where the group is G_m"),
+        (
+            hypergeometric(("l", "m", "1/3")),
+            "abelian where l, m are rational; elsewhere exactly where the group is G_m",
+        ),
     ],
     ordinary=2,
 )

@@ -22,9 +22,12 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.answer import Answer
 from kovacic.decision import Status
+from kovacic.derived import group
 from kovacic.equation import Equation
 from kovacic.errors import VerificationFailed
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
     AllOf,
@@ -43,6 +46,7 @@ from kovacic.parametric.functions import (
     irreducible_factors,
     over_parameters,
 )
+from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at, normal_form
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
@@ -148,9 +152,20 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
     answer = found.answer_of(point)
     if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
         yield f"{predicted} is printed, {RegionVerdict.of(answer.decision)} is found"
+    yield from _false_groups(predicted, answer)
     inside = first_region(found.regions, point)
     if inside is not None and inside.case == 1:
         yield from _false_formulas(found, inside, point, answer.S)
+
+
+def _false_groups(predicted: RegionVerdict, answer: Answer) -> Iterator[str]:
+    """A reducible group whose identity component isn't as it is printed; the kernel has verified the group of the answer."""
+    said = predicted.abelian
+    known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
+    if known is None or known.dimension is None:
+        return
+    if (known.dimension < 2) is not (said == ABELIAN):
+        yield f"the identity component is printed as {prose.text_of(said or ())}, and the group is {known}"
 
 
 def _false_formulas(

@@ -395,8 +395,7 @@ def _at_a_value(
     group = group_of(S, decision)
     if group is not None:
         is_small = group.dimension is not None and group.dimension < 2
-        abelian = ("abelian" if is_small else "not abelian",)
-        verdict = replace(verdict, family=_named(group), abelian=abelian)
+        verdict = replace(verdict, family=_named(group), abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
     origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
     return ParameterRegion(statement, verdict, complete, origin=origin)
 

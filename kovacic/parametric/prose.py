@@ -43,6 +43,11 @@ from kovacic.writing.formula import Math, latex_text
 Words = tuple[str | Math, ...]
 
 
+#: Of the identity component of a group.
+ABELIAN: Words = ("abelian",)
+NOT_ABELIAN: Words = ("not abelian",)
+
+
 def formula(text: str) -> Math:
     """A formula of functions and names alone."""
     return Math(text, latex_text(text))

@@ -167,9 +167,9 @@ class RegionVerdict:
         if not self.known:
             return ("not determined",)
         if self.structure is None:
-            return ("not abelian",)
+            return prose.NOT_ABELIAN
         if self.structure is not Structure.REDUCIBLE:
-            return ("abelian",)
+            return prose.ABELIAN
         return self.abelian or ("abelian unless the group has dimension 2",)
 
     def __str__(self) -> str:

@@ -412,7 +412,7 @@ def abelian(problem: Problem, structure: Structure) -> Words | None:
     cubic = squares_of_differences(problem)
     constants = _split(cubic).constants
     if len(constants) >= 2 and None not in constants:
-        return ("abelian",)
+        return prose.ABELIAN
     return prose.phrase(f"abelian where {_rational(differences(cubic))}; elsewhere exactly where the group is `G_m`")
 
 

@@ -65,7 +65,7 @@ from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.powers_of_factors import shorter_sum
-from kovacic.parametric.prose import phrase
+from kovacic.parametric.prose import ABELIAN, phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import NEVER, Statement, both
@@ -383,7 +383,7 @@ def _verdict(form: Confluent) -> RegionVerdict:
     if not form.q:
         return RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
     if not form.r:
-        return RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=("abelian",))
+        return RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=ABELIAN)
     family = phrase("the Borel group, or `G_m` where both exponential factors occur")
     return RegionVerdict(
         Structure.REDUCIBLE, family=family, abelian=("abelian exactly where both exponential factors occur",)
