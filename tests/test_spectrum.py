@@ -14,6 +14,7 @@ from scipy.integrate import quad
 from shooting import is_level, zeros
 
 import kovacic
+from kovacic.bound_states.levels import Levels
 
 x, n = sympy.symbols("x n")
 HALF = (0, "oo")
@@ -755,3 +756,9 @@ def test_the_command_draws_the_levels(tmp_path: Any) -> None:
     assert (tmp_path / "levels.png").read_bytes()[1:4] == b"PNG"
     with pytest.raises(kovacic.InputError, match="no level is known"):
         kovacic.spectrum("x^4").plot()
+
+
+def test_levels_that_are_false_never_leave(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kovacic.bound_states.api.Levels", lambda n, energy, *rest: Levels(n, energy + 1, *rest))
+    with pytest.raises(kovacic.VerificationFailed, match="failed its own check at n = 0"):
+        kovacic.spectrum("x^2")

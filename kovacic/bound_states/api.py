@@ -22,6 +22,7 @@ from kovacic.bound_states.families import (
     laguerre_families,
     no_families,
 )
+from kovacic.bound_states.first_levels import check_first_levels
 from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, Uncovered, frames, range_of
 from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
@@ -228,6 +229,9 @@ def _spectrum(
             limits,
             lambda polynomial: _is_no_level(question, polynomial, budget),
         )
+        if not meanings:
+            with suppress(LimitExceeded):  # as far as time allows
+                check_first_levels(found, question.known)
     return in_their_meanings(found, meanings) if meanings else found
 
 
