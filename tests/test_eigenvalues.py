@@ -182,3 +182,17 @@ def test_an_interrupted_command_prints_what_it_has_found(capsys, monkeypatch):
     monkeypatch.setattr(Eigenproblem, "levels", interrupted)
     assert run(["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(1)=0"]) == INTERRUPTED
     assert capsys.readouterr().out.startswith("lambda = 9.8696")
+
+
+def test_pictures_show_numeric_levels_with_their_balls():
+    figure = kovacic.spectrum("x^4", levels=2, digits=8).plot()
+    assert [line.get_label()[:9] for line in figure.axes[0].lines[1::2]] == ["E_0 = 1.0", "E_1 = 3.7"]
+
+
+def test_wave_functions_have_their_zeros_and_shape():
+    numpy = pytest.importorskip("numpy")
+    found = eigenvalues("x^2*y'' + x*y' + lambda*y = 0", "y(1)=0, y(4)=0", count=2, digits=8)
+    x = numpy.linspace(1, 4, 50)
+    expected = numpy.sin(2 * numpy.pi * numpy.log(x) / numpy.log(4))
+    y = found.wave(1)(x)
+    assert numpy.allclose(abs(y), abs(expected), atol=2e-3)

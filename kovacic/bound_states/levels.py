@@ -242,7 +242,8 @@ class Spectrum:
         Returns
         -------
         matplotlib.figure.Figure
-            Functions are scaled to one height.  Raises `InputError` where no level is known, and `MissingExtra` without
+            Functions are scaled to one height.  Numeric levels are drawn where there are some, with their balls in the
+            legend.  Raises `InputError` where no level is known, and `MissingExtra` without
             Matplotlib and NumPy.
 
         Examples
@@ -258,8 +259,8 @@ class Spectrum:
             import scipy  # noqa: F401
 
             from kovacic.bound_states.picture import DrawnLevel, draw_levels
-        states = self.states(values, count)[:count]
-        if not states:
+        states = () if self.numeric else self.states(values, count)[:count]
+        if not states and not self.numeric:
             raise InputError("no level is known that could be drawn")
         at = self._symbols_at(values or {})
         x = sympy.Symbol(self.variable)
@@ -270,6 +271,10 @@ class Spectrum:
         levels = [
             DrawnLevel(float(s.energy), function(s.wave), f"{self.energy}_{s.number} = {_drawn(s.energy)}")
             for s in states
+        ]
+        levels += [
+            DrawnLevel(float(level.value), self.numeric.wave(k), f"{self.energy}_{k} = {level.value}")
+            for k, level in enumerate(self.numeric[:count])
         ]
         first, last = (float(end.xreplace(at)) for end in self.domain)
         return draw_levels(

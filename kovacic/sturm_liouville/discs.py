@@ -57,14 +57,19 @@ class Step:
     tail: Any
     turn: Any
 
-    def advance(self, u: Any, v: Any, E: Any) -> tuple[Any, Any]:
-        """(Y, Y') at the other end, for |E| at most what the step was made for."""
+    def series(self, u: Any, v: Any, E: Any) -> list[Any]:
+        """The coefficients of Y about the start, times powers of t."""
         S = self.q[:]
         for k, w in enumerate(self.w):
             S[k] -= E * w
         a = [u, v * self.t]
         for n in range(self.terms - 2):  # (n+1)(n+2) a_(n+2) = sum of S_k a_(n-k)
             a.append(sum(map(mul, S, a[n::-1])) / ((n + 1) * (n + 2)))
+        return a
+
+    def advance(self, u: Any, v: Any, E: Any) -> tuple[Any, Any]:
+        """(Y, Y') at the other end, for |E| at most what the step was made for."""
+        a = self.series(u, v, E)
         error = arb(0, ((abs(u) + self.radius * abs(v)) * self.tail).upper())
         slopes = sum(n * c for n, c in enumerate(a))
         return sum(a) + error, (slopes + error) / self.t

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, overload
 
 from kovacic.enclosure.ball import Ball
@@ -87,6 +88,33 @@ class Eigenvalues(Sequence[Level]):
         elif self.complete:
             lines.append("these are all eigenvalues" if "below" not in " ".join(self.notes) else "there are no others")
         return "\n".join([*lines, *self.notes])
+
+    def wave(self, k: int) -> Callable[[Any], Any]:
+        """The eigenfunction of level k for pictures: not proven, scaled to a maximum of 1.
+
+        Parameters
+        ----------
+        k : int
+            Its place in this sequence.
+
+        Returns
+        -------
+        callable
+            A function for arrays of NumPy; 0 where the function has decayed.  Raises `InputError` for periodic problems.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> y = kovacic.eigenvalues("y'' + lambda*y = 0", "y(0)=0, y(1)=0", count=2).wave(0)
+        >>> round(float(y(0.5)), 3)
+        1.0
+        """
+        import numpy as np
+
+        from kovacic.sturm_liouville.waves import samples
+
+        x, y = samples(self.problem, self.levels[k].value)
+        return partial(np.interp, xp=np.array(x), fp=np.array(y), left=0.0, right=0.0)
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON: text, and numbers that are exact."""

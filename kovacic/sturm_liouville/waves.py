@@ -1,0 +1,73 @@
+"""The eigenfunctions for pictures: the solutions of the two ends, joined where the counts are made; nothing here is proven."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+from flint import acb, arb
+
+from kovacic.algebra.precision import working_precision
+from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.ball import Ball, ball_to_flint
+from kovacic.errors import InputError
+from kovacic.sturm_liouville.count import SeparatedCounter
+from kovacic.sturm_liouville.discs import Step
+from kovacic.sturm_liouville.problem import Span, SturmProblem
+from kovacic.sturm_liouville.solve import Eigenproblem
+
+_DIGITS = 8
+_BITS = 160
+_PARTS = 8
+"""Points that are taken in a step."""
+
+
+def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float]]:
+    """Points x in order, and y there, at most 1 in modulus.  Raises `InputError` for periodic conditions."""
+    if problem.wrap:
+        raise InputError("functions of periodic problems aren't drawn")
+    with working_precision(_BITS):
+        E = problem.sign * ball_to_flint(value).real.mid()
+        counter = SeparatedCounter(problem, Eigenproblem(problem, "E").ends, Span(E, abs(E) + 1), _DIGITS)
+        sides = [_side(counter, side, E) for side in (0, 1)]
+        (left, right), scale = sides, _joining(*(side[-1] for side in sides))
+        joined = left + [(x, scale * u, scale * v) for x, u, v in right[-2::-1]]
+        gauge = _gauge(problem)
+        values = [(x, u * gauge(x)) for x, u, _ in joined]
+        most = max(abs(y) for _, y in values)
+        return [float(x) for x, _ in values], [float(y / most) for _, y in values]
+
+
+def _side(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, Any, Any]]:
+    """(x, Y, Y') from an end to the matching point."""
+    x = counter.positions[side]
+    u, v = counter.ends[side].state(E, counter.span, x, high=False)
+    found = [(x.mid(), u.mid(), v.mid())]
+    for step in counter.road.steps(x, counter.middle, _BITS):
+        found += [(x + step.t * k / _PARTS, *_inside(step, u, v, E, k)) for k in range(1, _PARTS)]
+        u, v = (value.mid() for value in step.advance(u, v, E))
+        x = (x + step.t).mid()
+        found.append((x, u, v))
+    return [(at.mid(), y.mid(), dy.mid()) for at, y, dy in found]
+
+
+def _inside(step: Step, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
+    a = step.series(u, v, E)
+    share = arb(k) / _PARTS
+    return sum(c * share**n for n, c in enumerate(a)), arb(0)
+
+
+def _joining(left: tuple[Any, Any, Any], right: tuple[Any, Any, Any]) -> Any:
+    """The factor for the right solution at the matching point: of Y or of Y', whichever is larger."""
+    k = 1 if abs(right[1]) > abs(right[2]) else 2
+    return (left[k] / right[k]).mid()
+
+
+def _gauge(problem: SturmProblem) -> Any:
+    """exp(-int B/2), y over Y."""
+    if problem.B == 0:
+        return lambda x: arb(1)
+    exponent = sympy.integrate(-problem.B / 2, problem.x)
+    if exponent.has(sympy.Integral):
+        raise InputError(f"the integral of {problem.B} isn't known")
+    return lambda x: abs(BallEvaluator({problem.x: acb(x)})(sympy.exp(exponent))).mid()
