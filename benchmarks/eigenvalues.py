@@ -1,19 +1,20 @@
 """Eigenvalues as proven numbers: are published digits in the balls, and how long does a level take?
 
-    python benchmarks/eigenvalues.py [--json FILE] [--scipy] [NAME ...]
+    python benchmarks/eigenvalues.py [--scipy] [NAME ...]
 
-Each problem is a line: what it is, where its digits were published, and its first levels.  With --scipy the levels of potentials
-are computed by Chebyshev collocation too (64 and 128 points), on an interval that is given with the problem.
+Each problem is a line: what it is, where its digits were published, and its first levels.  With --scipy the levels of
+potentials are computed by Chebyshev collocation too (64 and 128 points), on an interval that is given with the problem.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import statistics
 import time
 from typing import Any, NamedTuple
+
+import frame
 
 import kovacic
 
@@ -206,44 +207,64 @@ def collocation(problem: Benchmark, points: int) -> list[float]:
     return sorted(float(value.real) for value in np.linalg.eigvals(matrix))[: problem.count]
 
 
+def report(records: list[dict[str, Any]], seconds: list[float]) -> str:
+    """The page of results."""
+    agree = sum(record["agrees"] is True for record in records)
+    named = sum(record["agrees"] is not None for record in records)
+    lines = [
+        f"# {len(seconds)} eigenvalues with 15 proven digits: `python benchmarks/eigenvalues.py`",
+        "",
+        frame.line(),
+        "",
+        f"Median {statistics.median(seconds):.2f} s of processor time a level, {max(seconds):.1f} s at most; the published "
+        f"digits are met by the balls in {agree} of {named} problems that have some. The first level includes the search for the "
+        "range. Collocation: the largest error of the same levels with 64 and 128 Chebyshev points.",
+        "",
+    ]
+    rows = []
+    for record in records:
+        first, last = record["levels"][0], record["levels"][-1]
+        collocation = ", ".join(record["collocation"]) or "-"
+        times = ", ".join(f"{s:.2f}" for s in record["seconds"])
+        agrees = {True: "yes", False: "NO", None: "-"}[record["agrees"]]
+        rows.append([record["problem"], first, last, str(record["zeros"][-1]), agrees, times, collocation])
+    head = ["problem", "first level", "last level", "its zeros", "published agree", "seconds a level", "collocation"]
+    return "\n".join([*lines, *frame.table(head, rows)]) + "\n"
+
+
+def record_of(problem: Benchmark, *, peers: bool) -> dict[str, Any]:
+    """What is measured for a problem."""
+    values, zeros, seconds = compute(problem)
+    published = [agrees(values[k], text) for k, text in problem.published.items()]
+    errors = []
+    for points in (64, 128) if peers and problem.q else ():
+        pairs = zip(collocation(problem, points), values, strict=True)
+        errors.append(f"{max(abs(a - float(b)) for a, b in pairs):.0e}")
+    return {
+        "problem": problem.name,
+        "levels": [str(ball) for ball in values],
+        "zeros": zeros,
+        "agrees": all(published) if published else None,
+        "source": problem.source,
+        "seconds": [round(s, 3) for s in seconds],
+        "collocation": errors,
+    }
+
+
 def main() -> None:
-    """Print a line a problem, and the median."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    """Print a line a problem, and write the results if all were measured."""
+    parser = frame.parser(__doc__)
     parser.add_argument("names", nargs="*")
-    parser.add_argument("--json")
     parser.add_argument("--scipy", action="store_true")
     given = parser.parse_args()
-    every: list[float] = []
     records = []
     for problem in PROBLEMS:
-        if given.names and problem.name not in given.names:
-            continue
-        try:
-            values, zeros, seconds = compute(problem)
-        except kovacic.KovacicError as reason:
-            print(json.dumps({"problem": problem.name, "reason": str(reason)}), flush=True)
-            continue
-        every += seconds
-        right = all(agrees(values[k], text) for k, text in problem.published.items())
-        record = {
-            "problem": problem.name,
-            "levels": [str(ball) for ball in values],
-            "zeros": zeros,
-            "published agree": right if problem.published else None,
-            "source": problem.source,
-            "seconds": [round(s, 3) for s in seconds],
-        }
-        if given.scipy and problem.q:
-            for points in (64, 128):
-                errors = [abs(a - float(b)) for a, b in zip(collocation(problem, points), values, strict=True)]
-                record[f"error of collocation, {points} points"] = f"{max(errors):.1e}"
-        records.append(record)
-        print(json.dumps(record), flush=True)
-    print(f"{len(every)} levels of 15 digits, median {statistics.median(every):.2f} s of processor time a level")
-    if given.json:
-        print(f"{sum(record['published agree'] is True for record in records)} problems with published levels agree")
-        with open(given.json, "w", encoding="utf-8") as file:
-            json.dump({"median_seconds": round(statistics.median(every), 3), "problems": records}, file, indent=1)
+        if not given.names or problem.name in given.names:
+            records.append(record_of(problem, peers=given.scipy))
+            print(json.dumps(records[-1]), flush=True)
+    if not given.names:
+        seconds = [s for record in records for s in record["seconds"]]
+        frame.save("eigenvalues", {"problems": records}, report(records, seconds))
 
 
 if __name__ == "__main__":
