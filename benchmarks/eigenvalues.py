@@ -217,8 +217,8 @@ def report(records: list[dict[str, Any]], seconds: list[float]) -> str:
         frame.line(),
         "",
         f"Median {statistics.median(seconds):.2f} s of processor time a level, {max(seconds):.1f} s at most; the published "
-        f"digits are met by the balls in {agree} of {named} problems that have some. The first level includes the search for the "
-        "range. Collocation: the largest error of the same levels with 64 and 128 Chebyshev points.",
+        f"digits are met by the balls in {agree} of {named} problems that have some. The first level includes "
+        "the search for the range. Collocation: the largest error of the same levels with 64 and 128 Chebyshev points.",
         "",
     ]
     rows = []
