@@ -103,6 +103,7 @@ def validity(solution: Any) -> Validity:
     exceptions: dict[Expr, None] = {}
     for nonzero in (*needed.nonzero, _wronskian_somewhere(value, x)):
         exceptions |= dict.fromkeys(_exceptions(nonzero))
+    exceptions |= dict.fromkeys(_exceptions_of_series(value, x))
     return Validity(_without_weaker(needed.on_x), tuple(exceptions), _is_of_real_numbers(value))
 
 
@@ -170,6 +171,30 @@ def _is_strict(relation: Expr) -> bool:
 
 
 # ---------------------------------------------------------------------------------------------------------- exceptions
+
+
+def _exceptions_of_series(value: Expr, x: Expr) -> Iterator[Expr]:
+    """What must not vanish for a pair of hypergeometric series to be defined and independent.
+
+    The pair with the lower parameters c and 2 - c, exponents 0 and 1 - c, has the Wronskian (1 - c) w(x): the members are
+    one at c = 1, and one of them has a pole at each other integer c: sin(pi c) = 0.  A single series with the lower
+    parameter c has poles at c = 0, -1, ..., where 1/gamma(c) = 0.  Kummer's M(a, c, x) and
+    U(a, c, x) = x^(-a) 2F0(a, a - c + 1; -1/x) have -w(x) gamma(c)/gamma(a).
+    """
+    series = [f for f in sorted(value.atoms(sympy.hyper), key=str) if f.argument.has(x)]
+    lower = [c for f in series for c in f.bq if c.free_symbols]
+    for c in dict.fromkeys(lower):
+        is_pair = any(sympy.expand(c + other).is_Integer for other in lower)
+        if c.is_integer is False or (not is_pair and c.is_positive):
+            continue
+        if is_pair:
+            letters = c.as_independent(*c.free_symbols, as_Add=True)[1]
+            yield sympy.S.Zero if c.is_integer else sympy.sin(sympy.pi * _without_sign(letters))
+        else:
+            yield 1 / sympy.gamma(c)
+    for f in series:
+        if len(f.ap) == 2 and not f.bq and f.ap[0].free_symbols:
+            yield 1 / sympy.gamma(f.ap[0])
 
 
 def _wronskian_somewhere(value: Expr, x: Expr) -> Expr:

@@ -91,7 +91,7 @@ class GaugeTransform:
         transform = self
 
         class GaugedWriter(Writer):
-            def pair(self, first: WrittenTerm, second: WrittenTerm) -> tuple[Expr, Expr]:
+            def pair(self, first: WrittenTerm, second: WrittenTerm, *, around_zero: bool = False) -> tuple[Expr, Expr]:
                 y1, y2 = (_combined(transform, self, *term) for term in (first, second))
                 return y1, y2
 

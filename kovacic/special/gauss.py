@@ -13,6 +13,9 @@ integer <= 0.  P_N^(a,b)(1 - 2 z) is a multiple of 2F1(-N, N + a + b + 1; 1 + a;
 exponent at 0 or at infinity, and, for a = b, the one of the other parity.  For a natural a = b = m it is written as the
 associated Legendre function P_(N+m)^m.  K, E and P_nu are written where 2F1 is one of them.
 
+With a = b and letters, the even and the odd solution about the middle of 0 and 1 are entire in the letters, and independent
+for all of their values, where P_nu(t) and P_nu(-t) are dependent at each integer nu.
+
 Values, with e0, e1, einf for alpha, beta, gamma:
 
     2F1(a, b; 1 +- e0; z),      a, b = (1 +- e0 + e1 +- einf)/2,
@@ -92,6 +95,10 @@ class Gauss(StandardEquation):
             if writer.is_degree(signed.degree) and all(apart):
                 return _jacobi(signed)
         first = forms[0]
+        even = next((signed for form in forms for signed in form.signs if signed.alpha == signed.beta), None)
+        if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
+            # Their Wronskian is 1 at the middle, for all values of the letters; they are real between the two points.
+            return writer.pair(*_even_and_odd(even), around_zero=True)
         if any(writer.is_integer(form.degree) for form in first.signs):
             return _reducible(writer, forms)
         if not writer.is_integer(first.alpha):

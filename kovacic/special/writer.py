@@ -97,11 +97,14 @@ class Writer:
                 others.append(exp(self.constant(Number(number.part * 0, number.roots)) * self.argument(function)))
         return WrittenFactor(product(rate), tuple(others))
 
-    def pair(self, first: WrittenTerm, second: WrittenTerm) -> tuple[Expr, Expr]:
-        """The two solutions, the one with fewer factors first."""
+    def pair(self, first: WrittenTerm, second: WrittenTerm, *, around_zero: bool = False) -> tuple[Expr, Expr]:
+        """The two solutions, the one with fewer factors first; with `around_zero` roots of x^2 - a are those of a - x^2."""
         if second[0].size < first[0].size:
             first, second = second, first
-        y1, y2 = (Mul(display(f.product, self.atoms), *f.others, function) for f, function in (first, second))
+        y1, y2 = (
+            Mul(display(f.product, self.atoms, around_zero=around_zero), *f.others, function)
+            for f, function in (first, second)
+        )
         return y1, y2
 
     # ------------------------------------------------------------------------------------- constants
@@ -138,6 +141,10 @@ class Writer:
     def is_integer(self, value: Number) -> bool:
         """Is it known to be an integer?"""
         return bool(self.constant(value).xreplace(self.known).is_integer)
+
+    def has_letters(self, value: Number) -> bool:
+        """True if the value depends on parameters."""
+        return bool(self.constant(value).free_symbols)
 
     def is_natural(self, value: Number) -> bool:
         """Is it known to be an integer that isn't negative?"""

@@ -1,0 +1,66 @@
+"""General solutions with letters: at the integers that users mean, the pair is independent, or the exception is named."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mpmath
+import sympy
+from build import parametrize
+
+import kovacic
+
+x = sympy.Symbol("x")
+
+#: Families with letters, and the letters that take the values.
+FAMILIES: list[tuple[str, str]] = [
+    ("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", "n"),
+    ("(1-x^2)*y'' - 2*x*y' + (n*(n+1) - m^2/(1-x^2))*y = 0", "nm"),
+    ("(1-x^2)*y'' - (2*a+1)*x*y' + n*(n+2*a)*y = 0", "na"),
+    ("(1-x^2)*y'' - x*y' + n^2*y = 0", "n"),
+    ("(1-x^2)*y'' - 3*x*y' + n*(n+2)*y = 0", "n"),
+    ("(4-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", "n"),
+    ("(1-(x-1)^2)*y'' - 2*(x-1)*y' + n*(n+1)*y = 0", "n"),
+    ("x*(1-x)*y'' + (1-2*x)*y' + n*(n+1)*y = 0", "n"),
+    ("x*y'' + (1-x)*y' + n*y = 0", "n"),
+    ("x*y'' + (a+1-x)*y' + n*y = 0", "na"),
+    ("x*y'' + (c-x)*y' - a*y = 0", "ca"),
+    ("x*(1-x)*y'' + (c-(a+b+1)*x)*y' - a*b*y = 0", "cab"),
+    ("y'' - 2*x*y' + 2*n*y = 0", "n"),
+    ("y'' + (n + 1/2 - x^2/4)*y = 0", "n"),
+    ("x^2*y'' + x*y' + (x^2-n^2)*y = 0", "n"),
+    ("x^2*y'' + x*y' - (x^2+n^2)*y = 0", "n"),
+    ("x^2*y'' + 2*x*y' + (x^2-n*(n+1))*y = 0", "n"),
+    ("x^2*y'' + x*y' - n^2*y = 0", "n"),
+    ("y'' + n^2*y = 0", "n"),
+    ("y'' - n*y' = 0", "n"),
+]
+VALUES = [sympy.Rational(k, 2) for k in range(-6, 13)]
+#: Between the singular points of all families.
+POINT = mpmath.mpf(3) / 7
+
+
+def value(e: Any) -> Any:
+    with mpmath.workdps(30):
+        return mpmath.mpmathify(sympy.N(e, 30))
+
+
+@parametrize("family", FAMILIES, ids=str, ordinary=3, long=20)
+def test_pairs_are_independent_or_the_exception_is_named(family: tuple[str, str]) -> None:
+    equation, letters = family
+    found = kovacic.dsolve(equation, var="x")
+    validity = kovacic.validity(found)
+    y1, y2 = (found.rhs.diff(sympy.Symbol(name)) for name in ("C1", "C2"))
+    W = y1 * y2.diff(x) - y1.diff(x) * y2
+    others = {sympy.Symbol(letter): sympy.Rational(2 * k + 5, 7) for k, letter in enumerate(letters)}
+    for letter in letters:
+        for number in VALUES:
+            values = {**others, sympy.Symbol(letter): number}
+            if any(is_zero(e.subs(values)) for e in validity.exceptions):
+                continue
+            wronskian = W.subs(values).subs(x, sympy.Rational(3, 7))
+            assert abs(value(wronskian)) > 1e-12, (letter, number)
+
+
+def is_zero(e: Any) -> bool:
+    return bool(sympy.simplify(e) == 0)
