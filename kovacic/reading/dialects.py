@@ -279,7 +279,7 @@ class _Translation:
             if self.k in self.skipped:
                 self.k += 1
                 continue
-            if not any(rule(self, token) for rule in _RULES[token.kind]):
+            if not any(rule(self, token) for rule in _RULES.get(token.kind, ())):
                 raise unexpected(self.text, token)
         for k in sorted(self.closers):
             self.k = k

@@ -22,7 +22,7 @@ from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
-from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, Operator, is_rational
+from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, is_rational
 from kovacic.reading.names import FUNCTION_NAMES, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
 from kovacic.reading.naming import OPERATOR
 from kovacic.reading.parser import Site
@@ -65,7 +65,7 @@ class EquationReader(RationalReader):
 
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
-        if isinstance(value, Operator):
+        if isinstance(value, DerivativeOperator):
             hint = f"write what it is applied to: (D^2 + 1) {self.unknown} = 0"
             raise NotLinear("the operator D is applied to nothing", hint=hint)
         parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
@@ -151,7 +151,7 @@ class EquationReader(RationalReader):
         if name == self.unknown:
             return _derivative_of_unknown(0)
         if name == OPERATOR and self.has_operator:
-            return Operator({1: Monomial(1, 0)})
+            return DerivativeOperator({1: Monomial(1, 0)})
         if name in self.declared:
             return self.constants.parameter(name)
         if name != self.variable and name in ("e", "pi", "π"):

@@ -45,7 +45,7 @@ class LinearForm:
         self.parts = parts
 
 
-class Operator(LinearForm):
+class DerivativeOperator(LinearForm):
     """`parts[k]` is the coefficient of D^k: what a linear form is before it is applied to the unknown function."""
 
     __slots__ = ()
@@ -126,11 +126,11 @@ class LinearArithmetic(Arithmetic):
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
         """The sum, some terms of which have no unknown function."""
-        are_operators = [isinstance(term, Operator) for term in terms if isinstance(term, LinearForm)]
+        are_operators = [isinstance(term, DerivativeOperator) for term in terms if isinstance(term, LinearForm)]
         if any(are_operators) and not all(are_operators):
             raise NotLinear("an operator beside what it is applied to", hint=f"write (D^2 + 1) {self.unknown} = 0")
         constant = 0 if any(are_operators) else REST
-        kind = Operator if any(are_operators) else LinearForm
+        kind = DerivativeOperator if any(are_operators) else LinearForm
         parts: dict[int, list[Any]] = {}
         for term in terms:
             if isinstance(term, LinearForm):
@@ -143,8 +143,8 @@ class LinearArithmetic(Arithmetic):
     def multiply(self, left: Any, right: Any) -> Any:
         if is_rational(left) and is_rational(right):
             return super().multiply(left, right)
-        if isinstance(left, Operator):
-            return self._applied(left, right if isinstance(right, LinearForm) else Operator({0: right}))
+        if isinstance(left, DerivativeOperator):
+            return self._applied(left, right if isinstance(right, LinearForm) else DerivativeOperator({0: right}))
         if isinstance(left, LinearForm) and isinstance(right, LinearForm):
             said = f"a product of {self.unknown} or its derivatives: the equation isn't linear"
             raise NotLinear(said, hint=LINEAR_HINT)
@@ -159,7 +159,7 @@ class LinearArithmetic(Arithmetic):
         coefficient = self._coefficient_of(factor)
         return type(form)({k: self.multiply(c, coefficient) for k, c in form.parts.items()})
 
-    def _applied(self, operator: Operator, form: LinearForm) -> Any:
+    def _applied(self, operator: DerivativeOperator, form: LinearForm) -> Any:
         """The sum of c_k D^k, applied to a form, or to another operator: D c = c' + c D."""
         terms = []
         for k in range(max(operator.parts) + 1):
@@ -199,7 +199,7 @@ class LinearArithmetic(Arithmetic):
             return super().power(base, n)
         if not isinstance(base, LinearForm):
             return self.symbolic_power(base, self.constant(n))
-        if isinstance(base, Operator) and 0 < n <= _HIGHEST_POWER:
+        if isinstance(base, DerivativeOperator) and 0 < n <= _HIGHEST_POWER:
             power = base
             for _ in range(n - 1):
                 power = self._applied(base, power)

@@ -4,7 +4,7 @@
 >>> [piece.role for piece in paste.pieces]
 ['command', 'equation', 'condition', 'condition', 'name']
 >>> paste.conditions
-(Given(place='y(0)', value='1'), Given(place="y'(0)", value='0'))
+(PlacedValue(place='y(0)', value='1'), PlacedValue(place="y'(0)", value='0'))
 >>> taken_apart("3. Solve the equation y'' + y = 0;  // easy").notes
 ('3. was taken for a number in a list', 'left out: Solve the equation')
 
@@ -51,7 +51,7 @@ BOUNDED = "bounded"
 _SECOND_ORDER = re.compile(r"D[23]\w|[a-zA-Z]_([xtzsr])\1")
 
 
-class Piece(NamedTuple):
+class PastedPiece(NamedTuple):
     """A part of a text, and what it is.
 
     The roles are equation, condition, name (of the unknown function or the variable in a command), command, declaration,
@@ -66,7 +66,7 @@ class Piece(NamedTuple):
         return (self.scan[0].start, self.scan[-1].end) if self.scan else (0, 0)
 
 
-class Given(NamedTuple):
+class PlacedValue(NamedTuple):
     """A condition: y'(0), or what is linear in such, and its value."""
 
     place: str
@@ -78,7 +78,7 @@ class Paste:
     """A text with its pieces; `variable` is one that a command names, `notes` say what was left out."""
 
     text: str
-    pieces: list[Piece] = field(default_factory=list)
+    pieces: list[PastedPiece] = field(default_factory=list)
     variable: str | None = None
     notes: tuple[str, ...] = ()
 
@@ -95,7 +95,7 @@ class Paste:
         return [translated(self.text, scan) for scan in self.scans("equation")]
 
     @cached_property
-    def conditions(self) -> tuple[Given, ...]:
+    def conditions(self) -> tuple[PlacedValue, ...]:
         return tuple(given for scan in self.scans("condition") for given in _given(self.text, scan))
 
     def error(self, message: str, scan: Scan, hint: str) -> ParseError:
@@ -108,7 +108,7 @@ class Paste:
 
 
 def _error(text: str, message: str, scan: Scan, hint: str) -> ParseError:
-    start, end = scan[0].start, scan[-1].end
+    start, end = (scan[0].start, scan[-1].end) if scan else (0, len(text))
     return ParseError(message, text=text, position=start, length=max(1, end - start), hint=hint)
 
 
@@ -117,10 +117,10 @@ def taken_apart(text: str) -> Paste:
     return _Apart(text).paste()
 
 
-def conditions_in(text: str) -> tuple[Given, ...]:
+def conditions_in(text: str) -> tuple[PlacedValue, ...]:
     """Conditions that stand alone: "y(0) = 1, y'(0) = 0".  Raises `ParseError` for anything else."""
     apart = _Apart(text)
-    found: list[Given] = []
+    found: list[PlacedValue] = []
     for statement in apart.statements(apart.lines()):
         found += _given(text, statement)
     return tuple(found)
@@ -152,7 +152,7 @@ class _Apart:
     def __init__(self, text: str) -> None:
         self.text = text
         self.notes: list[str] = []
-        self.found: list[Piece] = []
+        self.found: list[PastedPiece] = []
         self.variable: str | None = None
         #: Statements that have names.
         self.named: dict[str, list[Token]] = {}
@@ -162,7 +162,7 @@ class _Apart:
         for k, statement in enumerate(statements):
             self.statement(statement, is_alone=len(statements) == 1, is_last=k == len(statements) - 1)
         if not any(piece.role == "equation" for piece in self.found):
-            self.found += [Piece("equation", tuple(scan)) for scan in list(self.named.values())[-1:]]
+            self.found += [PastedPiece("equation", tuple(scan)) for scan in list(self.named.values())[-1:]]
         self.found = self.sorted_roles()
         return Paste(self.text, self.found, self.variable, tuple(self.notes))
 
@@ -176,7 +176,7 @@ class _Apart:
         while k < len(scan):
             end = self.comment_end(scan, k)
             if end is not None:
-                self.found.append(Piece("comment", tuple(scan[k:end])))
+                self.found.append(PastedPiece("comment", tuple(scan[k:end])))
                 k = end
                 continue
             k = self.layout(scan, k, found)
@@ -281,16 +281,16 @@ class _Apart:
         if not scan:
             return
         if scan[0].text in _DECLARATIONS or (len(scan) == 1 and scan[0].text in _COMMANDS):
-            self.found.append(Piece("declaration", tuple(scan)))
+            self.found.append(PastedPiece("declaration", tuple(scan)))
             return
         name, scan = _without_assignment(scan)
         if scan and scan[0].text in _MAKERS and name:
-            self.found.append(Piece("declaration", tuple(scan)))
+            self.found.append(PastedPiece("declaration", tuple(scan)))
         elif self.command(scan):
             return
         elif any(token.text in _INEQUALITIES for token in scan) and not is_alone:
             self.notes.append(f"not used: {self.written(scan)}")
-            self.found.append(Piece("remark", tuple(scan)))
+            self.found.append(PastedPiece("remark", tuple(scan)))
         elif name:
             self.named[name] = scan
             if is_alone:
@@ -299,10 +299,10 @@ class _Apart:
             self.equation(scan)
 
     def equation(self, scan: Scan) -> None:
-        self.found.append(Piece("equation", tuple(_without_eq(scan))))
+        self.found.append(PastedPiece("equation", tuple(_without_eq(scan))))
 
     def written(self, scan: Scan) -> str:
-        return self.text[scan[0].start : scan[-1].end]
+        return self.text[scan[0].start : scan[-1].end] if scan else ""
 
     def without_ends(self, scan: list[Token], *, is_alone: bool, is_last: bool) -> list[Token]:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
@@ -326,7 +326,7 @@ class _Apart:
         )
         if is_numbered and scan[-3].start > scan[-4].end and scan[-4].text not in _OPERATORS and _has_equals(scan[:-3]):
             self.notes.append(f"({scan[-2].text}) was taken for the number of the equation")
-            self.found.append(Piece("number", tuple(scan[-3:])))
+            self.found.append(PastedPiece("number", tuple(scan[-3:])))
             scan = scan[:-3]
         while scan and scan[-1].text in (".", ":", ","):
             scan = scan[:-1]
@@ -345,7 +345,7 @@ class _Apart:
                 length = 3
         if length:
             self.notes.append(f"{self.written(scan[:length])} was taken for a number in a list")
-            self.found.append(Piece("number", tuple(scan[:length])))
+            self.found.append(PastedPiece("number", tuple(scan[:length])))
         return scan[length:]
 
     def without_prose(self, scan: list[Token]) -> list[Token]:
@@ -370,7 +370,7 @@ class _Apart:
         if words[-1].text == ":" and len(words) == 2:  # the name of an equation
             return scan
         self.notes.append(f"left out: {self.written(words)}")
-        self.found.append(Piece("prose", tuple(words)))
+        self.found.append(PastedPiece("prose", tuple(words)))
         return scan[count:]
 
     # -------------------------------------------------------------------------------------- commands
@@ -389,7 +389,7 @@ class _Apart:
         command = tuple(scan[: opening + 1])
         if any(token.kind != "WORD" and token.text not in (".", "[", "]", "(") for token in command):
             return False
-        self.found.append(Piece("command", command))
+        self.found.append(PastedPiece("command", command))
         arguments = [self.resolved(_unquoted(part)) for part in _listed(scan[opening + 1 : -1])]
         if arguments and arguments[0] and arguments[0][0].text in _COMMANDS:
             return self.command(arguments[0])
@@ -441,7 +441,7 @@ class _Apart:
                 return False
             if len(texts) == 1 and texts[0] not in names and is_letter(texts[0]):
                 self.variable = texts[0]  # MATLAB's variable
-            self.found.append(Piece("name", tuple(part)))
+            self.found.append(PastedPiece("name", tuple(part)))
             return True
         if _has_equals(part) and not (len(texts) > 2 and texts[1] == "=" and is_word(texts[0])):
             self.equation(part)
@@ -474,7 +474,7 @@ class _Apart:
 
     # -------------------------------------------------------------------------------------- roles
 
-    def sorted_roles(self) -> list[Piece]:
+    def sorted_roles(self) -> list[PastedPiece]:
         """Conditions among the statements; where nothing else is there, the first one is an equation."""
         equations = [k for k, piece in enumerate(self.found) if piece.role == "equation"]
         if len(equations) < 2:
@@ -483,7 +483,8 @@ class _Apart:
         if all(are_conditions.values()):
             are_conditions[equations[0]] = False
         return [
-            Piece("condition", piece.scan) if are_conditions.get(k) else piece for k, piece in enumerate(self.found)
+            PastedPiece("condition", piece.scan) if are_conditions.get(k) else piece
+            for k, piece in enumerate(self.found)
         ]
 
 
@@ -633,7 +634,7 @@ def spelled(tokens: Tokens, begin: int = 0, end: int | None = None) -> str:
     return text
 
 
-def _given(text: str, scan: Scan) -> Iterator[Given]:
+def _given(text: str, scan: Scan) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
     tokens = translated(text, [token for token in scan if token.text not in ("$", "`")], condition=True)
     depth = 0
@@ -658,7 +659,7 @@ def _given(text: str, scan: Scan) -> Iterator[Given]:
                 hint = f"write {left}, {right}"
             raise _error(text, "a comma is missing between two values", scan, hint)
     for place in places:
-        yield Given(place, value)
+        yield PlacedValue(place, value)
 
 
 def _call_end(tokens: Tokens, k: int) -> int:

@@ -180,7 +180,7 @@ def divided(eq: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class Points:
+class PointValues:
     """The unknown function of conditions, and what stands for its k-th derivative at a point: `at(point, k)`."""
 
     unknown: str
@@ -193,7 +193,7 @@ def read_expression(
     names: Mapping[str, Any] | None = None,
     what: str = "the expression",
     limits: Limits = LIMITS,
-    values: Points | None = None,
+    values: PointValues | None = None,
 ) -> Any:
     """The SymPy expression that a text denotes in `names`, pi, e, I and the elementary functions; decimals are exact.
 
@@ -217,7 +217,7 @@ class SymbolicReader(RationalReader):
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits) -> None:
         super().__init__({**_CONSTANTS, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
         self.any_name = names is None
-        self.values: Points | None = None
+        self.values: PointValues | None = None
         self.what = what
 
     def name(self, name: str) -> Any:
