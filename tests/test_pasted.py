@@ -6,8 +6,10 @@ Each equation is written in every notation from its coefficients, by SymPy's pri
 from __future__ import annotations
 
 import json
+import random
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +20,7 @@ from build import parametrize, read_input
 import kovacic
 from kovacic.general_solution.question import apart, read_question
 from kovacic.reading.dialects import tokenize
+from kovacic.reading.source import source_of
 
 x, t, k, n, a, omega_0, alpha = sympy.symbols("x t k n a omega_0 alpha")
 #: a, b, c, f of a y'' + b y' + c y = f in the variable x.
@@ -361,13 +364,14 @@ PASTED = [
     json.loads(line) for line in (Path(__file__).parent / "data" / "pasted.jsonl").read_text("utf-8").splitlines()
 ]
 #: Greek letters as they are written in texts, and by their names.
-GREEK_NAMES = {"ν": "nu", "ω": "omega", "ω_0": "omega_0", "λ": "lambda", "θ": "theta", "ψ": "psi"}
+GREEK_NAMES = {"ν": "nu", "ω": "omega", "ω_0": "omega_0", "λ": "lambda", "θ": "theta", "ψ": "psi", "γ": "gamma"}
 #: What isn't a symbol in a meaning.
 KNOWN = [
     "Abs",
     "DiracDelta",
     "Heaviside",
     "I",
+    "Max",
     "Rational",
     "acos",
     "asin",
@@ -408,7 +412,9 @@ def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
     a, b, c, f = (meant(part) for part in row["equation"])
     if equation.change is not None:
         return
-    A, B, C, F = (meant(part.to_str()).subs(x, argument) for part in (equation.a, equation.b, equation.c, equation.f))
+    e = {sympy.Symbol("e"): sympy.E}
+    parts = (equation.a, equation.b, equation.c, equation.f)
+    A, B, C, F = (meant(part.to_str()).subs(x, argument).subs(e) for part in parts)
     F += 0 if equation.h is None else meant(str(question.own(equation.h)))
     for found, expected in ((A * b, a * B), (A * c, a * C), (A * f, a * F)):
         assert sympy.simplify(found - expected) == 0
@@ -471,3 +477,72 @@ def test_lowered_digits_are_one_index(letter: str, digits: str) -> None:
 def test_a_lowered_digit_behind_a_number_is_no_digit_of_it(number: str) -> None:
     with pytest.raises(kovacic.ParseError, match="indices"):
         read_input(f"y'' = {number}₁*y")
+
+
+@pytest.mark.parametrize(
+    ("text", "written", "typed"),
+    [
+        ("y'' + y = xsinx", "xsinx", "x*sin(x)"),
+        ("y'' + y = sinxcosx", "sinxcosx", "sin(x)*cos(x)"),
+        ("y'' + y = xlnx", "xlnx", "x*ln(x)"),
+        ("x'' + x = tsint", "tsint", "t*sin(t)"),
+        ("x'' + x = Fcoswt", "Fcoswt", "F*cos(w*t)"),
+        ("y'' = x2y", "x2y", "x*2*y"),
+        ("y'' = x2*y", "x2", "x^2"),
+        ("y'' + y = asinx", "asinx", "a*sin(x)"),
+        ("y'' + y = acosx", "acosx", "acos(x)"),
+        ("EI w'' + P w = 0", "EI", "B"),
+        ("E I w'' = -P w", "E I", "B"),
+        (r"E I \frac{d^2w}{dx^2} = -P w", "E I", "B"),
+        ("y'' = 1/2x*y", "1/2x", "(1/2)*x"),
+        ("mass*y'' + k*y = 0", "mass", "m"),
+        ("y'' + y = 0, y(0)=1 y'(0)=0", "y(0)=1 y'(0)=0", "y(0)=1, y'(0)=0"),
+        ("y'' + y = 0, k=2", ", k=2", ""),
+        ("solve y'' + x*y = 0", "solve", ""),
+    ],
+)
+def test_what_means_nothing_is_refused_with_what_to_type(text: str, written: str, typed: str) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        read_question(text, None, None, None, kovacic.Limits())
+    assert refused.value.hint
+    assert refused.value.position is not None
+    read_question(text.replace(written, typed), None, None, None, kovacic.Limits())
+
+
+def test_declared_names_are_parameters_at_every_door() -> None:
+    assert kovacic.solve("EI*y'' + P*y = 0", parameters=["EI"]).S.field.names == ("EI", "P")
+    assert "EI" in str(kovacic.dsolve("EI*y'' + P*y = 0", parameters=["EI"]))
+    assert kovacic.decide("mass*x", var="x", parameters=["mass"]).case is None
+    assert kovacic.conditions("mass*(mass+1)/x^2 - 1", parameters=["mass"]).parameters == ("mass",)
+    assert kovacic.spectrum("mass*x^2", parameters=["mass"], assume={"mass": "positive"}).complete
+    assert kovacic.solve("EI*y'' + P*y = 0", assume={"EI": 1}).S.field.names == ("P",)
+    with pytest.raises(kovacic.InputError, match="list of names"):
+        kovacic.solve("EI*y'' + P*y = 0", parameters="EI")
+    answer = kovacic.solve("EI*y'' + P*y = 0", parameters=["EI"])
+    assert kovacic.Solution.from_json(answer.to_json()) == answer
+
+
+#: What is put into texts.
+ALPHABET = [*"x|()[]{}^/=,;:%#$\\_\n", "y'", "''", "ˣ", "½", r"\frac", r"\sqrt", "sin", "dx", "d^2", "diff("]
+ALPHABET += ["D@@", "==", "and ", ":=", r"\text{", "dsolve(", "Derivative[2]", "1E2"]
+
+
+@parametrize("seed", range(12), ordinary=1, long=12)
+def test_mutated_texts_are_read_or_refused(seed: int) -> None:
+    """Nothing but `InputError` is raised, whatever is left out, put in or repeated."""
+    rng = random.Random(seed)
+    for _ in range(250):
+        text = list(rng.choice(PASTED)["text"])
+        for _ in range(rng.randint(1, 4)):
+            k = rng.randrange(len(text) + 1)
+            action = rng.randrange(3)
+            if action == 0:
+                del text[k : k + rng.randint(1, 3)]
+            elif action == 1:
+                text.insert(k, rng.choice(ALPHABET))
+            else:
+                text[k:k] = text[: rng.randint(1, 9)]
+        mutated = "".join(text)
+        with suppress(kovacic.InputError):
+            equation, _ = apart(mutated, None)
+            source_of(equation, None, kovacic.Limits(), equation=True)

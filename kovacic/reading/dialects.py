@@ -103,7 +103,7 @@ class _Latex:
                 self.command(token)
             elif token.text == "_":
                 self.index()
-            elif token.kind == "NUMBER" and self.found and self.found[-1].text in _FRACTIONS:
+            elif token.text.isdigit() and self.found and self.found[-1].text in _FRACTIONS:
                 self.digits(token)
             elif token.text not in LAYOUT:
                 self.found.append(token)
@@ -139,6 +139,13 @@ class _Latex:
 
     def upright(self, command: Token) -> None:
         r"""\mathrm{d}, \operatorname{sech}, \text{eff}: a name, of which the braces are no parentheses."""
+        following = self.scan[self.k] if self.k < len(self.scan) else command
+        if following.kind == "WORD" and len(following.text) > 1:  # \\mathrm dt
+            self.k += 1
+            first = following.start + 1
+            self.found.append(Token("WORD", following.text[0], command.start, first))
+            self.letters(Token("WORD", following.text[1:], first, following.end))
+            return
         group = self.group()
         name = "".join(token.text for token in group)
         is_name = len(name) == 1 or is_function(name)
@@ -196,6 +203,7 @@ _AS_PRIMES = [
         rf"Derivative\((?P<n>\d)\)\((?P<y>{LETTER})\)",
         rf"\(?D\(D\((?P<y>{LETTER})\)\)\)?(?=\()(?P<n>)",
         rf"\(D\((?P<y>{LETTER})\)\)(?=\()",
+        rf"\(D\)\((?P<y>{LETTER})\)(?=\()",
         rf"D\((?P<y>{LETTER})\)(?=\()",
         rf"diff\((?P<y>{LETTER}),(?P<n>[1-4])\)",
     )

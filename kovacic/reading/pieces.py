@@ -23,7 +23,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
-from kovacic.reading.dialects import CLOSING, OPENING, partners, translated
+from kovacic.reading.dialects import CLOSING, LAYOUT, OPENING, partners, translated
 from kovacic.reading.lexer import DERIVATIVES, Token, Tokens, scanned
 from kovacic.reading.names import GREEK, is_function, is_letter
 
@@ -180,6 +180,13 @@ class _Apart:
                 k = end
                 continue
             k = self.layout(scan, k, found)
+        if (
+            found
+            and found[0].text == "{"
+            and "\\displaystyle" in self.text
+            and partners(found).get(0) == len(found) - 1
+        ):
+            found = found[1:-1]  # as Wikipedia has its formulas
         quotes = [k for k in (0, -1) if found and found[k].text in ("'", '"', "`", "```")]
         if len(quotes) == 2 and len(found) > 2 and found[0].text == found[-1].text and not _is_primed(found[-2:]):
             found = found[1:-1]
@@ -202,7 +209,7 @@ class _Apart:
         else:
             return None
         is_apart = k == 0 or scan[k - 1].end < scan[k].start or scan[k - 1].kind == "NEWLINE"
-        is_prose = first < len(scan) and _is_prose(scan[first]) and scan[first].text not in ("e", "pi", "i")
+        is_prose = first < len(scan) and (_is_prose(scan[first]) or scan[first].text in ("hi", "a", "an", "is", "no"))
         is_whole_line = two != "--" and (k == 0 or scan[k - 1].kind == "NEWLINE")
         if not is_apart or not (is_prose or is_whole_line):
             return None
@@ -237,7 +244,7 @@ class _Apart:
         elif token.text == "$" and self.text.count("$") > 1 and not _is_sequence(scan, k):
             if k and following is not None and scan[k - 1].text != "$" and following.text != "$":
                 found.append(token._replace(kind="NEWLINE", text="\n"))
-        elif token.text != "&":
+        elif token.text != "&" and (token.text not in LAYOUT or token.text == "\\["):
             found.append(token)
         return k + 1
 
@@ -262,6 +269,9 @@ class _Apart:
         token = scan[k]
         if token.text in (";", ","):
             return token.text == ";" or not _is_decimal_comma(scan, k)
+        if token.text == ":":  # Maple's other end of a statement
+            is_complete = bool(current) and (_has_equals(current) or current[0].text in _DECLARATIONS)
+            return is_complete and k + 1 < len(scan)
         if token.text in _BETWEEN:
             return _has_equals(current) and (
                 k + 1 == len(scan) or scan[k + 1].kind in ("WORD", "COMMAND", "NEWLINE", "TEXT")
@@ -353,8 +363,11 @@ class _Apart:
         count = 0
         while count < len(scan) and (scan[count].kind in ("WORD", "TEXT") or scan[count].text in ":,."):
             count += 1
-        while count and not (_is_prose(scan[count - 1]) or scan[count - 1].text == ":"):
+        ends = (":", "of", "to", "is", "by", "the")
+        while count and not (_is_prose(scan[count - 1]) or scan[count - 1].text in ends):
             count -= 1
+        if len(scan) > count + 1 and scan[count + 1].text == ":" and scan[count].kind == "NUMBER":
+            count += 2  # Problem 3:
         words = scan[:count]
         prose = [token for token in words if _is_prose(token)]
         is_sentence = len(prose) > 1 or words[-1:] == [Token("SIGN", ":", *words[-1][2:])] if words else False
@@ -538,6 +551,8 @@ def _without_assignment(scan: list[Token]) -> tuple[str, list[Token]]:
     """The name to which an equation or a command is assigned, and the rest: ode := ..., eq: ..., eq = Eq(...)."""
     if len(scan) < 3 or scan[0].kind != "WORD":
         return "", scan
+    if [token.text for token in scan[1:5:2]] == ["(", ")"] and len(scan) > 6 and scan[5].text in _COMMANDS:
+        return scan[0].text, scan[5:]  # ySol(t) = dsolve(ode)
     sign = scan[1].text
     if sign == ":=":
         return scan[0].text, scan[2:]
@@ -548,7 +563,7 @@ def _without_assignment(scan: list[Token]) -> tuple[str, list[Token]]:
     is_package = after in ("sympy", "sp", "sm")
     makes = after in (*_COMMANDS, *_MAKERS, "Eq", "Equality") or is_package
     has_double = any(token.text == "==" for token in scan[2:]) and sign == "="
-    if sign == "=" and (makes or has_double):
+    if sign == "=" and (makes or has_double or is_word(scan[0].text)):
         return scan[0].text, scan[2:]
     return "", scan
 
