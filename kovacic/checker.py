@@ -352,6 +352,11 @@ class Place:
             return True
         if self.k != 2 or self.difference is None or self.difference.q > 1:
             return False
+        steps = [k for k, value in enumerate(self.num(X - self.p[0]).coeffs()) if k and value != 0]
+        if (
+            self.den.degree() == 2 and len(steps) < 2
+        ):  # t^2 y'' = (a + b t^d) y: term n needs term 0 exactly if d divides n
+            return bool(steps) and int(self.difference) % steps[0] == 0
         n = affordable(self.difference, "an exponent difference")
         q, root = next(self.roots())
         return not frobenius(*self.local(root, q), (1 - n) * pow(2, -1, q) % q, n + 1, q)[1]

@@ -15,9 +15,11 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic import checker
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.invariants import least_valuation
 from kovacic.verify import forms
+from kovacic.verify.local import has_no_series
 from kovacic.verify.residue import residue_over_leading_root
 from kovacic.verify.zeros import zero_counts
 
@@ -161,3 +163,34 @@ def test_valuations_at_irregular_places_in_the_search_and_the_kernel(k: int, m: 
     S = 1 / X**k + 1
     (pole, _), point = analyse(S, Budget()).places, inspector(S).points[0]
     assert least_valuation(pole, m) == forms.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
+
+
+@pytest.mark.parametrize("d", range(1, 6))
+@pytest.mark.parametrize("centre", [0, 3])
+def test_logarithms_of_two_term_recurrences(d: int, centre: int) -> None:
+    """t^2 y'' = ((n^2 - 1)/4 + a t^d) y: search, kernel and checker say what the series modulo a prime says."""
+    for n in range(1, 13):
+        t = X - centre
+        S = (Fraction(n * n - 1, 4) + Fraction(-2, 3) * t**d) / t**2
+        point = inspector(S).points[0]
+        if S.den.degree < 2:
+            continue
+        h = next(QQ.homomorphisms())
+        expected = has_no_series(*point.localised(h, centre), n)
+        assert expected is (n % d == 0)
+        assert point.logarithm is analyse(S, Budget()).places[0].logarithm is expected
+        assert (
+            checker.places_of(*checker.read(S.to_str("x"), {"x": checker.Value(checker.X2)}).over_q())[0].logarithm
+            is expected
+        )
+
+
+@pytest.mark.parametrize(
+    "text", ["x^2*y'' + x*y' + (x^2 - 10^10)*y = 0", "(10^20 - 1/4)/(x - 3)^2 - 1", "(10^10 - 1/4)/x^2 + x^3"]
+)
+def test_bessels_equation_of_a_large_order(text: str) -> None:
+    """Orders beyond the limit of degrees, in z^(1/k) as well: a logarithm leaves no room for a solution."""
+    answer = kovacic.solve(text)
+    assert (answer.status.value, str(answer.group)) == ("none", "SL2")
+    assert answer.verify()
+    assert checker.verdict(answer.to_json()).startswith("checked: ")

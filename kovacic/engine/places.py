@@ -100,11 +100,17 @@ class Place:
 
         For Delta > 0 the series with the smaller exponent meets an obstruction at its term number Delta.  If it doesn't vanish
         modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a
-        chance of about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow.
+        chance of about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow; but the
+        terms of t^2 y'' = (M_0 + M_d t^d) y are multiples of those d places before, and obstructed exactly if d divides Delta.
         """
         if self.order != 2 or (delta := self.delta) is None or delta.denominator > 1:
             return self.order == 1
         n = delta.numerator
+        if n > 0 and self.den.degree == 2:
+            M = self.num(self.factor.field.poly([-self.factor[0], 1]))
+            powers = [k for k in range(1, M.degree + 1) if M[k]]
+            if len(powers) < 2:
+                return bool(powers) and n % powers[0] == 0
         if not 0 < n <= self.budget.limits.unknown_degree:
             return n == 0
         for h in self.factor.field.homomorphisms():

@@ -75,12 +75,21 @@ class Point:
 
     @cached_property
     def logarithm(self) -> bool:
-        """Is there provably a logarithm?  For Delta = n > 0, up to the limit of degrees, by an obstruction modulo a prime."""
+        """Is there provably a logarithm?  For Delta = n > 0, up to the limit of degrees, by an obstruction modulo a prime.
+
+        For t^2 y'' = (M_0 + M_d t^d) y the series with the smaller exponent has u_k k (k - n) = M_d u_(k-d): without any limit,
+        there is a logarithm exactly if n is a multiple of d.
+        """
         if self.order == 1 or self.difference == 0:
             return True
         if self.order != 2 or self.difference is None or self.difference.denominator > 1:
             return False
         n = self.difference.numerator
+        if self.den.degree == 2:  # the pole is the only finite one
+            M = self.num(self.factor.field.poly([-self.factor[0], 1]))
+            steps = [k for k in range(1, M.degree + 1) if M[k]]
+            if len(steps) < 2:
+                return steps != [] and n % steps[0] == 0
         return n <= self.budget.limits.unknown_degree and self._is_obstructed(n)
 
     def _is_obstructed(self, n: int) -> bool:
