@@ -120,24 +120,34 @@ X = fmpq_poly([0, 1])
 C, X2 = PLANE.gens()
 
 
-class Value:
-    """num/den in Q(c, x), in lowest terms."""
+ONE = PLANE.constant(1)
 
-    def __init__(self, num: Any, den: Any = 1) -> None:
-        num = PLANE.constant(1) * num
-        den = PLANE.constant(1) * den
-        demand(den != 0, "there is no division by zero")
-        common = den if den.is_constant() else num.gcd(den)
-        self.num = num // common
-        self.den = den // common
+
+class Value:
+    """num/den in Q(c, x), in lowest terms; `ONE` is the denominator of a polynomial."""
+
+    def __init__(self, num: Any, den: Any = ONE) -> None:
+        if den is not ONE:
+            demand(den != 0, "there is no division by zero")
+            common = den if den.is_constant() else num.gcd(den)
+            num = num // common
+            den = den // common
+        self.num = num
+        self.den = ONE if den == 1 else den
 
     def __add__(self, other: Value) -> Value:
+        if self.den is other.den is ONE:
+            return Value(self.num + other.num)
         return Value(self.num * other.den + other.num * self.den, self.den * other.den)
 
     def __sub__(self, other: Value) -> Value:
+        if self.den is other.den is ONE:
+            return Value(self.num - other.num)
         return Value(self.num * other.den - other.num * self.den, self.den * other.den)
 
     def __mul__(self, other: Value) -> Value:
+        if self.den is other.den is ONE:
+            return Value(self.num * other.num)
         return Value(self.num * other.num, self.den * other.den)
 
     def __truediv__(self, other: Value) -> Value:
@@ -231,7 +241,7 @@ class Reader:
         return value
 
     def number(self, value: Any) -> Any:
-        return Value(value)
+        return Value(PLANE.constant(value))
 
     def named(self, name: str) -> Any:
         return self.names[name]
@@ -931,7 +941,7 @@ class Imprimitive:
         demand(n > 0, "a multiple of log u is taken")
         rest = polynomial(read(data["rest"], self.names))
         total = f.logarithmic_derivative() + Value(from_one_variable(rest))
-        square = self.H * Value(from_one_variable(f.h)) * Value(n) ** 2
+        square = self.H * Value(from_one_variable(f.h)) * Value(PLANE.constant(n)) ** 2
         demand((total * total).equals(square), "the differential of f is that of a power of u")
         if rest != 0:
             demand(rest.degree() < (f.h.degree() - 1) // 2, "the rest is holomorphic")
@@ -1035,7 +1045,7 @@ class CurveFunction:
     def logarithmic_derivative(self) -> Value:
         """R, where R dx/y is half of d log of f over its conjugate."""
         h = self.h
-        total = Value(0)
+        total = Value(PLANE.constant(0))
         for e, a, b in self.pieces:
             odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
             total += Value(from_one_variable(odd * e), from_one_variable(a * a - h * b * b))
@@ -1863,7 +1873,7 @@ class Answer:
         demand(a.num != 0, "the equation has second order")
         half = b / (a + a)
         demand(self.S.equals(half.derivative() + half * half - c / a), "S is that of the equation")
-        demand(read(gauge, self.names).equals(Value(0) - half), "the gauge is -b/(2a)")
+        demand(read(gauge, self.names).equals(Value(PLANE.constant(0)) - half), "the gauge is -b/(2a)")
         return ["y'' = S y from a, b, c", "gauge"]
 
     def input(self) -> list[str]:

@@ -279,7 +279,7 @@ EQUATION = "equation.change, equation.f, equation.h, equation.text, equation.unk
     [
         ("x^2 + 3", "S from input; case; omega; group; solutions", "notices, seconds, line"),
         ("x", "S from input; case; group", "notices, seconds, line"),
-        ("0*sqrt(x^2) + x", "case; group", "input, notices, seconds, line"),
+        ("2x", "case; group", "input, notices, seconds, line"),
         (
             "y'' + 2*x*y' + 2*y = 0",
             "y'' = S y from a, b, c; gauge; case; omega; group; solutions",
