@@ -40,10 +40,10 @@ _k = 1 + R / R1
 _rho = R / R1
 _pull = R / (R + R1)
 _eps = R + a * cos(u)
-_turn = _k * _eps
+_scaled_eps = _k * _eps
 _tilt = (A3 - A1) * R * cos(u) + A3 * a
-_D = A1 * A3 + A1 * m * R**2 * sin(u) ** 2 + A3 * m * (R * cos(u) + a) ** 2
-_coordinates = {"x": R * sin(u) * cos(v), "y": R * sin(u) * sin(v), "z": R * cos(u) + a}
+_quadratic = A1 * A3 + A1 * m * R**2 * sin(u) ** 2 + A3 * m * (R * cos(u) + a) ** 2
+_sphere_points = {"x": R * sin(u) * cos(v), "y": R * sin(u) * sin(v), "z": R * cos(u) + a}
 _cosines = {
     "c11": cos(u) * cos(v),
     "c12": cos(u) * sin(v),
@@ -62,7 +62,7 @@ _K33 = (A1 + m * a**2) * sin(u) ** 2 + A3 * cos(u) ** 2
 K11, K22, K23, K33 = sp.symbols("K11 K22 K23 K33")
 #: The coefficients of (9), functions of u.
 _nine = {
-    "a1": -(1 - _rho**2) * sin(u) * K33 - _pull * sin(u) * K11 - m * R * sin(u) * _turn,
+    "a1": -(1 - _rho**2) * sin(u) * K33 - _pull * sin(u) * K11 - m * R * sin(u) * _scaled_eps,
     "b1": -(1 - _rho**2) * sin(u) * K23,
     "a2": -_pull * K23 / sin(u) - m * R * a * sin(u),
     "b2": _pull * (sin(u) * K11 - K22 / sin(u)),
@@ -71,7 +71,7 @@ _a1, _b1, _a2, _b2 = sp.symbols("a1 b1 a2 b2")
 
 #: For each of the paper's numbers (and "system", which has none) the formulas by name.  D is a name in "system" and (11).
 PRINTED: dict[str, dict[str, sp.Expr]] = {
-    "8": {**_coordinates, "E": R**2, "G": R**2 * sin(u) ** 2, "L": -R, "N": -R * sin(u) ** 2},
+    "8": {**_sphere_points, "E": R**2, "G": R**2 * sin(u) ** 2, "L": -R, "N": -R * sin(u) ** 2},
     "1": _cosines,
     "2": {
         "u1'": _rho * (-du * sin(theta) + dv * sin(u) * cos(theta)),
@@ -88,11 +88,11 @@ PRINTED: dict[str, dict[str, sp.Expr]] = {
         "dTheta_u'/dt": T_u
         + (1 - _rho**2) * sin(u) * dv * T_n
         + _pull / sin(u) * n * T_dv
-        + m * R * sin(u) * n * (a * n + _turn * dv)
+        + m * R * sin(u) * n * (a * n + _scaled_eps * dv)
         - V_u,
         "dTheta_v'/dt": -(1 - _rho**2) * sin(u) * du * T_n
         - _pull * sin(u) * n * T_du
-        - m * R * sin(u) * n * _turn * du,
+        - m * R * sin(u) * n * _scaled_eps * du,
         "dTheta_n/dt": _pull * sin(u) * dv * T_du - _pull / sin(u) * du * T_dv - m * R * a * sin(u) * du * n,
     },
     "9": _nine,
@@ -107,7 +107,7 @@ PRINTED: dict[str, dict[str, sp.Expr]] = {
         "a2": (R1 + R) * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2) * sin(u) / (R1 * D),
         "b1": m * R**3 * A1 * sin(u) / (R1 * D),
         "b2": m * R * (R1 + R) * _tilt * sin(u) / (R1 * D),
-        "D": _D,
+        "D": _quadratic,
     },
     "11": {
         "d1": -(
@@ -122,12 +122,12 @@ PRINTED: dict[str, dict[str, sp.Expr]] = {
 
 
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
-    """d/dt, the symbols in `clock` having these rates."""
+    """d/dt of an expression or a matrix, where the symbols in `clock` have these rates."""
     return sum((expression.diff(symbol) * speed for symbol, speed in clock.items()), expression * 0)
 
 
 def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
-    """The angular velocity of a frame, in itself."""
+    """The angular velocity of a frame, in its own axes: the entries of the skew matrix F^T F'."""
     W = frame.T * rate(frame, clock)
     return sp.Matrix([W[2, 1], W[0, 2], W[1, 0]])
 
@@ -137,7 +137,7 @@ def _surface() -> Any:
     return sp.Matrix([PRINTED["8"][name] for name in ("x", "y", "z")])
 
 
-def _frame() -> Any:
+def _direction_cosines() -> Any:
     """The printed direction cosines: e_u, e_v, e_n as columns in the axes of the ball."""
     return sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
 
@@ -152,7 +152,7 @@ def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
     r = _surface()
     r_u = r.diff(u)
     r_v = r.diff(v)
-    e_u, e_v, e_n = (_frame()[:, k] for k in range(3))
+    e_u, e_v, e_n = (_direction_cosines()[:, k] for k in range(3))
     from_centre = r - sp.Matrix([0, 0, a])
     first = [r_u.dot(r_u) - forms["E"], r_u.dot(r_v), r_v.dot(r_v) - forms["G"]]
     second = [r_u.diff(u).dot(e_n) - forms["L"], r_u.diff(v).dot(e_n), r_v.diff(v).dot(e_n) - forms["N"]]
@@ -164,7 +164,7 @@ def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
 def _kinematics() -> Iterator[tuple[str, list[Any]]]:
     """(2), (4) and (5)."""
     five = PRINTED["5"]
-    c = _frame()
+    c = _direction_cosines()
     rolling = {du1: PRINTED["2"]["u1'"], dv1: PRINTED["2"]["v1'"]}
     # The frame at the contact point as (u1, v1, theta) tell it: the meridian and the circle on the sphere, turned by theta.
     out = sp.Matrix([sin(u1) * cos(v1), sin(u1) * sin(v1), cos(u1)])
@@ -186,7 +186,7 @@ def _dynamics() -> Iterator[tuple[str, list[Any]]]:
     five = PRINTED["5"]
     K = PRINTED["6"]
     r = _surface()
-    c = _frame()
+    c = _direction_cosines()
     energy = K["K11"] * du**2 + K["K22"] * dv**2 + 2 * K["K23"] * dv * n + K["K33"] * n**2  # 2 Theta
     # (3) and (4), in the axes of the ball.
     omega = sp.Matrix([PRINTED["4"][f"omega_{i}"] for i in (1, 2, 3)]).xreplace(
@@ -263,7 +263,7 @@ def residuals() -> Iterator[tuple[str, list[Any]]]:
 
 
 def vanishes(expression: Any) -> bool:
-    """Is an expression, rational in names and in sines and cosines of names, zero?  Decided in the engine's fields."""
+    """True if an expression, rational in names and in their sines and cosines, is zero; decided in the engine's fields."""
     rational: dict[Any, Any] = {}
     for z in (u, v, theta, u1, v1):
         t = sp.Symbol(f"t_{z}")
@@ -272,5 +272,5 @@ def vanishes(expression: Any) -> bool:
 
 
 def holds() -> dict[str, bool]:
-    """For each group of formulas: does the derivation confirm it, for all values of the parameters?"""
+    """Whether the derivation confirms each group of formulas, for all values of the parameters."""
     return {name: all(map(vanishes, parts)) for name, parts in residuals()}

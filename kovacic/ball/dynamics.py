@@ -32,7 +32,7 @@ LARGEST = 1e50
 
 @dataclass(frozen=True, slots=True)
 class Force:
-    """V(u), and V and V' compiled for NumPy's arrays; g is the strength of `gravity`, None for another potential."""
+    """V(u), and V and V' compiled for NumPy arrays; g is the strength of `gravity`, or None for another potential."""
 
     V: sp.Expr
     value: Callable[[Any], Any]
@@ -134,7 +134,7 @@ class Dynamics:
         return self.R * s[0], self.R * s[1], self.R * s[2] + self.a
 
     def acceleration(self, s: Vector, omega: Vector) -> tuple[Any, Any, Any]:
-        """b."""
+        """b: the centre of mass has the acceleration -(omega' x r) - b."""
         drift = cross(omega, s)
         k = self.R / (1 + self.rho)
         turn = cross(omega, self.arm(s))

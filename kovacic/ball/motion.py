@@ -41,12 +41,11 @@ LONGEST = 100_000
 #: Below the first a motion is steady; one that comes below the second, of its largest distance, is asymptotic to a steady one.
 _STEADY = 1e-12
 _ASYMPTOTIC = 1e-6
-#: An asymptotic motion is given for as long as two integrations, of tolerances apart by a factor of ten, agree to this, at so
-#: many times.
-_AGREEMENT = 1e-6
-_COMPARED = 4000
+#: An asymptotic motion is given for as long as two integrations, with tolerances ten apart, agree to this at that many times.
+_AGREED_TO = 1e-6
+_TIMES_COMPARED = 4000
 #: The integrator's relative tolerance, the least that SciPy takes.
-_TOLERANCE = 2.3e-14
+_RELATIVE_TOLERANCE = 2.3e-14
 _AXIS = np.array([0.0, 0.0, 1.0])
 
 
@@ -113,26 +112,26 @@ class Motion:
         """The contact point in space: on the sphere about the origin, or on the plane."""
         if self.ball.kappa:
             s = np.moveaxis(self.contact_on_ball(times), -1, 0)
-            return _apply(self.attitude(times), -s / self.ball.kappa)
+            return _rotate(self.attitude(times), -s / self.ball.kappa)
         count, y = self._at(times)
         # The ways of `count` oscillations, each turned by one angle more, add up to a chord.
         angle = float(np.linalg.norm(self._turn))
         half = np.sin(angle / 2)
         chord = np.where(np.abs(half) > 1e-12, np.sin(angle * count / 2) / (half or 1.0), count)
-        whole = _turned(self._turn, (count - 1) / 2) @ self._solution(np.array(self._cycle))[15:]
-        way = (_apply(_turned(self._turn, count), y[15:]) + chord[..., None] * whole) @ self._space.T
+        whole = _rotations(self._turn, (count - 1) / 2) @ self._solution(np.array(self._cycle))[15:]
+        way = (_rotate(_rotations(self._turn, count), y[15:]) + chord[..., None] * whole) @ self._space.T
         return np.asarray(way * [1.0, 1.0, 0.0] + [self.start.u1, self.start.v1, 0.0], dtype=float)
 
     def contact_on_ball(self, times: Any) -> Array:
         """The unit vector from the ball's centre to the contact point, in its axes: (sin u cos v, sin u sin v, cos u)."""
         count, y = self._at(times)
-        return _apply(_turned(_AXIS, count * self._gain), y[3:6])
+        return _rotate(_rotations(_AXIS, count * self._gain), y[3:6])
 
     def attitude(self, times: Any) -> Array:
         """The ball's axes in space, as columns of (..., 3, 3)."""
         count, y = self._at(times)
         rows = np.moveaxis(y[6:15], 0, -1).reshape(*count.shape, 3, 3)
-        return np.asarray(self._space @ _turned(self._turn, count) @ rows @ _turned(_AXIS, -count * self._gain))
+        return np.asarray(self._space @ _rotations(self._turn, count) @ rows @ _rotations(_AXIS, -count * self._gain))
 
     def energy(self, times: Any) -> Array:
         """Kinetic and potential energy, from the integrated angular velocity: constant up to its errors."""
@@ -227,7 +226,7 @@ def solve_motion(
     turned = course["_solution"](np.array(course["_cycle"]))
     before, after = (z[[0, 3]] + 1j * z[[1, 4]] for z in (y, turned))  # of omega and s, across the axis
     gain = float(np.angle((after * before.conj() * [rate**-2, 1.0]).sum()))
-    turn = Rotation.from_matrix(turned[6:15].reshape(3, 3) @ _turned(_AXIS, np.array(gain))).as_rotvec()
+    turn = Rotation.from_matrix(turned[6:15].reshape(3, 3) @ _rotations(_AXIS, np.array(gain))).as_rotvec()
     space = _contact_frame(ball, state) @ frame.T
     return Motion(ball=ball, force=force, start=state, _gain=gain, _turn=turn, _space=space, **course)
 
@@ -245,7 +244,7 @@ def _contact_frame(ball: Dynamics, state: State) -> Array:
 
 
 def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, Any]:
-    """One oscillation from y, some time of a steady motion, or what is known of an asymptotic one: fields of `Motion`."""
+    """Fields of `Motion`: one oscillation from y, some time of a steady motion, or an asymptotic one as far as it is known."""
 
     def change(states: Array) -> Array:
         return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)
@@ -267,7 +266,7 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
     determined = np.inf
     period = None
     if approach < _ASYMPTOTIC:
-        rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _TOLERANCE)
+        rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _RELATIVE_TOLERANCE)
         cycle = determined = _last_agreement(solution, rough, rate)
         u = colatitude(solution.sol(np.array([0.0, *turns[turns < cycle], cycle]))[3:6])
     else:
@@ -290,15 +289,15 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
 
 def _last_agreement(fine: Any, rough: Any, rate: float) -> float:
     """The last time up to which two integrations agree in omega and s; the rough one errs ten times as much."""
-    times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), _COMPARED)
+    times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), _TIMES_COMPARED)
     scale = np.repeat([rate, 1.0], 3)[:, None]
     difference = np.abs((fine.sol(times) - rough.sol(times))[:6] / scale).max(axis=0)
-    lost = np.append(difference > _AGREEMENT, True)
+    lost = np.append(difference > _AGREED_TO, True)
     return float(times[max(int(lost.argmax()) - 1, 0)])
 
 
 def _integrate(
-    ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int, tolerance: float = _TOLERANCE
+    ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int, tolerance: float = _RELATIVE_TOLERANCE
 ) -> Any:
     """SciPy's solution from y, until x' has been 0 `turns` times; without any, for the time 10/rate.
 
@@ -326,7 +325,7 @@ def _integrate(
         y,
         events=speed if turns else None,
         rtol=tolerance,
-        atol=1e-16 * (tolerance / _TOLERANCE) * scale,
+        atol=1e-16 * (tolerance / _RELATIVE_TOLERANCE) * scale,
         dense_output=True,
         method="DOP853",
     )
@@ -336,12 +335,12 @@ def _integrate(
     return result
 
 
-def _apply(matrices: Array, vectors: Array) -> Array:
+def _rotate(matrices: Array, vectors: Array) -> Array:
     """Matrices (..., 3, 3) times vectors (3, ...), as (..., 3)."""
     return np.asarray(np.einsum("...ij,j...->...i", matrices, vectors))
 
 
-def _turned(vector: Array, counts: Array) -> Array:
-    """Rotations by so many times this rotation vector, (..., 3, 3)."""
+def _rotations(vector: Array, counts: Array) -> Array:
+    """Rotations by `counts` times this rotation vector, (..., 3, 3)."""
     found = Rotation.from_rotvec(np.multiply.outer(np.ravel(counts), vector)).as_matrix()
     return np.asarray(found.reshape(*np.shape(counts), 3, 3))

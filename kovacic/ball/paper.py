@@ -23,7 +23,7 @@ for _name, _tex in (("u", "u"), ("u'", r"\dot{u}"), ("v'", r"\dot{v}"), ("n", "n
 #: The paper's steps in the order in which one needs the next; (8) is its surface, so it comes first.  Before a title stands the
 #: key of the ball's formulas in `PRINTED`, below it each of the paper's general relations as text and as LaTeX; a line that is
 #: indented twice continues the one above.
-_STEPS = r"""
+_PAPER_STEPS = r"""
 8 | (8) The surface of the ball, r = (x, y, z) from its centre of mass; its fundamental forms, F = M = 0
   x = f(u) cos(v), y = f(u) sin(v), z = g(u)
   x = f(u)\cos v, \quad y = f(u)\sin v, \quad z = g(u)
@@ -88,7 +88,7 @@ system | The same in n and omega_3, with other a1, ..., b2 than in (9)
 """
 
 
-def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> Math:
+def second_order_equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> Math:
     """omega_3'' + d1 omega_3' + d2 omega_3 = 0."""
     text = f"omega_3''({variable})"
     tex = r"\omega_{3}''"
@@ -120,8 +120,8 @@ def equations_of(place: Rolling) -> dict[str, Math]:
         normal_form = Math(f"y''(x) = ({S})*y(x)", f"y'' = {factor} y")
     return {
         **found,
-        "11": equation(-sin(u) * in_u[4] - cos(u) / sin(u), sin(u) ** 2 * in_u[5], u),
-        "12": equation(d1, d2),
+        "11": second_order_equation(-sin(u) * in_u[4] - cos(u) / sin(u), sin(u) ** 2 * in_u[5], u),
+        "12": second_order_equation(d1, d2),
         "13": normal_form,
     }
 
@@ -136,7 +136,7 @@ def explained(*, format: str = "text") -> str:
     blocks: list[Block] = [
         say("A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre.")
     ]
-    for step in re.split(r"\n(?! )", _STEPS.strip()):
+    for step in re.split(r"\n(?! )", _PAPER_STEPS.strip()):
         heading, *lines = step.replace("\n      ", " ").splitlines()
         key, _, title = heading.partition("| ")
         relations = [Math(text.strip(), latex.strip()) for text, latex in zip(lines[::2], lines[1::2], strict=True)]

@@ -27,7 +27,7 @@ _EXPANDED = 12
 
 
 def theorem(place: Rolling) -> tuple[str, int | None]:
-    """What the theorems say about a ball, in words, and Kovacic's case (None where it depends on symbols)."""
+    """What the theorems say about a ball, in words, and Kovacic's case, or None if that depends on symbols."""
     N = 2 * place.ratio
     for equal, value in (("A1 = A3", place.leading), ("x1 = x2", place.discriminant)):
         if sign(value) == 0:
@@ -54,7 +54,7 @@ class BallSolution:
     y, omega_3, n : sympy.Expr
         The general ones.
     E : sympy.Expr or None
-        That of which powers occur: D'/2 + sqrt(l D), or its negative where that is positive.
+        The base of the powers that occur: D'/2 + sqrt(l D), or its negative where that is positive.
     """
 
     omega: tuple[sp.Expr, ...]
@@ -64,14 +64,14 @@ class BallSolution:
     E: sp.Expr | None = None
 
     def solves(self, place: Rolling) -> bool:
-        """Do omega, y, n and omega_3 as they're printed satisfy (13) and the linear system (see `linear_system`)?
+        """True if omega, y, n and omega_3, as they are printed, satisfy (13) and the `linear_system`.
 
         By substitution, to 30 digits, at one point and for one value of each symbol.
 
         Parameters
         ----------
         place : Rolling
-            What it was found for.
+            The ball for which this solution was found.
         """
         a1, a2, b1, b2 = place.linear_system
         S = place.S
@@ -116,24 +116,24 @@ def closed_form(place: Rolling) -> BallSolution:
     c1*(4*x - x1 - 3*x2)/sqrt(x - x2) + c2*(4*x - 3*x1 - x2)/sqrt(x - x1)
     """
     if isinstance(place, InRoots):
-        return _in_roots(place)
+        return _solution_in_roots(place)
     rho = place.ratio
     root = sp.sqrt(place.D)
     if rho != 0 and place.leading == 0 == place.half:  # D is constant, and its powers go into c1 and c2
         y = C1 + C2 * X
         return BallSolution((sp.Integer(0), 1 / X), y, y, -C2 * place.D / rho / place.weight)
-    eta, spin, omega, E = _general(place)
+    eta, spin, omega, E = _simplest_solution(place)
     quarter = place.D ** sp.Rational(1, 4)
     if sign(place.discriminant) == 0 and place.leading != 0 and rho != 0:  # D is a square
         quarter = sp.sqrt(sp.sqrt(place.leading) * (X + place.half.subs(X, 0) / place.leading))
     if rho.is_number and (2 * rho).is_Integer and rho != 0 and len(place.roots) == 2:
-        omega = _in_roots(InRoots(rho)).omega
+        omega = _solution_in_roots(InRoots(rho)).omega
     # For rho = 1, c1 stands by itself.
     omega_3 = sum(term / root for term in eta.args) if rho == 1 else eta / quarter**2
     return BallSolution(omega, quarter * eta, omega_3, spin / place.weight, E)
 
 
-def _general(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr, ...], sp.Expr | None]:
+def _simplest_solution(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr, ...], sp.Expr | None]:
     """eta, m R^2 A1 n, omega and E in the form that is the simplest for this ball, where D isn't constant or rho = 0."""
     D = place.D
     half = place.half
@@ -168,7 +168,7 @@ def _general(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr, ...], sp.
     return C1 * E**rho + C2 * E ** (-rho), spin, omega, E
 
 
-def _in_roots(place: InRoots) -> BallSolution:
+def _solution_in_roots(place: InRoots) -> BallSolution:
     """For an integer N both solutions are polynomials times powers of sqrt(x - x1) and sqrt(x - x2), written so up to |N| = 12.
 
     Beyond, the polynomials are longer than a page: omega is written as a quotient, and the solutions as powers.

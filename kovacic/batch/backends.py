@@ -30,16 +30,16 @@ _Engine = tuple[Callable[[Job, list[Item]], Future[list[Record]]], int]
 
 # The pool of this thread, a worker process for one job: state of the module, because the engine calls a function and gives it
 # no place to keep anything.
-_KEPT = threading.local()
+_OF_THREAD = threading.local()
 
 
 def run_chunk(job: Job, items: list[Item]) -> list[Record]:
     """The records of a chunk, in its order, from the worker process of this thread."""
-    pool: Pool | None = getattr(_KEPT, "pool", None)
+    pool: Pool | None = getattr(_OF_THREAD, "pool", None)
     if pool is None or pool.job != job:
         if pool is not None:
             pool.close()
-        pool = _KEPT.pool = Pool(1, job)
+        pool = _OF_THREAD.pool = Pool(1, job)
     try:
         return list(pool.run(items))
     except BaseException:

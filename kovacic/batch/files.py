@@ -38,7 +38,7 @@ _BYTES_PER_CHARACTER = 6
 
 
 def guess_format(name: str) -> str | None:
-    """The format that belongs to a file name; None where it says nothing ("-", "data.txt").
+    """Guess the format from a file name; None if the name says nothing ("-", "data.txt").
 
     >>> guess_format("cases.jsonl.gz"), guess_format("table.CSV"), guess_format("-")
     ('jsonl', 'csv', None)
@@ -58,7 +58,7 @@ def read_items(
     `InputError` where that fails, after the items up to there.
     """
     longest = limits.text_length * _BYTES_PER_CHARACTER
-    lines = _lines(stream, longest, var)
+    lines = _text_lines(stream, longest, var)
     if form == "csv":
         yield from _csv_items(lines, longest, var)
         return
@@ -78,13 +78,13 @@ def read_items(
 
 
 def count_items(name: str, *, form: str | None = None) -> int:
-    """How many items a file has, for the progress bar."""
+    """The number of items in a file, for the progress bar."""
     with open(name, "rb") as stream:
         return sum(1 for _ in read_items(stream, form=form or guess_format(name)))
 
 
 def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Item:
-    """The item for whatever `kovacic.solve` takes, or for a mapping with the keys of a line of JSONL."""
+    """The item of anything that `kovacic.solve` takes, or of a mapping with the keys of a line of JSONL."""
     if isinstance(value, Item):
         return value
     if isinstance(value, str | Mapping):
@@ -98,7 +98,7 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
     return Item(number, parsed.S.to_str(parsed.variable), parsed.variable)
 
 
-def _lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
+def _text_lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
     """The lines as items; one that is too long, of which nothing is kept, or isn't text has an error."""
     number = 0
     try:
@@ -253,7 +253,7 @@ class _Rows:
 
 @contextmanager
 def answers(path: Path | None) -> Iterator[Callable[[Record], None]]:
-    """What appends a record to this file, or to standard output: one JSON object a line, given to the system at once."""
+    """A function that appends records to this file, or to standard output: one JSON object a line, flushed at once."""
 
     def write(record: Record) -> None:
         stream.write(record.json + "\n")
@@ -268,7 +268,7 @@ def answers(path: Path | None) -> Iterator[Callable[[Record], None]]:
 
 @dataclass(frozen=True)
 class Done:
-    """What a file of answers has already: by line number, a checksum of the input that is answered, and the label."""
+    """The contents of a file of answers: by line number, a checksum of the input, and the label of its answer."""
 
     checksums: dict[int, int] = field(default_factory=dict)
     labels: dict[int, str] = field(default_factory=dict)
@@ -288,7 +288,7 @@ class Done:
 
 
 def take_up(path: Path) -> Done:
-    """Read a file of answers, if there is one, and remove what isn't a whole answer and what occurs twice.
+    """Read a file of answers, if there is one, and remove incomplete and repeated lines.
 
     The file is replaced by the repaired one in a single step, and not touched if there is nothing to repair.  Raises
     `InputError` for a file with whole lines, none of which is an answer: somebody needs it for something else.

@@ -36,7 +36,7 @@ GRACE_SECONDS = 0.25
 _START_SECONDS = 120.0
 
 # A signal may come from somebody else: starts in a row, or processes of one item, that may end by one.
-_ATTEMPTS = 4
+_MOST_LOSSES = 4
 
 # In order of the input, items that are read beyond the first one that has no answer.
 ORDERED_WINDOW = 10_000
@@ -84,11 +84,11 @@ class ItemSource:
         return self._ended and not self._returned
 
     def give_back(self, items: Sequence[Item]) -> None:
-        """Items that come next, in this order."""
+        """Put items back to be handed out next, in this order."""
         self._returned.extendleft(reversed(items))
 
     def next(self) -> Item | None:
-        """The next item; None where there is none, for the moment or at the end."""
+        """The next item, or None if there is none: for the moment, or at the end."""
         if self._returned:
             return self._returned.popleft()
         if self._ended:
@@ -135,7 +135,7 @@ class Child:
         self.process.send(job)
 
     def give(self, items: Sequence[Item]) -> None:
-        """What the process has to do next."""
+        """Queue items for the process."""
         self.items.extend(items)
         self.busy_since = time.monotonic()
         self.process.write(b"".join(map(_packed, items)))
@@ -215,7 +215,7 @@ class Pool(AbstractContextManager["Pool"]):
                 yield ready.pop(order.popleft())
 
     def _records(self, feed: Iterator[Item | None]) -> Iterator[Record]:
-        """The records as they come; the feed gives None where there is no item for the moment."""
+        """The records as they come; the feed yields None if there is no item for the moment."""
         source = ItemSource(feed)
         while len(self._children) < self._jobs:
             self._children.append(Child(self.job, self._serve, self._events))
@@ -301,11 +301,11 @@ class Pool(AbstractContextManager["Pool"]):
             yield stopped(item, reason, time.monotonic() - child.busy_since)
 
     def _died(self, child: Child, source: ItemSource) -> Iterator[Record]:
-        """What follows from the end of a process: another one, and a record for its item, or another attempt."""
+        """Replace a process that has ended; a record for its item, unless there is another attempt."""
         status, words = child.process.last_words()  # a negative status is a signal
         if not child.ready:
             self._failed_starts += 1
-        if self._failed_starts >= _ATTEMPTS:
+        if self._failed_starts >= _MOST_LOSSES:
             raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
         item = child.items.popleft() if child.items else None
         self._replace(child, source)
@@ -319,7 +319,7 @@ class Pool(AbstractContextManager["Pool"]):
             yield stopped(item, f"the time limit of {self.job.timeout:g} s is used up (process ended)", seconds)
             return
         self._losses[item.number] += 1
-        attempts = _ATTEMPTS if status < 0 else 1  # an exception repeats itself
+        attempts = _MOST_LOSSES if status < 0 else 1  # an exception repeats itself
         if self._losses[item.number] >= attempts:
             yield refused(item, ProcessLost(_cause(status, words)), seconds)
         else:
@@ -335,12 +335,12 @@ class Pool(AbstractContextManager["Pool"]):
 
 
 def _packed(item: Item) -> bytes:
-    """An item as it travels to a process."""
+    """An item in the form in which it is sent to a process."""
     return pickle.dumps((item.number, item.text, item.var, item.extra))
 
 
 def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[Item | None]:
-    """The items of a stream, read by a thread, so that answers come out while it is silent; None where there is none yet."""
+    """The items of a stream, read by a thread, so that answers come out while it is silent; None if there is none yet."""
     queue: Queue[Item | BaseException | None] = Queue(_AHEAD)
 
     def read() -> None:
@@ -376,5 +376,5 @@ def _cause(status: int, words: str) -> str:
 
 
 def _signal_name(status: int) -> str:
-    """The name of the signal that ended a process, or its number; not every system knows all of them."""
+    """The name of the signal that ended a process, or its number if this system has no name for it."""
     return next((known.name for known in signal.Signals if known == -status), str(-status))

@@ -106,7 +106,7 @@ class Record:
 
     @property
     def error(self) -> str | None:
-        """What was wrong; None if there is an answer."""
+        """The error message; None if there is an answer."""
         return self.data["error"]["message"] if self.label in (ERROR, FAILED) else None
 
     @property
@@ -153,7 +153,7 @@ class Job:
             raise InputError("a scheduler needs a backend", hint="backend='dask'", shell="--backend dask")
 
     def _set(self, **values: Any) -> None:
-        """A field as it was read, when the object is made."""
+        """Set fields of the frozen object while it is being made."""
         for name, value in values.items():
             object.__setattr__(self, name, value)
 

@@ -68,8 +68,8 @@ def parse_grid(text: str) -> Grid:
     if not separator or not name.isidentifier():
         raise InputError(f"{text!r} isn't a grid", hint="NAME=START:STOP:STEP or NAME=VALUE,VALUE: n=0:10:1/4")
     if ":" not in rest:
-        return Grid(name, [_value(part, text) for part in rest.split(",")])
-    values = [_value(part, text) for part in re.split("[:,]", rest)]
+        return Grid(name, [_grid_value(part, text) for part in rest.split(",")])
+    values = [_grid_value(part, text) for part in re.split("[:,]", rest)]
     return _range(name, values, text)
 
 
@@ -89,8 +89,8 @@ def _range(name: str, values: list[Fraction | str], text: str) -> Grid:
     return Grid(name, range(first, first + count * difference, difference), denominator)
 
 
-def _value(part: str, text: str) -> Fraction | str:
-    """A number: as it is written where it isn't rational."""
+def _grid_value(part: str, text: str) -> Fraction | str:
+    """A rational number as such, an algebraic one as it is written."""
     try:
         number = number_text(part)
     except InputError as error:
@@ -134,7 +134,7 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
 
 
 def columns(grids: Sequence[Grid]) -> tuple[str, ...]:
-    """The head of the table."""
+    """The column names of the table."""
     return (*(grid.name for grid in grids), "status", "case", "degree", "group", "order", "seconds", "remark")
 
 
@@ -167,8 +167,8 @@ def draw_map(
     width = len(rightwards)
     if height * width > _LARGEST_MAP:
         raise InputError(f"a map of {height} x {width} points is too large for a picture")
-    right = _ordered(rightwards)
-    up = _ordered(upwards)
+    right = _monotonic(rightwards)
+    up = _monotonic(upwards)
     code = {label: number for number, label in enumerate(_COLOURS_AND_NAMES, start=1)}
     cells = [[code.get(labels.get(1 + i * width + k, ""), 0) for k in range(width)] for i in range(height)]
     kinds = [CellKind("", "white"), *(CellKind(name, colour) for colour, name in _COLOURS_AND_NAMES.values())]
@@ -183,7 +183,7 @@ def draw_map(
     axes.figure.savefig(path, dpi=150)
 
 
-def _ordered(grid: Grid) -> list[Fraction]:
+def _monotonic(grid: Grid) -> list[Fraction]:
     """The values, which are rational, and increase or decrease."""
     values = [value for value in grid if isinstance(value, Fraction)]
     if len(values) < len(grid):

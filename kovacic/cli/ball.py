@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from kovacic.ball.body import Rolling
 
 #: Points in time at which a motion is looked at, more of them for each oscillation, and the most.
-_SAMPLES = 1200
+_LEAST_TIMES = 1200
 _PER_OSCILLATION = 60
-_MOST = 60_000
+_MOST_TIMES = 60_000
 #: `Motion.approach` below which errors above 1e-9 are likely.
 _SENSITIVE = 1e-3
 #: D for a ball whose constants aren't given.
-_D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
+_GENERAL_D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
 #: Options that say which force acts.
 _FORCE = ("gravity", "potential")
 
@@ -100,7 +100,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
     if names_a_ball or not explain:
         if not given["simulate"] and given["plot"] is None:
             refuse({"start", "end", *_FORCE}, "without --simulate or --plot")
-        place = _place(given)
+        place = _ball_of(given)
         rows = _answer(place, latex=latex)
         if given["simulate"] or given["plot"] is not None:
             motion = _simulate(place, given)
@@ -119,7 +119,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
             click.echo(line)
 
 
-def _place(given: Mapping[str, Any]) -> Rolling:
+def _ball_of(given: Mapping[str, Any]) -> Rolling:
     """The ball that is meant; raises `click.UsageError` for options that don't belong together."""
     from kovacic.ball import RollingBall
     from kovacic.ball.body import InRoots, exact
@@ -175,7 +175,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
         AnswerRow("ratio", place.ratio, "R/R1"),
         AnswerRow("N", N, "N = 2R/R1", f"{N}, not an integer" if case == 2 else None),
     ]
-    note = f"x = cos u; x1, x2 are the roots of D(x) = {_D}, two different ones"
+    note = f"x = cos u; x1, x2 are the roots of D(x) = {_GENERAL_D}, two different ones"
     if isinstance(place, BallOnSphere):
         note = "x = cos u; units are those of the input"
         rows += [
@@ -224,8 +224,8 @@ def _simulate(sphere: Any, given: Mapping[str, Any]) -> list[AnswerRow]:
     if time <= 0:
         raise InputError(f"the time must be positive, not {time:g}")
     motion = solve_motion(sphere, State(*given["start"]), **{name: given[name] for name in _FORCE})
-    samples = _SAMPLES + int(_PER_OSCILLATION * time / (motion.period or np.inf))
-    times = np.linspace(0.0, time, min(_MOST, samples))
+    samples = _LEAST_TIMES + int(_PER_OSCILLATION * time / (motion.period or np.inf))
+    times = np.linspace(0.0, time, min(_MOST_TIMES, samples))
     if given["plot"]:
         with needs("plot", "a picture"):
             draw(motion, times, given["plot"], title=f"R/R1 = {sphere.ratio}")

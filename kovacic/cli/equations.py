@@ -108,7 +108,7 @@ def _assignments(answer: Solution, language: str) -> Iterator[str]:
 
 
 def _print_refusal(text: str, error: KovacicError) -> None:
-    """The line of JSON of a text that has no answer, as those of a batch."""
+    """Print the line of JSON for a text without an answer, as a batch has it."""
     from kovacic.batch.records import Item, refused
 
     data = refused(Item(0, text), error, shell=True).data
@@ -117,7 +117,7 @@ def _print_refusal(text: str, error: KovacicError) -> None:
 
 
 def _inhomogeneous(answer: Solution) -> Iterator[str]:
-    """The general solution; why not; no line for an undecided equation."""
+    """The general solution, or why there is none; no line for an undecided equation."""
     from kovacic.writing.formula import shortened
 
     if answer.status == "undecided":
@@ -201,7 +201,7 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
 
 
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
-    """What `dsolve` finds and notices, as a line of JSON."""
+    """The solution that `dsolve` finds, with its notices, as a line of JSON."""
     from kovacic.general_solution import dsolve, in_special_functions, validity
     from kovacic.numerals import as_latex, as_text
 

@@ -122,7 +122,7 @@ def _open_closed_streams() -> None:
 
 
 def _occupy(descriptor: int, mode: int) -> None:
-    """Let this file descriptor be the null device."""
+    """Open the null device as this file descriptor."""
     null = os.open(os.devnull, mode)
     if null != descriptor:
         os.dup2(null, descriptor)
@@ -161,7 +161,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _given_up(status: int) -> int:
-    """The status, after an output has failed: Python would complain once more when it flushes its streams at exit."""
+    """The status after an output has failed; the streams are drained, or Python would complain again when it exits."""
     null = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
         try:
@@ -172,7 +172,7 @@ def _given_up(status: int) -> int:
 
 
 def reported(error: Exception) -> int:
-    """Say what was wrong, on standard error; the exit status for it."""
+    """Print an error to standard error; return its exit status."""
     said = error.for_shell() if isinstance(error, kovacic.InputError) else str(error)
     print(f"kovacic: {visible(said)}", file=sys.stderr)
     if isinstance(error, kovacic.InputError | ImportError):

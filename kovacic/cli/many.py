@@ -11,7 +11,7 @@ from functools import partial
 from itertools import repeat
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, TextIO, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, TextIO
 
 import click
 
@@ -23,10 +23,6 @@ if TYPE_CHECKING:
     from kovacic.batch.records import Item, Record, Summary
     from kovacic.limits import Limits
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
-#: Seconds between two states of the line that shows progress.
-_REFRESH = 0.2
 _OPTIONS = [
     click.option("-j", "--jobs", type=click.IntRange(min=1), help="Worker processes; by default one for each core."),
     click.option(
@@ -45,7 +41,7 @@ _OPTIONS = [
 ]
 
 
-def _batch_options(command: Command) -> Command:
+def _batch_options(command: options.Function) -> options.Function:
     """The options of a command that answers many equations; `limits` and so on arrive as keywords."""
     for option in reversed(_OPTIONS):
         command = option(command)
@@ -146,7 +142,7 @@ def scan(
         if form == "jsonl":
             write = stack.enter_context(answers(output))
         else:
-            write = stack.enter_context(_table(output, columns(grids), row))
+            write = stack.enter_context(_csv_table(output, columns(grids), row))
 
         def noted(record: Record) -> None:
             write(record)
@@ -162,10 +158,10 @@ def scan(
 
 
 @contextmanager
-def _table(
+def _csv_table(
     output: Path | None, head: Sequence[str], row: Callable[[Record], Sequence[object]]
 ) -> Iterator[Callable[[Record], None]]:
-    """What writes a record as a row of a table (CSV) to a file, or to standard output."""
+    """A function that writes records as rows of a CSV table to a file, or to standard output."""
     with ExitStack() as stack:
         stream: TextIO = sys.stdout
         if output is not None:
@@ -181,7 +177,7 @@ def _table(
 
 
 def _already_answered(output: Path | None, resume: bool) -> Done:
-    """What the output file of an interrupted run has.  A file that isn't empty is never written to by accident."""
+    """The answers in the output file of an interrupted run.  A file that isn't empty is never overwritten by accident."""
     from kovacic.batch.files import Done, take_up
 
     if resume:
@@ -205,15 +201,15 @@ def _answer_all(
     **run: Any,
 ) -> int:
     """Write a record for every item that isn't done, with a line of progress where it is wanted, and at the end, be it an
-    interruption, the summary; the exit status.  `count` tells how many items there are, where that is possible, and
-    `on_screen` whether the answers themselves are seen.
+    interruption, the summary; the exit status.  `count` gives the number of items, if it can be known, and
+    `on_screen` is true if the answers themselves appear on the terminal.
     """
     from kovacic.batch import Job, run_items
     from kovacic.batch.records import Summary
 
     job = Job(**run)
     if job.backend == "dask":
-        # Its log has tracebacks of what is said in a sentence here; the levels are those of its settings at its import.
+        # Its log has tracebacks where a sentence is printed here; it takes the levels from its settings when it is imported.
         with needs("dask", "the backend dask"):
             import dask.config
         names = ("distributed", "distributed.client", "distributed.core", "distributed.batched")
@@ -243,7 +239,7 @@ def _progress(summary: Summary, total: int | None) -> Iterator[Callable[[], None
     def counts(_: object) -> str:
         return "  ".join(f"{label} {count}" for label, count in summary.rows())
 
-    drawn = -_REFRESH
+    drawn = -options.REFRESH
     steps = repeat(None) if total is None else None
     bar = click.progressbar(steps, total, show_pos=True, item_show_func=counts, width=20, file=sys.stderr)
     with bar:
@@ -251,7 +247,7 @@ def _progress(summary: Summary, total: int | None) -> Iterator[Callable[[], None
         def refresh() -> None:
             nonlocal drawn
             now = time.monotonic()
-            if now > drawn + _REFRESH:
+            if now > drawn + options.REFRESH:
                 bar.update(summary.total - bar.pos)
                 drawn = now
 

@@ -51,7 +51,7 @@ class OutputFile(click.Path):
 
 PICTURE = OutputFile((".png", ".svg", ".pdf"))
 
-_COLUMNS = re.compile(r"\S {2,}\S")
+_TABLE_ROW = re.compile(r"\S {2,}\S")
 _CODE = re.compile(r"\x1b\[\d*m")
 _CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 
@@ -116,7 +116,7 @@ def formats(
     return decorate
 
 
-def _settings(option: str, given: Sequence[str], form: str) -> dict[str, str]:
+def _named_settings(option: str, given: Sequence[str], form: str) -> dict[str, str]:
     """What is set by a repeated option, each setting `NAME=VALUE`.  Raises `click.UsageError`, also for a name set twice."""
     found: dict[str, str] = {}
     for setting in given:
@@ -136,7 +136,7 @@ def _changed_limits(context: click.Context, _: click.Parameter, given: Sequence[
     names = [field.name for field in fields(DEFAULT_LIMITS)]
     form = f"NAME=VALUE, NAME one of {', '.join(names)}"
     changes: dict[str, Any] = {}
-    for name, value in _settings("--limit", given, form).items():
+    for name, value in _named_settings("--limit", given, form).items():
         key = name.replace("-", "_")
         if key not in names or key in changes:
             raise click.UsageError(f"--limit {name}={value}: write {form}, each once")
@@ -257,7 +257,7 @@ PARAM = click.option(
     "params",
     metavar="NAME=NUMBER",
     multiple=True,
-    callback=lambda _, __, given: _settings("--param", given, "NAME=NUMBER, such as n=1/2") or None,
+    callback=lambda _, __, given: _named_settings("--param", given, "NAME=NUMBER, such as n=1/2") or None,
     help="The value of a parameter: n=1/2, a=sqrt(2).",
 )
 ASSUME = click.option(
@@ -285,7 +285,7 @@ LIMIT = click.option(
 
 
 def _watch(context: click.Context, _: click.Parameter, given: int) -> None:
-    """With -v the routes that are taken are said on the error stream, with -vv every disc."""
+    """Log the routes that are taken (-v), or every disc (-vv), to the error stream."""
     if given == 0:
         return
     import logging
@@ -315,8 +315,8 @@ VERBOSE = click.option(
 )
 
 
-#: Seconds between two states of the line that says how long a command has worked.
-_REFRESH = 0.2
+#: Seconds between two states of a line that shows progress.
+REFRESH = 0.2
 
 
 @contextmanager
@@ -345,7 +345,7 @@ def _show_waiting(what: str, over: threading.Event, patience: float) -> None:
 
     with click.progressbar(repeat(None), label=what, item_show_func=elapsed, width=10, file=sys.stderr) as bar:
         for _ in bar:
-            if over.wait(_REFRESH):
+            if over.wait(REFRESH):
                 break
     click.echo("\x1b[1A\x1b[2K", nl=False, err=True)  # the line of the bar
 
@@ -363,8 +363,8 @@ def answer_each(
 ) -> int:
     """Solve every equation and print the lines that `show` makes of it, each when it is there.
 
-    `refuse` gets each text that has no answer, with the reason, which is said in any case.  The status is that of the most
-    serious outcome.
+    `refuse` is called with each text that has no answer and the reason, which is printed in any case.  The status is that of
+    the most serious outcome.
     """
     from kovacic.decision import Status
     from kovacic.solution import solve
@@ -416,7 +416,7 @@ def fitted(text: str) -> str:
     lines = []
     for line in text.splitlines():
         indent = " " * (len(line) - len(line.lstrip()) + 2)
-        while len(_CODE.sub("", line)) > width and not _COLUMNS.search(line):
+        while len(_CODE.sub("", line)) > width and not _TABLE_ROW.search(line):
             end = len(line)
             while end > 0 and len(_CODE.sub("", line[:end])) > width:
                 end = line.rfind(" ", len(indent), end)

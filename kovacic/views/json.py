@@ -59,9 +59,9 @@ SCHEMA = 1
 _COEFFICIENTS = ("a", "b", "c", "f")
 
 # An answer may be larger than an input may be by default.
-_LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
+_READING_LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
 
-_ARITHMETIC = Arithmetic(_LIMITS)
+_ARITHMETIC = Arithmetic(_READING_LIMITS)
 
 
 def dumps(answer: Answer, *, full: bool = False) -> str:
@@ -113,14 +113,14 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "status": decision.status.value,
         "case": decision.case,
         "riccati": _omega(decision.riccati, names),
-        "constants": _constants(answer.constants, names.symbol),
-        "field": _field(answer.S.field),
+        "constants": _constant_of_omega(answer.constants, names.symbol),
+        "field": _field_dict(answer.S.field),
         "generic_conditions": conditions,
         "verified": answer.verified,
         "proof": _proof(decision, names),
         "notices": list(answer.notices),
         "seconds": answer.seconds,
-        "equation": _equation(answer.equation),
+        "equation": _given_equation(answer.equation),
         "gauge": gauge,
     }
     if full:
@@ -139,7 +139,7 @@ def _omega(riccati: RiccatiPolynomial | None, names: Formulas) -> dict[str, Any]
     return {"variable": names.unknown, "degree": riccati.degree, "coefficients": coefficients}
 
 
-def _constants(modulus: Poly | None, symbol: str) -> dict[str, Any] | None:
+def _constant_of_omega(modulus: Poly | None, symbol: str) -> dict[str, Any] | None:
     """The constant that the polynomial of omega has."""
     if modulus is None:
         return None
@@ -147,12 +147,12 @@ def _constants(modulus: Poly | None, symbol: str) -> dict[str, Any] | None:
 
 
 def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
-    """What a check needs beside the polynomial of omega."""
+    """What a check needs in addition to the polynomial of omega."""
     structure = None if decision.structure is None else decision.structure.value
-    invariant = None if decision.invariant is None else _form(decision.invariant, names)
+    invariant = None if decision.invariant is None else _form_dict(decision.invariant, names)
     semi_invariant = None
     if decision.semi_invariant is not None and decision.riccati is not None:
-        semi_invariant = {**_form(decision.semi_invariant, names), "D": names.python(decision.riccati.D)}
+        semi_invariant = {**_form_dict(decision.semi_invariant, names), "D": names.python(decision.riccati.D)}
     return {
         "structure": structure,
         "semi_invariant": semi_invariant,
@@ -218,12 +218,12 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
     change = (data.get("equation") or {}).get("change") or {}
     given = change.get("variable", variable)
     names = words_among((data.get("field") or {}).get("parameters") or ())
-    parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable, names=names)
+    parsed = read_input(text, var=given, limits=_READING_LIMITS, exponentials=given != variable, names=names)
     is_over_the_same = parsed.variable == variable and _is_field(data.get("field"), parsed.S.field)
     if not is_over_the_same or _Reader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
         raise ValueError("S isn't that of the input")
     if data.get("equation") is not None or data.get("gauge") is not None:
-        _check_equation(data, parsed.equation, variable)
+        _check_given_equation(data, parsed.equation, variable)
     return parsed
 
 
@@ -263,16 +263,16 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
 
 
 def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
-    """What is read from a value; None for None."""
+    """The value that is read, or None for None."""
     return None if value is None else read(value)
 
 
-#: What is read by its value; what isn't looked at, or elsewhere; and what may be absent.
+#: Keys that are compared by value, keys that are ignored or checked elsewhere, and keys that may be absent.
 _BY_VALUE = {"S", "theta", "P", "D", "coefficients", "minimal_polynomial", "a", "b", "c", "f", "gauge", "near"}
 _ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
 _MAY_BE_ABSENT = {"field", "generic_conditions", "equation", "gauge", "change", "near"}
-#: What is said of a group, and what shows it, which is computed anew.
-_FACTS = ("name", "order", "finite", "family", "n")
+#: The facts about a group, and the evidence for them, which is computed anew.
+_GROUP_FACTS = ("name", "order", "finite", "family", "n")
 _EVIDENCE = {"form", "function", "orders"}
 
 
@@ -336,7 +336,7 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
         raise ValueError("a group, where none is found")
     said = {key: value for key, value in data.items() if key not in _EVIDENCE}
     # Older versions write neither the family nor n.
-    facts = {key: found[key] for key in _FACTS if key in data or key in ("name", "order", "finite")}
+    facts = {key: found[key] for key in _GROUP_FACTS if key in data or key in ("name", "order", "finite")}
     _demand_the_same(said, facts, "group")
 
 
@@ -358,7 +358,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
     if not isinstance(texts, list) or len(texts) != 2 or not all(isinstance(text, str) for text in texts):
         raise ValueError("two solutions are expected")
     variable = Symbol(answer.variable)
-    y1, y2 = (read_expression(text, what="a solution", limits=_LIMITS) for text in texts)
+    y1, y2 = (read_expression(text, what="a solution", limits=_READING_LIMITS) for text in texts)
     # The residual is relative to y, which the Wronskian shows not to vanish.
     if not are_independent(y1, y2, variable) or not all(
         is_numerical_solution(y, variable, answer.S, answer.gauge) for y in (y1, y2)
@@ -366,7 +366,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
         raise ValueError("the solutions aren't those of the equation")
 
 
-def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
+def _check_given_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
     """Raises `ValueError` where the equation and the gauge aren't those that were read."""
     if equation is None:
         raise ValueError("an equation or its gauge, where S alone was given")
@@ -380,8 +380,8 @@ def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable
         raise ValueError("the gauge isn't that of the equation")
 
 
-def _equation(equation: Equation | None) -> dict[str, Any] | None:
-    """The equation as it was given; None where S alone was."""
+def _given_equation(equation: Equation | None) -> dict[str, Any] | None:
+    """The equation as it was given; None if S alone was given."""
     if equation is None:
         return None
     coefficients = {name: getattr(equation, name).to_str(equation.variable) for name in _COEFFICIENTS}
@@ -392,12 +392,12 @@ def _equation(equation: Equation | None) -> dict[str, Any] | None:
         "unknown": equation.unknown,
         **coefficients,
         "h": h,
-        "field": _field(equation.a.field),
+        "field": _field_dict(equation.a.field),
         "change": change,
     }
 
 
-def _field(field: Field) -> dict[str, Any] | None:
+def _field_dict(field: Field) -> dict[str, Any] | None:
     """The coefficient field of S: parameters, and an algebraic number with its minimal polynomial over Q."""
     if field == QQ:
         return None
@@ -411,8 +411,8 @@ def _field(field: Field) -> dict[str, Any] | None:
 
 
 def _is_field(data: Mapping[str, Any] | None, field: Field) -> bool:
-    """Is this what `_field` writes?  Where a root is may be absent, as in answers of older versions."""
-    written = _field(field)
+    """True if this is what `_field_dict` writes; older versions didn't say which root is meant."""
+    written = _field_dict(field)
     if written is None or data is None:
         return written is data
     return {"near": written.get("near"), **data} == {"near": None, **written}
@@ -470,7 +470,7 @@ def _function(f: CurveFunction, names: Formulas) -> dict[str, Any]:
     return {"multiple": for_json(f.multiple), "h": names.python(f.h), "pieces": pieces, "rest": names.python(f.rest)}
 
 
-def _form(form: SemiInvariant, names: Formulas) -> dict[str, Any]:
+def _form_dict(form: SemiInvariant, names: Formulas) -> dict[str, Any]:
     return {"degree": form.degree, "theta": names.python(form.theta), "P": names.python(form.P)}
 
 

@@ -49,25 +49,25 @@ if TYPE_CHECKING:
 
 #: The curve ends this share of its interval before a singular point: beside an irregular one, solutions are as large as
 #: exp(1/distance).
-_SHARE = Fraction(1, 256)
-_IRREGULAR_SHARE = Fraction(1, 16)
+_GAP = Fraction(1, 256)
+_IRREGULAR_GAP = Fraction(1, 16)
 
 #: The ends of pictures.
-_FARTHEST = 10**300
+_LARGEST_END = 10**300
 #: Characters of a formula in the legend, of an entry of a legend in two columns, and of the equation in the title.
 _LONGEST_LABEL = 50
 _LONGEST_IN_COLUMNS = 55
-_LONGEST_TITLE = 100
+_TITLE_LENGTH = 100
 #: Characters of a formula that SymPy evaluates where the curves start; powers of long numbers take it minutes.
 _LONGEST_EVALUATED = 2000
 #: Points of each stretch at which a formula is compared with its curve, and the share of its size by which it may differ.
-_COMPARED = 3
-_AGREEMENT = 1e-6
+_FORMULA_POINTS = 3
+_FORMULA_AGREEMENT = 1e-6
 #: The share of the height from which on an error is drawn.
 _SEEN = 2e-3
 #: Beside a singular point, up to this share of the width, a solution may be as large as it likes without being drawn whole.
-_BESIDE = 0.05
-_BESIDE_IRREGULAR = 0.2
+_NEAR_SINGULAR = 0.05
+_NEAR_IRREGULAR = 0.2
 #: The axis is cut off where the largest value is more than this many times the size that is looked for: cosh isn't cut.
 _RANGE = 4
 
@@ -118,7 +118,7 @@ def sample(
     Raises `InputError` if start isn't below stop, and what `evaluate` raises.
     """
     check_keywords("sample", options, SampleOptions.__annotations__)
-    a, b = _ends(start, stop)
+    a, b = _interval_of(start, stop)
     points = whole(points, "points", least=2)
     asked: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     equation = with_variable(equation, asked.pop("var", None), asked.get("limits"))
@@ -142,18 +142,18 @@ def sample(
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
     singular, irregular = (
-        tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < _FARTHEST)
+        tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < _LARGEST_END)
         for points in (chart.singular, chart.irregular)
     )
     return SampledCurve(tuple(runs), singular, irregular, x0)
 
 
-def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
+def _interval_of(start: object, stop: object) -> tuple[Fraction, Fraction]:
     a = as_point(start, "from")
     b = as_point(stop, "to")
     if not (a.is_real() and b.is_real()) or a.re >= b.re:
         raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
-    if max(abs(a.re), abs(b.re)) > _FARTHEST:
+    if max(abs(a.re), abs(b.re)) > _LARGEST_END:
         raise InputError(f"the interval from {a} to {b} is beyond the range of doubles, in which pictures are drawn")
     return a.re, b.re
 
@@ -166,7 +166,7 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
     def share(end: Fraction) -> Fraction:
         if end not in cuts:
             return Fraction(0)
-        return _IRREGULAR_SHARE if float(end) in wild else _SHARE
+        return _IRREGULAR_GAP if float(end) in wild else _GAP
 
     found = []
     for left, right in pairwise([a, *cuts, b]):
@@ -260,14 +260,14 @@ def plot(
     check_keywords("plot", options, PlotOptions.__annotations__)
     given = equation
     if isinstance(equation, str) or options.get("var") is not None:
-        equation = _read(equation, options.pop("var", None), options.get("limits"))
+        equation = _read_with_variable(equation, options.pop("var", None), options.get("limits"))
     if title is None:
         title = _title(equation, given, options.get("params"))
     from matplotlib.figure import Figure as NewFigure
 
     curves = _curves(equation, start, stop, options)
-    low, high = map(float, _ends(start, stop))
-    lines = [line for label, curve in curves for line in _lines(label, curve)]
+    low, high = map(float, _interval_of(start, stop))
+    lines = [line for label, curve in curves for line in _drawn_parts(label, curve)]
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     axes = figure.add_subplot()
     for number, line in enumerate(lines):
@@ -278,10 +278,10 @@ def plot(
             axes.axvline(z.real, color="0.4", linestyle="--", linewidth=1, label=label)
             label = None  # once in the legend
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
-    variable, unknown = map(_typeset, _names(equation))
+    variable, unknown = map(_typeset, _axis_names(equation))
     axes.set(xlim=(low, high), xlabel=variable, ylabel=unknown)
     axes.set_title(title, pad=12)  # room for the denominators of formulas
-    _cut(axes, lines, high - low)
+    _cut_axis(axes, lines, high - low)
     _, names = axes.get_legend_handles_labels()
     ncols = 2 if max(map(len, names)) <= _LONGEST_IN_COLUMNS else 1
     size = "large" if any(r"\frac" in name for name in names) else "medium"
@@ -319,14 +319,14 @@ def _title(equation: object, given: object, params: Mapping[str, object] | None)
             text = str(equation.equation)
             latex = latex_text(equation.equation.text(caret=False))
     # In another variable it isn't what was given; the text stands as it is then.
-    if not isinstance(text, str) or len(text) > _LONGEST_TITLE:
+    if not isinstance(text, str) or len(text) > _TITLE_LENGTH:
         return ""
     values = [f"{name} = {plain_text(value)}" for name, value in (params or {}).items()]
     latex = latex.replace(r"\frac", r"\dfrac")
     return ",   ".join([_typeset(latex, text), *(_typeset(latex_text(value), value) for value in values)])
 
 
-def _read(equation: object, var: str | None, limits: Limits | None) -> object:
+def _read_with_variable(equation: object, var: str | None, limits: Limits | None) -> object:
     """The equation with the name of its variable, which the axis has."""
     if not isinstance(equation, str) or var is not None:
         return with_variable(equation, var, limits)
@@ -336,7 +336,7 @@ def _read(equation: object, var: str | None, limits: Limits | None) -> object:
         return as_written(equation, None, limits_of(limits))
 
 
-def _names(equation: object) -> tuple[str, str]:
+def _axis_names(equation: object) -> tuple[str, str]:
     """The variable and the unknown, for the axes."""
     if not isinstance(equation, Answer | Parsed):
         return str(equation.variable) if isinstance(equation, Coefficients) else "x", "y"
@@ -347,7 +347,7 @@ def _names(equation: object) -> tuple[str, str]:
 
 
 def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[_Label, SampledCurve]]:
-    """What is drawn, and how the legend names it."""
+    """The curves of a picture, each with its name in the legend."""
     given = {name for name in ("y0", "dy0", "which", "frobenius") if options.get(name) is not None}
     if isinstance(equation, Answer) and not given:
         # y1 and y2 solve the homogeneous equation alone.
@@ -356,11 +356,11 @@ def _curves(equation: object, start: object, stop: object, options: PlotOptions)
         if found:
             return found
     curve = sample(equation, start, stop, **options)
-    return [(_Label(_name(_names(equation)[1], options, curve.x0)), curve)]
+    return [(_Label(_name_by_values(_axis_names(equation)[1], options, curve.x0)), curve)]
 
 
-def _name(y: str, options: PlotOptions, x0: object) -> str:
-    """Which solution is drawn."""
+def _name_by_values(y: str, options: PlotOptions, x0: object) -> str:
+    """The name of a solution in the legend, by its values or by its behaviour at x0."""
     at = plain_text(x0)
     value = "1" if options.get("y0") is None else plain_text(options["y0"])
     slope = "0" if options.get("dy0") is None else plain_text(options["dy0"])
@@ -385,7 +385,7 @@ def _name(y: str, options: PlotOptions, x0: object) -> str:
 
 @dataclass(frozen=True)
 class _Label:
-    """How the legend names a solution, and, where it is known and short, its formula in LaTeX."""
+    """The name of a solution in the legend, and its formula in LaTeX if that is known and short."""
 
     name: str
     formula: str = ""
@@ -399,13 +399,13 @@ class _Label:
 
 
 def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[_Label, SampledCurve]]:
-    """y1 and y2 of the answer, as the solutions with their values and slopes at x0; none where these aren't known.
+    """y1 and y2 of the answer, as the solutions with their values and slopes at x0; empty if these aren't known.
 
     A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.
     """
     import sympy
 
-    x = sympy.Symbol(_names(answer)[0])
+    x = sympy.Symbol(_axis_names(answer)[0])
     form = derived.closed_form(answer)
     pair = tuple(derived.special(answer) if form is None else form)
     for y in pair:
@@ -414,7 +414,7 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
             return []
     if not pair:
         return []
-    a, b = _ends(start, stop)
+    a, b = _interval_of(start, stop)
     chart = chart_of(answer, {}, options.get("params"))
     intervals = _regular_intervals(chart, a, b)
     x0 = options.get("x0")
@@ -429,7 +429,7 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
         asked: PlotOptions = {**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])}
         return sample(answer, start, stop, **asked)
 
-    names = [_typeset(f"{_names(answer)[1]}_{k}") for k in (1, 2)]
+    names = [_typeset(f"{_axis_names(answer)[1]}_{k}") for k in (1, 2)]
     if len(intervals) == 1 and not all(value.is_real for values in data for value in values):
         # The equation is real: real and imaginary parts solve it on an interval without a singular point.
         parts = [
@@ -467,9 +467,9 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
 
     largest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
     for arc in curve.arcs:
-        for k in np.linspace(0, len(arc.x) - 1, _COMPARED).astype(int):
+        for k in np.linspace(0, len(arc.x) - 1, _FORMULA_POINTS).astype(int):
             value = sympy.N(y.subs(x, sympy.Rational(float(arc.x[k]))), 15)
-            allowed = _AGREEMENT * largest + float(arc.radius[k])
+            allowed = _FORMULA_AGREEMENT * largest + float(arc.radius[k])
             if not value.is_number or not abs(complex(value) - arc.y[k]) <= allowed:
                 return False
     return True
@@ -532,7 +532,7 @@ class _DrawnPart:
         x, size, turns = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
         away = np.full(len(x), True)
         for z in self.curve.singular:
-            share = _BESIDE_IRREGULAR if z in self.curve.irregular else _BESIDE
+            share = _NEAR_IRREGULAR if z in self.curve.irregular else _NEAR_SINGULAR
             away &= np.abs(x - z) > share * width
         # Three extrema are a wave; cosh has one.
         is_wave = np.count_nonzero(away & turns) > 2
@@ -540,7 +540,7 @@ class _DrawnPart:
         return float(sizes.max(initial=0.0)), float(size.max())
 
 
-def _lines(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
+def _drawn_parts(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
     """The real part, and the imaginary one if it can be told from zero."""
     is_complex = any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs) or any(
         np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes
@@ -550,7 +550,7 @@ def _lines(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
     return [_DrawnPart(curve, "real", label.of_part("Re")), _DrawnPart(curve, "imag", label.of_part("Im"))]
 
 
-def _cut(axes: Axes, lines: list[_DrawnPart], width: float) -> None:
+def _cut_axis(axes: Axes, lines: list[_DrawnPart], width: float) -> None:
     """Cut the axis off where a solution grows so much that the others, or its own oscillation, wouldn't be seen."""
     sizes, largest = np.transpose([line.sizes(width) for line in lines])
     height = max(sizes.max(), largest[largest <= _RANGE * sizes.max()].max(initial=0.0))
