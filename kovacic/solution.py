@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
     from kovacic.enclosure.ball import Ball
-    from kovacic.enclosure.evaluate import ManyPoints, OnePoint, Options
+    from kovacic.enclosure.evaluate import ManyPoints, OnePoint, Options, Prepared
     from kovacic.enclosure.problem import NumericProblem
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.restriction import GenericConditions
@@ -214,6 +214,39 @@ class Solution(Answer):
 
         check_keywords("at", options, ["derivative", *Options.__annotations__])
         return evaluate(self, x, x0=x0, derivative=derivative, **options)
+
+    @limited
+    def prepared(self, *, x0: object, **options: Unpack[Options]) -> Prepared:
+        """The solution that starts at x0 as a function whose values are balls; what was expanded for one serves the next.
+
+        Parameters
+        ----------
+        x0 : number
+            Where the solution starts.
+        y0, dy0, frobenius, which, path, params, digits, method, limits
+            The solution, its accuracy, and what each call may cost, as for `kovacic.evaluate`.
+
+        Returns
+        -------
+        Prepared
+            Called with a number, a sequence or an array, `derivative` and `digits`, it returns what `at` does.
+
+        Raises
+        ------
+        InputError
+            What `kovacic.evaluate` raises for the start.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> airy = kovacic.solve("x").prepared(x0=0, y0=1, dy0=0)
+        >>> print(f"{airy(1):.12f}", airy(1, digits=40).digits >= 40)
+        1.172299970058 True
+        """
+        from kovacic.enclosure.evaluate import Options, prepared
+
+        check_keywords("prepared", options, Options.__annotations__)
+        return prepared(self, x0=x0, **options)
 
     @limited
     def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction | Combination:

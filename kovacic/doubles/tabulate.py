@@ -251,7 +251,11 @@ class TabulatedFunction:
         found = [double(part) for part in parts]
         if powers is not None:
             found = [np.ldexp(part, powers) for part in found]
-        return found[0] if len(found) == 1 else found[0] + 1j * found[1]
+        if len(found) == 1:
+            return found[0]
+        values = np.empty(flat.shape, dtype=complex)  # 1j times an infinite part would be NaN
+        values.real, values.imag = found
+        return values
 
     def parts(self, flat: Any) -> tuple[list[Any], Any]:
         """Real and imaginary part as double-doubles or arrays, and the powers of two, None where all are 0.

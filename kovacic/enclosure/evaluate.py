@@ -14,12 +14,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Literal, TypedDict, Unpack, overload
 
 from kovacic.enclosure.ball import Ball
-from kovacic.enclosure.precision import AccuracyWarning, Method
+from kovacic.enclosure.precision import AccuracyWarning, Method, number_of_digits
 from kovacic.enclosure.problem import change_of
 from kovacic.enclosure.states import Path, question_of
 from kovacic.enclosure.variable import with_variable
@@ -180,16 +181,20 @@ class Prepared:
         self.digits: int = question.digits
 
     @overload
-    def __call__(self, x: OnePoint, *, derivative: Literal[False] = ...) -> Ball: ...
+    def __call__(self, x: OnePoint, *, derivative: Literal[False] = ..., digits: int | None = ...) -> Ball: ...
     @overload
-    def __call__(self, x: OnePoint, *, derivative: Literal[True]) -> tuple[Ball, Ball]: ...
+    def __call__(self, x: OnePoint, *, derivative: Literal[True], digits: int | None = ...) -> tuple[Ball, Ball]: ...
     @overload
-    def __call__(self, x: ManyPoints, *, derivative: Literal[False] = ...) -> tuple[Ball, ...]: ...
+    def __call__(
+        self, x: ManyPoints, *, derivative: Literal[False] = ..., digits: int | None = ...
+    ) -> tuple[Ball, ...]: ...
     @overload
-    def __call__(self, x: ManyPoints, *, derivative: Literal[True]) -> tuple[tuple[Ball, Ball], ...]: ...
+    def __call__(
+        self, x: ManyPoints, *, derivative: Literal[True], digits: int | None = ...
+    ) -> tuple[tuple[Ball, Ball], ...]: ...
     @overload
-    def __call__(self, x: object, *, derivative: bool = ...) -> Any: ...
-    def __call__(self, x: object, *, derivative: bool = False) -> Any:
+    def __call__(self, x: object, *, derivative: bool = ..., digits: int | None = ...) -> Any: ...
+    def __call__(self, x: object, *, derivative: bool = False, digits: int | None = None) -> Any:
         """A ball that contains y(x), or a pair with y'(x); a tuple or an array of these for many points.
 
         Parameters
@@ -198,6 +203,8 @@ class Prepared:
             Where, as for `evaluate`.
         derivative : bool
             With True pairs of balls, y and y', come back.  False by default.
+        digits : int
+            The accuracy of this call; by default that of the solution.
 
         Returns
         -------
@@ -207,7 +214,7 @@ class Prepared:
         Raises
         ------
         InputError
-            For a point that can't be reached from the start.
+            For a point that can't be reached from the start, and for digits beyond the limit.
         LimitExceeded
             Where the limits don't suffice.
 
@@ -216,11 +223,16 @@ class Prepared:
         >>> sine = prepared("-1", x0=0, y0=0, dy0=1)
         >>> print(f"{sine('1/2'):.10f}", [f"{value:.10f}" for value in sine([1, 2])])
         0.4794255386 ['0.8414709848', '0.9092974268']
+        >>> print(sine(1, digits=30).digits >= 30)
+        True
         >>> y, slope = sine(1, derivative=True)
         >>> print(f"{y:.10f} {slope:.10f}")
         0.8414709848 0.5403023059
         """
-        return self._values(x, derivative=derivative)
+        if digits is None:
+            return self._values(x, derivative=derivative)
+        question = replace(self._question, digits=number_of_digits(digits, self._question.limits))
+        return Prepared(question, self._start)._values(x, derivative=derivative)
 
     def __repr__(self) -> str:
         start = ", ".join(f"{name}={value}" for name, value in self._start.items() if value is not None)
@@ -277,7 +289,7 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
     Returns
     -------
     Prepared
-        Called with a number, a sequence or an array, and `derivative`, it returns what `evaluate` does.
+        Called with a number, a sequence or an array, `derivative` and `digits`, it returns what `evaluate` does.
 
     Raises
     ------

@@ -48,7 +48,7 @@ class ChosenForm:
     """A closed form that was chosen for a journey, for which a target has this `price`, and for how many targets at `most` it
     is known to be the cheaper way.
 
-    It has `served` so many, the last ones with so many `bits`.
+    It has `served` so many; with so many `bits` the first precision is enough where both solutions grow to the start.
     """
 
     closed: Closed

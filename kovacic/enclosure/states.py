@@ -14,7 +14,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
-from kovacic.enclosure.journey import ChosenForm, Journey
+from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -60,7 +60,9 @@ class AskedSolution:
             else:
                 _LOG.info("route: %s", choice.closed)
                 try:
-                    return self._by_closed_form(choice, targets)
+                    return raise_precision(
+                        self.journey, targets, choice.closed, self.digits, self.limits, begin=choice.bits
+                    )
                 except NotServed:
                     if self.method is not None:
                         said = "the closed form doesn't prove its values on this path"
@@ -83,13 +85,6 @@ class AskedSolution:
             # A right-hand side such as sqrt(x) from 0 on is integrated there, and has no power series.
             return None
         _LOG.info("route: power series of the coefficients and the right-hand side, on ways that are kept")
-        return found
-
-    def _by_closed_form(self, choice: ChosenForm, targets: Sequence[Number]) -> tuple[PointValue, ...]:
-        """The precision that was enough for the last targets is tried first: polynomials cancel again as much as they did."""
-        found = raise_precision(self.journey, targets, choice.closed, self.digits, self.limits, begin=choice.bits)
-        if found and all(value.reached for value in found):
-            choice.bits = found[0].route.bits
         return found
 
 
