@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable, Iterator
 from fractions import Fraction
+from random import Random
 
 import pytest
 import sympy
@@ -11,11 +14,15 @@ from build import run
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback
 from kovacic.special.whittaker import Whittaker
+from kovacic.views.text import solution_lines
+from kovacic.writing.formula import caret
+from tests.transform import gauge
 
 X = RatFunc(QQ.poly([0, 1]))
 x = sympy.Symbol("x")
@@ -125,18 +132,6 @@ def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
-def transformed(T: RatFunc, a: RatFunc, b: RatFunc) -> RatFunc:
-    """S of the normal form of the equation of a v + b v', v'' = T v: with delta = a^2 + a b' - a' b - b^2 T, that of
-    (a v + b v')/sqrt(delta)."""
-    delta = a * a + a * b.derivative() - a.derivative() * b - b * b * T
-    L = delta.derivative() / delta / -2
-
-    def derivative(r: RatFunc) -> RatFunc:
-        return r.derivative() + L * r
-
-    return T + (2 * derivative(a) + derivative(derivative(b))) / b
-
-
 THIRD, FIFTH, SEVENTH = (Fraction(1, n) for n in (3, 5, 7))
 TARGETS: dict[str, RatFunc] = {
     "Airy": X,
@@ -177,7 +172,7 @@ PAIRS = (
 
 def check_transform(name: str, a: RatFunc, b: RatFunc) -> None:
     """The solutions of the transform are found, and short."""
-    S = transformed(TARGETS[name], a, b)
+    S = gauge(TARGETS[name], a, b)
     answer = kovacic.solve(str(S))
     pair = answer.solutions or answer.special.solutions
     assert pair, (name, a, b)
@@ -194,6 +189,12 @@ def test_gauge_transforms_are_found(name: str) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", TARGETS)
+def test_gauge_transforms_of_all_kinds_are_found(name: str) -> None:
+    check_transform(name, *PAIRS[4])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TARGETS)
 def test_all_gauge_transforms_are_found(name: str) -> None:
     """208 of them."""
     for a, b in PAIRS:
@@ -209,3 +210,96 @@ def test_the_derivatives_of_bessel_functions() -> None:
         ratio = (y / order_two.diff(x)).subs(x, sympy.Rational(7, 3)).evalf(30)
         assert abs(ratio - (y / order_two.diff(x)).subs(x, sympy.Rational(9, 7)).evalf(30)) < 1e-25
     assert kovacic.dsolve(equation).rhs.has(sympy.besselj(1, x))
+
+
+# ------------------------------------------------------------------------------------------ all doors
+
+
+def made_up(count: int) -> Iterator[tuple[str, RatFunc]]:
+    """Equations with known kinds of solutions, of each case and of genus 0, 1 and 2, pulled back and gauge transformed."""
+    random = Random(43)
+
+    def constant() -> RatFunc:
+        return X * 0 + Fraction(random.randint(-4, 4), random.choice((1, 1, 2, 3)))
+
+    def function(degree: int) -> RatFunc:
+        while True:
+            f = sum((constant() * X**k for k in range(degree)), X**degree)
+            g = X + constant() if random.random() < 0.4 else X * 0 + 1
+            if (f / g).derivative() and (f / g).degree <= degree:
+                return f / g
+
+    def reducible() -> RatFunc:
+        a, b = random.sample(range(-3, 4), 2)
+        omega = Fraction(random.randint(-6, 30), random.choice((1, 1, 2))) / (X - a) + Fraction(
+            random.randint(1, 3)
+        ) / (X - b)
+        omega = omega + random.choice((0, 1, 1)) * function(1) * (X * 0 + 1)
+        return omega.derivative() + omega * omega
+
+    def conjugate() -> RatFunc:
+        n = random.randint(0, 12)
+        return Pullback(Whittaker(*map(QQ.poly, ([random.choice((1, -1))], [], [n * (n + 1)]))), function(1)).S
+
+    def finite(third: Fraction | int, shift: int, degree: int) -> RatFunc:
+        return pulled_back((Fraction(1, 2) + shift, THIRD, third), function(degree))
+
+    def dihedral(degree: int) -> RatFunc:
+        n = random.randint(3, 400)
+        return pulled_back(
+            (Fraction(2 * random.randint(0, 1) + 1, 2), Fraction(1, 2), Fraction(1, n)), function(degree)
+        )
+
+    kinds: dict[str, Callable[[], RatFunc]] = {
+        "reducible": reducible,
+        "conjugate": conjugate,
+        "dihedral": lambda: dihedral(random.choice((1, 2, 2))),
+        "tetrahedral": lambda: finite(THIRD, 0, 1),
+        "octahedral": lambda: finite(Fraction(1, 4), 0, random.choice((1, 2))),
+        "icosahedral": lambda: finite(Fraction(random.choice((1, 4, 6)), 5), 0, random.choice((1, 1, 2))),
+    }
+    for k in range(count):
+        name = list(kinds)[k % len(kinds)]
+        S = kinds[name]()
+        if k % 5 == 4:
+            S = gauge(S, *random.choice(PAIRS[:4]))
+        yield name, S
+
+
+def check_doors(S: RatFunc) -> None:
+    """The same expressions in Python, JSON, LaTeX, HTML's formulas, the command and the explanation; short ones."""
+    answer = kovacic.solve(str(S))
+    form = answer.closed_form
+    if form is None:  # a letter of the family made it irreducible
+        return
+    pair = answer.solutions
+    texts = [as_text(y) for y in pair]
+    assert texts == [as_text(y) for y in form]
+    assert json.loads(answer.to_json(full=True))["solutions"] == texts
+    latex = answer._repr_latex_()
+    assert all(as_latex(y) in latex for y in pair)
+    printed = [line.partition(" = ")[2] for line in solution_lines(answer) if line.startswith("y")]
+    assert printed == [caret(text) for text in texts]
+    explained = answer.explain()
+    assert all(caret(text) in explained or len(text) > 3000 for text in texts)
+    length = sum(map(len, texts))
+    others = [sum(len(as_text(y)) for y in answer.special)] if answer.special else []
+    is_elementary = not any(y.has(sympy.Integral, sympy.hyper) for y in pair)
+    assert length <= max([1000, *([4 * n for n in others] if is_elementary else [2 * n for n in others])]) or not others
+
+
+def test_every_door_shows_the_same_form() -> None:
+    for _, S in made_up(6):
+        check_doors(S)
+
+
+@pytest.mark.long
+def test_every_door_shows_the_same_form_of_some() -> None:
+    for _, S in made_up(24):
+        check_doors(S)
+
+
+@pytest.mark.slow
+def test_every_door_shows_the_same_form_of_many() -> None:
+    for _, S in made_up(500):
+        check_doors(S)

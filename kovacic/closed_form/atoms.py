@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 import sympy
-from sympy import Add, Integer, Mul, Rational, Symbol, exp, log
+from sympy import Add, Integer, Mul, Rational, Symbol, exp, log, ordered
+from sympy.functions.special.hyper import TupleArg
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
@@ -43,9 +45,10 @@ def rational(value: Fraction | int) -> Expr:
 
 
 def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> Expr:
-    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds."""
-    ordered = sympy.hyper(top, bottom, 0)
-    return sympy.Function.__new__(sympy.hyper, *ordered.args[:2], z, evaluate=False)
+    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds; parameters above and below cancel."""
+    common = Counter(top) & Counter(bottom)
+    above, below = (TupleArg(*ordered((Counter(values) - common).elements())) for values in (top, bottom))
+    return sympy.Function.__new__(sympy.hyper, above, below, z, evaluate=False)
 
 
 class Atoms:

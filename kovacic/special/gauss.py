@@ -90,7 +90,7 @@ class Gauss(StandardEquation):
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
         forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
-        for signed in (signed for form in forms for signed in form.signs):
+        for signed in (signed for form in forms for signed in form.signs if writer.knows_integers):
             apart = (writer.is_natural(-value) or not writer.is_integer(value) for value in (signed.alpha, signed.beta))
             if writer.is_degree(signed.degree) and all(apart):
                 return _jacobi(signed)

@@ -165,10 +165,14 @@ class Writer:
                 self._lower[symbol] = sympy.Dummy(symbol.name, integer=True, nonnegative=True) + 1
         return bool(sympy.expand(value.xreplace(self._lower)).is_nonnegative)
 
+    @property
+    def knows_integers(self) -> bool:
+        """Is a parameter known to be an integer?"""
+        return any(symbol.is_integer for symbol in self.known.values())
+
     def is_degree(self, value: Number) -> bool:
         """Is it known to be natural, and does it depend on a parameter?"""
-        assumed = any(symbol.is_integer for symbol in self.known.values())
-        return assumed and bool(self.constant(value).free_symbols) and self.is_natural(value)
+        return self.knows_integers and bool(self.constant(value).free_symbols) and self.is_natural(value)
 
     def is_negative(self, value: Number | Poly) -> bool:
         """Would it be written with a minus sign?"""
