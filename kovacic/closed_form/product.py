@@ -15,6 +15,7 @@ from functools import cached_property
 from kovacic.algebra.partial_fractions import Residue, decompose
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import RationalPoly
 
 
 @dataclass(frozen=True)
@@ -73,9 +74,15 @@ class Product:
 
 
 def written_length(parts: Iterable[object]) -> int:
-    """About how many characters these polynomials and rational functions take: none for 1, and a sign beside each other one."""
-    texts = [str(part) for part in parts]
-    return sum(len(text) + 3 for text in texts if text not in ("0", "1"))
+    """About how many characters these polynomials and rational functions take; none for 0 and 1, and a sign beside others."""
+    length = 0
+    for part in parts:
+        if isinstance(part, RatFunc):
+            length += written_length((part.num, part.den))
+            continue
+        text = str(part.rep) if isinstance(part, RationalPoly) else str(part)  # FLINT's own text is the fastest
+        length += 0 if text in ("0", "1") else len(text) + 3
+    return length
 
 
 def gathered(powers: Iterable[Power]) -> tuple[Power, ...]:
