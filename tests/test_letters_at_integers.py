@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import mpmath
+import pytest
 import sympy
 from build import parametrize
 
@@ -64,3 +65,36 @@ def test_pairs_are_independent_or_the_exception_is_named(family: tuple[str, str]
 
 def is_zero(e: Any) -> bool:
     return bool(sympy.simplify(e) == 0)
+
+
+@pytest.mark.filterwarnings("ignore:this holds unless")
+@pytest.mark.parametrize("word", ["natural", "positive integer", "integer"])
+def test_assumptions_in_text_are_those_of_symbols(word: str) -> None:
+    """`assume=` gives what SymPy's own symbols give, in the user's symbols."""
+    facts = {"natural": {"integer": True, "nonnegative": True}, "positive integer": {"integer": True, "positive": True}}
+    n, plain = sympy.Symbol("n", **facts.get(word, {"integer": True})), sympy.Symbol("n")
+    y = sympy.Function("y")
+    for equation in (
+        y(x).diff(x, 2) + n**2 * y(x),
+        (1 - x**2) * y(x).diff(x, 2) - 2 * x * y(x).diff(x) + n * (n + 1) * y(x),
+    ):
+        wanted = kovacic.dsolve(equation, ics={y(0): 0}).rhs.xreplace({n: plain})
+        text = str(
+            equation.xreplace({n: plain}).subs({y(x).diff(x, 2): sympy.Symbol("A"), y(x).diff(x): sympy.Symbol("B")})
+        )
+        written = text.replace("A", "y''").replace("B", "y'").replace("y(x)", "y").replace("**", "^") + " = 0"
+        assert kovacic.dsolve(written, ics="y(0)=0", assume={"n": word}).rhs == wanted
+
+
+def test_assumptions_reach_values_and_limits() -> None:
+    k = sympy.Symbol("k")
+    assert kovacic.dsolve("y'' - k^2*y = 0", ics="y(0)=1, y(oo)=0", assume={"k": "positive"}).rhs == sympy.exp(-k * x)
+    green = kovacic.dsolve("y'' - k^2*y = -DiracDelta(x - s)", ics="y(-oo)=0, y(oo)=0", assume={"k": "positive"}).rhs
+    for place, source in ((1, 3), (3, 1)):
+        here = green.subs({k: 2, sympy.Symbol("s"): source, x: place})
+        assert abs(sympy.N(here - sympy.exp(-2 * abs(place - source)) / 4)) < 1e-12
+    assert kovacic.dsolve("y'' + n^2*y = 0", ics="y(0)=0, y(pi)=0", assume={"n": "natural"}).rhs.has(sympy.sin)
+    with pytest.raises(kovacic.InputError, match="isn't a parameter"):
+        kovacic.dsolve("y'' + n*y = 0", assume={"m": "natural"})
+    with pytest.raises(kovacic.InputError, match="contradict"):
+        kovacic.dsolve("y'' + n*y = 0", assume={"n": "positive negative"})

@@ -144,6 +144,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
 )
 @options.VAR
 @options.NAMES
+@options.ASSUME
 @options.LIMIT
 def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
     """The general solution of a linear equation of second order; with values, or --ics, the one that has these.

@@ -48,6 +48,18 @@ class Condition:
         return tuple(term.point for term in self.terms)
 
     @property
+    def free_symbols(self) -> set[Expr]:
+        """Those of its points, coefficients and value."""
+        parts = [part for term in self.terms for part in (term.point, term.coefficient)]
+        return set().union(*(part.free_symbols for part in parts), getattr(self.value, "free_symbols", ()))
+
+    def in_symbols(self, others: Mapping[Expr, Expr]) -> Condition:
+        """The same condition with other symbols."""
+        terms = (Term(t.point.xreplace(others), t.order, t.coefficient.xreplace(others)) for t in self.terms)
+        value = None if self.value is None else self.value.xreplace(others)
+        return Condition(tuple(terms), value, self.text)
+
+    @property
     def is_value(self) -> bool:
         """Is it y(a) = v or y'(a) = v?"""
         return len(self.terms) == 1 and self.terms[0].coefficient == 1 and self.value is not None

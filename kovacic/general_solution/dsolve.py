@@ -61,6 +61,7 @@ def dsolve(
     *,
     var: str | None = None,
     parameters: Sequence[str] = (),
+    assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Any:
     """The general solution of a linear equation of second order as a SymPy `Eq(y(x), ...)` with constants C1 and C2.
@@ -97,6 +98,9 @@ def dsolve(
         As for `sympy.dsolve`: they belong to Lie's method, which isn't used here, and stay None.
     var : str, optional
         The name of the variable in a text, where it isn't clear.
+    assume : mapping, optional
+        What is known of parameters, by name, as for `kovacic.solve`: {"n": "natural", "k": "positive", "l": ">=1"}.  It is used
+        beside the assumptions of SymPy's symbols.
     limits : Limits, optional
         Bounds on the input and on the work.
 
@@ -139,6 +143,9 @@ def dsolve(
     >>> print(dsolve(y(x).diff(x, 2) + n**2 * y(x), ics={y(0): 0, y(sympy.pi): 0}))
     Eq(y(x), C2*sin(n*x))
 
+    >>> print(dsolve("y'' + n^2*y = 0", ics="y(0)=0, y(pi)=0", assume={"n": "natural"}))
+    Eq(y(x), C2*sin(n*x))
+
     Riccati equations:
 
     >>> print(dsolve("w' = 1 + w^2"))
@@ -166,7 +173,7 @@ def dsolve(
         found, notices = _system(eq, func, ics, limits)
     else:
         one, function = _single(eq, "equation"), _single(func, "function")
-        found, notices = _answered(one, function, ics=ics, var=var, parameters=parameters, limits=limits)
+        found, notices = _answered(one, function, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
         found = [found] if is_list else found
     for notice in notices:
         warn_user(notice)
@@ -225,6 +232,7 @@ def _answered(
     ics: Any = None,
     var: str | None = None,
     parameters: Sequence[str] = (),
+    assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
     special: bool = False,
 ) -> tuple[Expr, list[str]]:
@@ -232,7 +240,7 @@ def _answered(
     budget = Budget(limits)
     with budget.watched():
         try:
-            question = read_question(eq, func, ics, var, budget.limits, parameters)
+            question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
         except InputError as reason:
             first_order = _first_order(eq, func, ics, var, budget.limits)
             if first_order is None:

@@ -74,9 +74,18 @@ class Question:
 
 
 def read_question(
-    eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, parameters: Sequence[str] = ()
+    eq: Any,
+    func: Any,
+    ics: Any,
+    var: str | None,
+    limits: Limits,
+    parameters: Sequence[str] = (),
+    assume: Mapping[Any, Any] | None = None,
 ) -> Question:
-    """The question.  Raises `InputError` for what isn't one."""
+    """The question.  Raises `InputError` for what isn't one.
+
+    What is assumed of a parameter is said of a symbol that stands for the user's own until the answer is written.
+    """
     eq, ics = apart(eq, ics)
     values = as_mapping(ics)
     floats = has_floats(eq, values)
@@ -94,6 +103,11 @@ def read_question(
     reader = ConditionReader(read.function, read.equation.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
+    if assume:
+        known = _with_assumptions(assume, read.equation, conditions, symbols)
+        renamed = renamed | known
+        symbols |= {symbol.name: symbol for symbol in known.values()}
+        conditions = tuple(condition.in_symbols(known) for condition in conditions)
     meanings = _meanings(read.letters, symbols)
     symbols |= {letter.name: letter for letter in meanings}
     return Question(
@@ -107,6 +121,17 @@ def read_question(
         assumptions=read_assumptions(None, sympy.Tuple(*symbols.values()), parameters_of(read.equation.S.field)),
         has_floats=floats,
     )
+
+
+def _with_assumptions(
+    assume: Mapping[Any, Any], equation: Equation, conditions: Sequence[Condition], symbols: Mapping[str, Expr]
+) -> dict[Expr, Expr]:
+    """For the user's symbols of which something is assumed, symbols that know it."""
+    own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols}
+    own |= {name: sympy.Symbol(name) for name in parameters_of(equation.S.field)} | dict(symbols)
+    own.pop(equation.variable, None)
+    assumed = read_assumptions(assume, sympy.Tuple(*symbols.values()), tuple(own))
+    return {own[name]: symbol for name, symbol in assumed.symbols().items() if symbol != own[name]}
 
 
 def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:
