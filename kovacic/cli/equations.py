@@ -294,8 +294,8 @@ def check(files: tuple[str, ...]) -> int:
     Says one of these for each line: what was proven, and which keys weren't looked at.  The checker is one file that also
     runs alone, kovacic/checker.py, and begins with what it proves.
 
-    Exit status: 0 all checked, 1 one refuted, 2 a file or a line unreadable, 3 one not checked; the first of 1, 2, 3
-    that applies.
+    Exit status: 0 all checked, 1 one refuted, 2 a file or a line unreadable or nothing to check, 3 one not checked; the first
+    of 1, 2, 3 that applies.
     """
     from kovacic.checker import main
 
