@@ -68,3 +68,16 @@ def test_zero_is_an_eigenvalue_where_a_straight_line_fulfils_the_conditions():
 def test_other_boundary_problems_are_answered_as_before(equation, conditions):
     _, notes = answered(equation, conditions)
     assert "with n = " not in notes
+
+
+def test_the_same_condition_at_both_ends_keeps_the_exponential_solution():
+    _, notes = answered("y''+(lambda-1)*y=0", "y(0)=y'(0), y(1)=y'(1)")  # exp(x) for lambda = 0
+    assert "lambda*sin(sqrt(lambda - 1)) = 0 other than 1" in notes
+    _, notes = answered("y''+lambda*y=0", "y'(0)=h*y(0), y'(L)=-h*y(L)")  # at k = h both sides vanish if cos(h*L) = 0
+    assert "tan" not in notes
+
+
+@pytest.mark.parametrize("conditions", ["y(0)=0, y(1)=0", "y(-1)=0, y(1)=0"])
+def test_there_is_no_family_on_an_interval_with_a_singular_point(conditions):
+    with pytest.raises((NotImplementedError, kovacic.InputError)):
+        kovacic.dsolve("x^2*y''+x*y'+lambda*y=0", ics=conditions)

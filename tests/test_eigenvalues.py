@@ -48,6 +48,7 @@ def test_quartic_oscillator_has_its_published_levels():
             ["5.783185962947", "30.471262343662", "74.887006790695"],
         ),
         ("y'' = lambda*y", "y(0)=0, y(1)=0", {}, ["-9.869604401089358", "-39.478417604357434"]),
+        ("-y'' + 2*y/x^2 = lambda*y", "y(0)=0, y(1)=0", {}, ["20.190728556427", "59.679515944109"]),  # zeros of j_1
     ],
 )
 def test_classical_problems_on_an_interval(equation, conditions, given, published):
@@ -196,3 +197,13 @@ def test_wave_functions_have_their_zeros_and_shape():
     expected = numpy.sin(2 * numpy.pi * numpy.log(x) / numpy.log(4))
     y = found.wave(1)(x)
     assert numpy.allclose(abs(y), abs(expected), atol=2e-3)
+
+
+def test_a_weight_may_vanish_at_the_ends_or_touch_zero():
+    found = eigenvalues("y'' + lambda*sin(x)*y = 0", "y(0)=0, y(pi)=0", count=2, digits=8)
+    assert [level.zeros for level in found] == [0, 1]
+    even = eigenvalues("y'' + lambda*x^2*y = 0", "y(-1)=0, y(1)=0", count=1, digits=10)
+    half = eigenvalues("y'' + lambda*x^2*y = 0", "y'(0)=0, y(1)=0", count=1, digits=10)
+    assert even[0].value.overlaps(half[0].value)
+    with pytest.raises(kovacic.InputError, match="positive"):
+        eigenvalues("y'' + lambda*cos(x)*y = 0", "y(0)=0, y(pi)=0")

@@ -67,7 +67,8 @@ class SeparatedCounter:
         """The lower count, or the upper one if `high`."""
         motions = []
         with working_precision(prec):
-            for end, position in zip(self.ends, self.positions, strict=True):
+            for end in self.ends:
+                position = end.position(self.span, self.digits)
                 u, v = end.state(E, self.span, position, high=high)
                 motions.append(march(self.road.steps(position, self.middle, prec), u, v, E))
             left, right = motions

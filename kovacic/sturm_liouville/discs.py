@@ -22,7 +22,7 @@ from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
-from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball
+from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, key_of
 
 Expr = Any
 #: The most that k R is, and R over the step.
@@ -152,7 +152,7 @@ class Road:
         self.x = problem.x
         self.pieces = problem.pieces
         self.span = span
-        self._known: dict[tuple[Any, Any, int], tuple[Step, ...]] = {}
+        self._known: dict[Any, tuple[Step, ...]] = {}
 
     def value(self, x: Any, E: Any) -> Any:
         """Q - E W near x: only to find good points."""
@@ -164,7 +164,7 @@ class Road:
 
     def steps(self, start: Any, stop: Any, prec: int) -> tuple[Step, ...]:
         """From one point to another, which may be balls around the exact ones."""
-        key = (start.str(30), stop.str(30), prec)
+        key = (key_of(start), key_of(stop), prec)
         if key not in self._known:
             with working_precision(prec):
                 self._known[key] = tuple(self._steps(start, stop, prec))

@@ -22,7 +22,7 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.sturm_liouville.bounds import lower_bound
 from kovacic.sturm_liouville.discs import coefficients, size
-from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, plain
+from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, key_of, plain
 
 Expr = Any
 State = tuple[Any, Any]
@@ -53,13 +53,14 @@ class RegularEnd:
 
 @dataclass(frozen=True)
 class SingularEnd:
-    """The principal solution at a regular singular point: G is t^2 Q, H is t^2 W, with H(0) = 0."""
+    """The principal solution at a regular singular point: G is t^2 Q, H is t^2 W, with H(0) = 0, for t below `reach`."""
 
     at: Expr
     t: Expr
     G: Expr
     H: Expr
     inwards: int
+    reach: Any
     threshold = None
 
     @cached_property
@@ -67,12 +68,22 @@ class SingularEnd:
         """nu^2 = 1/4 + G(0), exactly; the exponents are 1/2 +- nu."""
         return sympy.simplify(self.G.subs(self.t, 0) + sympy.Rational(1, 4))
 
+    @cached_property
+    def _radii(self) -> dict[Any, Any]:
+        return {}
+
     def _radius(self, top: Any) -> Any:
-        """R with pi sqrt(M) <= 2, where M bounds |G - G(0)| + |E H| in the disc."""
+        """R with pi sqrt(M) <= 2, where M bounds |G - G(0)| + |E H| in the disc; the series is used at R/4."""
+        key = key_of(top)
+        if key not in self._radii:
+            self._radii[key] = self._found_radius(top)
+        return self._radii[key]
+
+    def _found_radius(self, top: Any) -> Any:
         radius = arb(1) * 2**20
         for _ in range(_HALVINGS):
             M = self._variation(radius, top)
-            if M.is_finite() and 5 * M <= 2:
+            if M.is_finite() and 5 * M <= 2 and radius < self.reach:
                 return radius
             radius = radius / 2
         raise InputError(f"the coefficients aren't known to be meromorphic at {self.at}")
@@ -133,7 +144,7 @@ class CutEnd:
 
     def position(self, span: Span, digits: int) -> Any:
         """Where the solution begins for all E <= top; beyond, half of the digits are lost twice over."""
-        key = (span.high.man_exp(), digits)
+        key = (key_of(span.high), digits)
         if key not in self._cuts:
             self._cuts[key] = self._cut(span.high, digits)
         return self._cuts[key]
@@ -152,7 +163,7 @@ class CutEnd:
             action += root * abs(self._x(after) - self._x(tau))
             tau = after
             if action > needed - self._saved(tau, root):
-                return self._x(tau)
+                return self._x(tau).mid()
         raise LimitExceeded(f"the solutions don't decay fast enough towards {self._name()}", limit="unknown_degree")
 
     def _saved(self, tau: Any, root: Any) -> Any:
@@ -168,7 +179,7 @@ class CutEnd:
 
     def _potential_beyond(self, x: Any) -> tuple[Any, Any]:
         """Bounds of Q from x on, where W = 1 and the potential has a limit."""
-        key = x.str(30)
+        key = key_of(x)
         if key not in self._bounds:
             Q, W = self.of_tau
             low, high = -arb.pos_inf(), arb.pos_inf()
@@ -288,13 +299,22 @@ def end_of(problem: SturmProblem, side: int) -> End:
         return RegularEnd(at, wish.alpha - wish.beta * slope, wish.beta, inwards)
     t = sympy.Dummy("t", positive=True)
     Q, W = (_reduced(e.subs(problem.x, at + inwards * t) * t**2, t) for e in (piece.Q, piece.W))
-    found = SingularEnd(at, t, Q, W, inwards)
+    length = _length(piece)
+    found = SingularEnd(at, t, Q, W, inwards, length)
     if _is_analytic(Q, t) and _is_analytic(W, t) and W.subs(t, 0) == 0:
         _check_exponents(found, problem.x)
         _check_wish(found, problem, wish)
         return found
     tau = sympy.Dummy("tau", positive=True)
-    return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, arb(1))
+    return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, (1 / length).upper())
+
+
+def _length(piece: Stretch) -> Any:
+    """A lower bound of the length of the piece, at most 1 where it is infinite."""
+    if piece.low.is_infinite or piece.high.is_infinite:
+        return arb(1)
+    with working_precision(64):
+        return (ball(piece.high) - ball(piece.low)).lower()
 
 
 def _reduced(e: Expr, t: Expr) -> Expr:

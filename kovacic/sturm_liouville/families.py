@@ -82,6 +82,8 @@ def family(
         return None
     t = sympy.Dummy("t", positive=True)
     T = waves.length
+    if T.has(sympy.I, sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):  # there is a singular point at an end or between
+        return None
     if isinstance(conditions, int):
         return _wrapped(waves, t, n, conditions)
     left, right = (waves.wish(condition, side) for side, condition in enumerate(conditions))
@@ -94,8 +96,8 @@ def family(
         v = k * sympy.cos(k * t) - left[0] / left[1] * sympy.sin(k * t)
     numbers = _numbers(left, right, n)
     if numbers is not None:
-        first, halves = numbers
-        root = halves * sympy.pi / (2 * T)
+        first, angle = numbers
+        root = angle / T
         return EigenvalueFamily(
             sympy.simplify(root**2 + waves.q), (waves.function(v.subs(k, root), t),), n, first, shift=waves.q
         )
@@ -128,21 +130,26 @@ def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Wa
 
 
 def _numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tuple[int, Expr] | None:
-    """The first n, and k T in right angles; None where the equation for k is transcendental."""
+    """The first n, and k T; None where the equation for k is transcendental."""
     kinds = [None if A != 0 and B != 0 else bool(B == 0) for A, B in (left, right)]
     if None in kinds:
         return None
     if kinds[0] != kinds[1]:
-        return 1, 2 * n - 1
-    return (1 if kinds[0] else 0), 2 * n
+        return 1, (2 * n - 1) * sympy.pi / 2
+    return (1 if kinds[0] else 0), n * sympy.pi
 
 
 def _equation(left: tuple[Expr, Expr], right: tuple[Expr, Expr], root: Expr, T: Expr) -> Expr:
-    """tan(k T) = a rational function of k, from A2 v(T) + B2 v_t(T) = 0."""
+    """A2 v(T) + B2 v_t(T) = 0: (A1 A2 + B1 B2 k^2) sin(k T) = k (A2 B1 - A1 B2) cos(k T).
+
+    With A1 = 0 or B1 = 0 one may divide by the factor of the sine and the cosine, which are never both zero then.
+    """
     (A1, B1), (A2, B2) = left, right
     sines = sympy.simplify(A1 * A2 + B1 * B2 * root**2)
     cosines = sympy.simplify(root * (A2 * B1 - A1 * B2))
-    return sympy.Eq(sympy.tan(root * T), sympy.simplify(cosines / sines), evaluate=False)
+    if A1 == 0 or B1 == 0:
+        return sympy.Eq(sympy.tan(root * T), sympy.simplify(cosines / sines), evaluate=False)
+    return sympy.Eq(sines * sympy.sin(root * T), cosines * sympy.cos(root * T), evaluate=False)
 
 
 def _wrapped(waves: _Waves, t: Expr, n: Expr, wrap: int) -> EigenvalueFamily | None:

@@ -34,7 +34,7 @@ class Span:
     @property
     def key(self) -> tuple[Any, Any]:
         """What tells two of them apart."""
-        return self.high.man_exp(), self.size.man_exp()
+        return key_of(self.high), key_of(self.size)
 
 
 @dataclass(frozen=True)
@@ -92,6 +92,11 @@ class SturmProblem:
     def slope(self, at: Expr) -> Expr:
         """B/2 at a point: y'/y = Y'/Y - B/2."""
         return (self.B / 2).subs(self.x, at)
+
+
+def key_of(number: Any) -> tuple[Any, Any]:
+    """What tells two balls apart."""
+    return number.mid().man_exp(), number.rad().man_exp()
 
 
 def ball(e: Expr) -> Any:
@@ -184,16 +189,18 @@ def _value_of_step(step: Expr, x: Expr, inside: Expr) -> Expr:
 
 
 def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
-    """Raises `InputError` where it isn't shown that W >= 0, with isolated zeros."""
+    """Raises `InputError` where it isn't shown that W >= 0; its zeros are isolated, as W is analytic and not 0."""
     W = piece.W
     real = sympy.Dummy(real=True)
     if not W.has(x) and ball(W) > 0:
         return
-    if W.xreplace({x: real}).is_positive or _is_without_roots(piece, x, inside):
+    if W.xreplace({x: real}).is_nonnegative or _is_without_roots(piece, x, inside):
         return
     low, high = piece.low, piece.high
-    if low.is_finite and high.is_finite and _is_positive(W, x, ball(low), ball(high), _HALVINGS):
-        return
+    if low.is_finite and high.is_finite:
+        vanishes = [sympy.simplify(W.subs(x, end)) == 0 for end in (low, high)]
+        if _is_positive(W, x, (ball(low), ball(high)), vanishes, _HALVINGS):
+            return
     raise InputError(
         f"the coefficient of the parameter isn't known to be positive: {W}",
         hint="write the equation so that y'' and the parameter times y have positive coefficients on one side",
@@ -212,21 +219,20 @@ def _is_without_roots(piece: Stretch, x: Expr, inside: Expr) -> bool:
     return not any(_is_below(piece.low, root) and _is_below(root, piece.high) for root in roots)
 
 
-def _is_positive(W: Expr, x: Expr, low: arb, high: arb, halvings: int) -> bool:
-    """In balls; an end where W vanishes is left out by the caller's interval only if its derivative has a sign."""
-    whole = acb(low.union(high))
-    if BallEvaluator({x: whole}, analytic=True)(W).real > 0:
+def _is_positive(W: Expr, x: Expr, ends: tuple[arb, arb], vanishes: Sequence[bool], halvings: int) -> bool:
+    """In balls; next to an end where W vanishes by the sign of its derivative."""
+    low, high = ends
+    whole = BallEvaluator({x: acb(low.union(high))}, analytic=True)
+    if whole(W).real > 0:
         return True
-    slope = BallEvaluator({x: whole}, analytic=True)(W.diff(x)).real
-    values = [BallEvaluator({x: acb(end)})(W).real for end in (low, high)]
-    rising = slope > 0 and not values[0] < 0 and values[0].contains(0) and values[0].is_exact()
-    falling = slope < 0 and not values[1] < 0 and values[1].contains(0) and values[1].is_exact()
-    if rising or falling:
+    slope = whole(W.diff(x)).real
+    if (vanishes[0] and slope > 0) or (vanishes[1] and slope < 0):
         return True
     if halvings == 0:
         return False
     middle = ((low + high) / 2).mid()
-    return _is_positive(W, x, low, middle, halvings - 1) and _is_positive(W, x, middle, high, halvings - 1)
+    left = _is_positive(W, x, (low, middle), (vanishes[0], False), halvings - 1)
+    return left and _is_positive(W, x, (middle, high), (False, vanishes[1]), halvings - 1)
 
 
 def normal_form(

@@ -82,7 +82,7 @@ class Eigenproblem:
             return None
         with working_precision(_PREC):
             bottom = ball(self.threshold)
-        counter = SeparatedCounter(self.problem, (first, second), Span(bottom, abs(bottom).upper()), _ROUGH)
+        counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), _ROUGH)
         return counter.at(bottom, _PREC, high=True).count
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:
