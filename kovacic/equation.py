@@ -189,7 +189,7 @@ class Parsed:
     """S as a rational function, the name of its variable, and what the user should know about how it was read.
 
     `equation` is the equation that was given, None where S itself was.  `letters` are the parameters that stand for
-    constants, as SymPy expressions: sin_theta for sin(theta).
+    constants, as SymPy expressions: sin_theta for sin(theta).  `guesses` are those of the notices that say what was guessed.
     """
 
     S: RatFunc
@@ -197,6 +197,7 @@ class Parsed:
     notices: tuple[str, ...] = ()
     equation: Equation | None = None
     letters: tuple[tuple[str, Any], ...] = ()
+    guesses: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:

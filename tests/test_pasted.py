@@ -308,6 +308,7 @@ def test_wave_vectors_and_words_are_names() -> None:
         ("y'' + T*y = sin(T)", "T"),
     ],
 )
+@pytest.mark.filterwarnings("ignore:. is taken for the variable")
 def test_beside_a_variable_its_capital_is_a_parameter(text: str, variable: str) -> None:
     answer = kovacic.dsolve(text)
     assert [str(argument) for argument in answer.lhs.args] == [variable]
@@ -546,3 +547,27 @@ def test_mutated_texts_are_read_or_refused(seed: int) -> None:
         with suppress(kovacic.InputError):
             equation, _ = apart(mutated, None)
             source_of(equation, None, kovacic.Limits(), equation=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("xy'' + 2y' + xy = 0", "xy was read as x\\*y"),
+        ("r*y'' + y' + r*y = 0", "r is taken for the variable"),
+        ("3. y'' - 4y = 0", "3. was taken for a number in a list"),
+        ("Solve the equation y'' + y = 0", "left out: Solve the equation"),
+    ],
+)
+def test_dsolve_warns_of_what_was_guessed(text: str, said: str) -> None:
+    with pytest.warns(UserWarning, match=said):
+        kovacic.dsolve(text)
+
+
+def test_given_functions_are_read_where_the_unknown_one_is_named() -> None:
+    given, y = sympy.Function("g"), sympy.Function("y")
+    equation = sympy.Eq(y(x).diff(x, 2) + y(x), given(x))
+    assert (
+        kovacic.dsolve("y'' + y = g(x)", "y(x)") == kovacic.dsolve(equation, y(x)) == kovacic.dsolve("y''+y=g(x)", "y")
+    )
+    with pytest.raises(kovacic.InputError):
+        kovacic.dsolve("y'' + y = g(x)")

@@ -142,6 +142,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
     callback=lambda _, __, values: ", ".join(values),
     help='Conditions: "y(0)=1, y\'(0)=0", "y(0)=0, y(pi)=0", "y(0)=bounded, y(oo)=0".',
 )
+@click.option("--func", metavar="NAME", help="The unknown function, y or y(x), where other functions occur.")
 @options.VAR
 @options.NAMES
 @options.ASSUME

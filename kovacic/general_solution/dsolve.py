@@ -254,7 +254,8 @@ def _answered(
                 found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
             return found, notices
         try:
-            return _solved(question, budget, special=special)
+            found, notices = _solved(question, budget, special=special)
+            return found, [*question.guesses, *notices]
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
 

@@ -46,6 +46,8 @@ class Question:
     renamed: Mapping[Expr, Expr]
     assumptions: Assumptions
     has_floats: bool
+    #: What was guessed when a text was read.
+    guesses: tuple[str, ...] = ()
 
     @property
     def x(self) -> Expr:
@@ -120,6 +122,7 @@ def read_question(
         renamed=renamed,
         assumptions=read_assumptions(None, sympy.Tuple(*symbols.values()), parameters_of(read.equation.S.field)),
         has_floats=floats,
+        guesses=read.guesses,
     )
 
 
@@ -172,6 +175,7 @@ class _Read:
     equation: Equation
     function: Expr
     letters: tuple[tuple[str, Expr], ...] = ()
+    guesses: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -253,7 +257,7 @@ def _read_text(text: str | Paste, sought: _Sought, var: str | None, limits: Limi
     variable = equation.variable
     if equation.change is not None:
         variable = equation.change.variable
-    return _Read(equation, sought.function(equation.unknown, variable), parsed.letters)
+    return _Read(equation, sought.function(equation.unknown, variable), parsed.letters, parsed.guesses)
 
 
 def _with_steps(equation: Equation, x: Expr) -> Equation:

@@ -42,6 +42,14 @@ class EquationReader(RationalReader):
         self.unknown = unknown
         #: D stands for the derivative.
         self.has_operator = False
+        #: g(x) is a function that is given.
+        self.has_functions = False
+
+    def take_names_of(self, source: Any) -> None:
+        """What a source says of names: which are declared, and whether D is an operator."""
+        self.declared = source.declared
+        self.has_operator = source.has_operator
+        self.has_functions = source.has_functions
 
     def coefficient(self, expression: Any) -> Any:
         """A rational function of x and pi, or of x and e, with that number as a parameter."""
@@ -205,6 +213,10 @@ class EquationReader(RationalReader):
         try:
             return super().call(head, arguments, site)
         except NotRational:
+            if self.has_functions and head.isidentifier() and len(arguments) == 1 and self._is_variable(arguments[0]):
+                import sympy
+
+                return sympy.Function(head)(sympy.Symbol(self.variable))
             if head in SEVERAL_ARGUMENTS and not any(isinstance(argument, tuple) for argument in arguments):
                 return self.arithmetic.of_several(head, arguments)
             if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):

@@ -39,6 +39,8 @@ class Named:
     notes: tuple[str, ...]
     #: D stands for the derivative.
     has_operator: bool = False
+    #: The notes that say what was guessed, and not only how names are taken.
+    guesses: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,9 @@ class Vocabulary:
         split, products = self._with_products(tokens, x, y)
         notes += [*([why] if why else []), *products, *_imaginary(split, x, y, self.declared)]
         _check_two_exponents(split, y)
-        return Named(_with_factors(split, x, y), x, y, tuple(notes), has_operator)
+        is_guess = why is not None and x not in (DEFAULT_VARIABLE, "t")
+        guesses = (*([why] if is_guess and why else []), *products)
+        return Named(_with_factors(split, x, y), x, y, tuple(notes), has_operator, guesses)
 
     def S(self, tokens: Tokens) -> Named:
         """The names of S alone."""
@@ -74,7 +78,7 @@ class Vocabulary:
         notes = [*_guesses(tokens), *products]
         if self.variable is None and x not in USUAL_VARIABLES and x in split.names():
             notes.append(f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)")
-        return Named(_with_factors(split, x, ""), x, "", tuple(notes))
+        return Named(_with_factors(split, x, ""), x, "", tuple(notes), guesses=tuple(products))
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""

@@ -32,6 +32,9 @@ class Source(NamedTuple):
     tokens: Tokens | None = None
     has_operator: bool = False
     declared: frozenset[str] = frozenset()
+    #: The unknown function was named: others, g(x), are given ones.
+    has_functions: bool = False
+    guesses: tuple[str, ...] = ()
 
 
 def source_of(
@@ -71,6 +74,8 @@ def _source(named: Named, paste: Paste, vocabulary: Vocabulary) -> Source:
         named.tokens,
         named.has_operator,
         vocabulary.declared,
+        has_functions=vocabulary.unknown is not None,
+        guesses=(*paste.notes, *named.guesses),
     )
 
 
@@ -181,8 +186,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
         from kovacic.reading.differential import EquationReader
 
         reader = EquationReader(x, y, limits, constants)
-        reader.declared = source.declared
-        reader.has_operator = source.has_operator
+        reader.take_names_of(source)
         equation = reader.equation_of(source.walk(reader), text)
         return Parsed(equation.S, x, (*source.notes, *reader.notices(), *constants.notices()), equation)
 
