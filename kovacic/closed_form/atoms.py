@@ -239,14 +239,11 @@ class Atoms:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
         over = sympy.Poly(polynomial, self.root)
         roots = _quadratic_roots(*over.all_coeffs()) if over.degree() == 2 else ()
-        if roots and not any(map(_has_symbols_under_roots, roots)):
+        powers = {power for root in roots for power in root.atoms(sympy.Pow)}
+        if roots and not any(power.free_symbols and not power.exp.is_Integer for power in powers):
             return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
-
-
-def _has_symbols_under_roots(e: Expr) -> bool:
-    return any(power.free_symbols and not power.exp.is_Integer for power in e.atoms(sympy.Pow))
 
 
 def _factors(polynomial: Poly) -> list[tuple[Poly, int]]:

@@ -51,7 +51,8 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     if integral.g.degree not in (3, 4):
         return None
     r, g, inner = _in_square(integral.integrand, integral.g)
-    real = [p for p, _ in g.field.factor(g) if _has_real_roots(p, atoms)]
+    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2]
+    real = [p for p in quadratic if atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive]
     if len(real) == 1:
         r, branch, inner = _over(AlgebraicField(g.field, real[0]), r, RatFunc(g), inner)
         g = branch.num
@@ -62,13 +63,6 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     terms = [(c, e) for c, e in terms if c]
     last = terms[-1][0].inverse()
     return [(atoms.constant(c * last), e) for c, e in terms]
-
-
-def _has_real_roots(p: Poly, atoms: Atoms) -> bool:
-    """Is it quadratic, with two real roots?"""
-    if p.degree != 2:
-        return False
-    return bool(atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive)
 
 
 def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
@@ -271,7 +265,8 @@ def _halved(p: Poly) -> Poly:
 
 def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
     """What becomes 0, 1, and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
-    values = _real_values(roots, atoms)
+    shown = {a: atoms.constant(a) for a in roots}
+    values = {a: float(value) for a, value in shown.items() if value.is_number and value.is_real}
     points = [*sorted(values, key=lambda a: values[a]), *(a for a in roots if a not in values)]
     if even:
         zero = next(a for a in points if not a)
@@ -280,9 +275,3 @@ def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | 
     if len(points) == 3:
         return points[0], points[1], None
     return points[1], points[2], points[0]
-
-
-def _real_values(constants: list[Poly], atoms: Atoms) -> dict[Poly, float]:
-    """Those of the ones that are real numbers."""
-    shown = {a: atoms.constant(a) for a in constants}
-    return {a: float(value) for a, value in shown.items() if value.is_number and value.is_real}

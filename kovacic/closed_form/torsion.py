@@ -64,18 +64,15 @@ def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
     r = integral.integrand
     phi = RatFunc(g.derivative(), g) / 2 - r.derivative() / r
     S = phi.derivative() / 2 + phi * phi / 4 + r * r / g * kappa_squared
-    group = imprimitive_group(analyse(S, Budget()), _form(S, phi))
+    # The form f: its zeros at ordinary points, where a residue belongs to the exponents 0 and 1, are P's.
+    P = phi.den // phi.den.gcd(S.den)
+    form = SemiInvariant(2, phi - RatFunc(P.derivative(), P), P)
+    group = imprimitive_group(analyse(S, Budget()), form)
     if group.kind is GroupKind.INFINITE_DIHEDRAL:
         return NOT_TORSION
     if group.kind is not GroupKind.DICYCLIC or group.function is None:
         return UNDECIDED
     return _units(integral, group.function, kappa_squared)
-
-
-def _form(S: RatFunc, phi: RatFunc) -> SemiInvariant:
-    """The form f with f'/f = phi, whose zeros at ordinary points, where a residue belongs to the exponents 0 and 1, are P's."""
-    P = phi.den // phi.den.gcd(S.den)
-    return SemiInvariant(2, phi - RatFunc(P.derivative(), P), P)
 
 
 def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:

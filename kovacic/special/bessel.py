@@ -158,7 +158,8 @@ def _zeros(regular: list[Place], n: int) -> Iterator[Points]:
                 yield zeros
         return
     for nu_squared in _orders(regular, n):
-        found = _with_multiplicities(regular, nu_squared)
+        counts = [(place, _multiplicity(place, nu_squared)) for place in regular]
+        found = [(place, k) for place, k in counts if k]
         for zeros in (found, [(place, k) for place, k in found if not place.is_apparent]):
             if zeros and _count(zeros) == n:
                 yield zeros
@@ -176,12 +177,6 @@ def _orders(regular: list[Place], n: int) -> Iterator[Poly]:
             count_work(TRIAL)
             tried.add(nu_squared)
             yield nu_squared
-
-
-def _with_multiplicities(regular: list[Place], nu_squared: Poly) -> Points:
-    """The places whose exponent differences are multiples of nu."""
-    multiplicities = [(place, _multiplicity(place, nu_squared)) for place in regular]
-    return [(place, k) for place, k in multiplicities if k]
 
 
 def _multiplicity(place: Place, nu_squared: Poly) -> int | None:
@@ -202,7 +197,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
     Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
     """
     nu = writer.square_root(nu_squared)
-    if singular is not None and _has_zero_beside(singular, t):
+    if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t)):
         first, second = (
             (writer.factor(t, [((m + 1) * HALF, t)]), writer.hypergeometric((), (m + 1,), writer.argument(-t)))
             for m in (nu, -nu)
@@ -215,11 +210,6 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
     if degree is not None and not modified:
         return _spherical(writer, degree, t, z)
     return _cylindrical(writer, nu, t, z, modified=modified)
-
-
-def _has_zero_beside(singular: Poly, t: RatFunc) -> bool:
-    """Does t vanish at a point that isn't a zero of this polynomial?"""
-    return any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t))
 
 
 def _spherical(writer: Writer, degree: Number, t: RatFunc, z: Expr) -> tuple[Expr, Expr]:

@@ -278,14 +278,10 @@ def _with_exponents(problem: Problem, places: list[Place], squares: Sequence[Any
     for power, wanted in ((2, (at_infinity - 1) * Fraction(1, 4)), (3, field.poly([]))):
         if power == 3 and (n < 3 or at_infinity != 1):
             break
-        left = wanted - _coefficient_at_infinity(S, power)
+        known = S.num.lc / S.den.lc if S and S.degree == -power else S.num * 0  # the coefficient of x^-power
+        left = wanted - known
         S = S + RatFunc(left * x ** (n - power), radical)
     return S
-
-
-def _coefficient_at_infinity(S: RatFunc, power: int) -> Poly:
-    """That of x^-power, where S = O(x^(-power))."""
-    return S.num.lc / S.den.lc if S and S.degree == -power else S.num * 0
 
 
 # ------------------------------------------------------------------------------------------ a and b

@@ -306,6 +306,8 @@ def _best(candidates: Iterator[BySign]) -> BySign | None:
 
 def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Iterator[BySign]:
     """What each integer gives whose sign is open: solutions that are known only by it, or polynomials that have names."""
+    import sympy
+
     equation = pullback.equation
     whole = equation.written(writer, pullback.f, singular)
     for number in dict.fromkeys(equation.integers(writer, pullback.f)):
@@ -320,15 +322,8 @@ def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Itera
             continue
         if whole is None:
             yield BySign(value, natural, _assuming(writer, -value - 1, pullback, singular))
-        elif _is_named(natural):
+        elif any(y.has(sympy.assoc_legendre, sympy.assoc_laguerre) for y in natural):
             yield BySign(value, natural, whole)
-
-
-def _is_named(pair: tuple[Expr, Expr]) -> bool:
-    """Is one of them a polynomial with a name, of Legendre or of Laguerre?"""
-    import sympy
-
-    return any(y.has(sympy.assoc_legendre, sympy.assoc_laguerre) for y in pair)
 
 
 def _own_symbols(writer: Writer) -> dict[Any, Any]:
