@@ -29,7 +29,7 @@ from kovacic.parametric.regions import (
     without_implied,
 )
 from kovacic.parametric.restriction import reduced, with_free_constant
-from kovacic.parametric.solutions import Given
+from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement
 
 #: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
@@ -120,7 +120,7 @@ def _finished(
     if region.origin is not None:
         there = equations_on(region.statement, equation)
         pieces = tuple((one.equation, one.zeros) for one in there)
-        region = replace(region, origin=Given(region.origin, pieces, letters) if there else None)
+        region = replace(region, origin=GivenSolutions(region.origin, pieces, letters) if there else None)
     statement = region.statement
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region

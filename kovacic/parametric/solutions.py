@@ -187,7 +187,7 @@ class Signed:
 
 
 @dataclass(frozen=True)
-class Given:
+class GivenSolutions:
     """The solutions of a normal form as those of the equation of which it is one.
 
     `pieces` are the equations on the pieces of a region, each with the functions that vanish on it and not on all of them;

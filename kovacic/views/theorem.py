@@ -27,7 +27,7 @@ from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.solutions import Given, PolynomialSolution, general, translated, weight_by_signs
+from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution, general, translated, weight_by_signs
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
@@ -275,7 +275,7 @@ class _TheoremWriter:
         if weight is None or weight.signs > len(self.signs):
             return
         solution = weight.solution(self.signs)
-        if isinstance(region.formulas, Given):
+        if isinstance(region.formulas, GivenSolutions):
             equation, _ = region.formulas.pieces[0]
             solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))
         yield Formula(self._named_solution(solution))
