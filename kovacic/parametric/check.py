@@ -48,6 +48,7 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at, normal_form
+from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 
@@ -85,7 +86,7 @@ class CheckReport:
 
 
 #: Samples of a region, one of which has to lie in no region before it.
-_ATTEMPTS = 6
+_ATTEMPTS = 4
 #: Bits with which formulas are compared.
 _PRECISION = 192
 #: Degrees of P up to which formulas are compared whose coefficients depend on the parameters.
@@ -181,10 +182,20 @@ def _false_formulas(
         return
     numbers = [number for number in region.numbers_at(point) if number is None or number <= _LARGEST]
     for number in numbers:
-        for solution in region.solution(number):
+        for solution in _solutions_at(region, number, values):
             y = solution.at(values)
             if y is not None and (_is_undefined(y) or _is_false(y, S, equation, values)):
                 yield f"{solution} is no solution"
+
+
+def _solutions_at(
+    region: ParameterRegion, number: int | None, values: Mapping[Any, Any]
+) -> Iterator[PolynomialSolution]:
+    """The formulas that are meant at these values, the others not even translated to the equation that was given."""
+    formulas = region.formulas
+    if isinstance(formulas, GivenSolutions):
+        meant = [solution for solution in formulas.origin(number) if solution.at(values) is not None]
+        yield from formulas.of(meant)
 
 
 def _is_undefined(y: Any) -> bool:

@@ -68,7 +68,7 @@ from kovacic.parametric.solving import alternatives, solved_with_another_integer
 from kovacic.parametric.statements import Setting, Statement
 
 #: The largest number that is tried for an example.
-_EXAMPLES = 3
+_EXAMPLES = 2
 #: Characters up to which Delta_d and the equations for d are written out, and those for the zeros of an invariant.
 _WRITTEN_OUT = 300
 _EQUATIONS = 100

@@ -7,7 +7,7 @@ the conditions say for which of the two signs y is a solution.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import chain, count, product
@@ -199,8 +199,12 @@ class GivenSolutions:
     letters: Letters = ()
 
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        found = product(self.origin(number), self.pieces)
-        return tuple(self.spelled(_given(solution, *piece)) for solution, piece in found)
+        return tuple(self.of(self.origin(number)))
+
+    def of(self, solutions: Iterable[PolynomialSolution]) -> Iterator[PolynomialSolution]:
+        """Solutions of the normal form, on each piece."""
+        for solution, piece in product(solutions, self.pieces):
+            yield self.spelled(_given(solution, *piece))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
         """All of them in one, with symbols for the signs; None where there is no such formula."""
