@@ -571,3 +571,18 @@ def test_given_functions_are_read_where_the_unknown_one_is_named() -> None:
     )
     with pytest.raises(kovacic.InputError):
         kovacic.dsolve("y'' + y = g(x)")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x' = y, y' = -x, x(0) = 1, y(0) = 0",
+        "dx/dt = y; dy/dt = -x; x(0) = 1; y(0) = 0",
+        r"\dot{x} = y, \dot{y} = -x, x(0) = 1, y(0) = 0",
+        "DSolve[{x'[t] == y[t], y'[t] == -x[t], x[0] == 1, y[0] == 0}, {x[t], y[t]}, t]",
+        "dsolve([diff(x(t),t) = y(t), diff(y(t),t) = -x(t), x(0) = 1, y(0) = 0], [x(t), y(t)])",
+    ],
+)
+def test_systems_are_read_in_their_notations(text: str) -> None:
+    first, second = kovacic.dsolve(text)
+    assert (str(first), str(second)) == ("Eq(x(t), cos(t))", "Eq(y(t), -sin(t))")

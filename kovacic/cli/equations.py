@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -193,6 +193,10 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
     from kovacic.writing.formula import caret
 
     found = dsolve(equation, **given)
+    if isinstance(found, list):
+        for solution in found:
+            yield as_latex(solution) if latex else f"{solution.lhs} = {caret(as_text(solution.rhs))}"
+        return
     if latex:
         yield as_latex(found)
         return
@@ -209,6 +213,8 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
         found = dsolve(equation, ics=ics, **given)
+        if isinstance(found, list):
+            return _system_in_json(equation, ics, found, noticed)
         shorter = in_special_functions(found, equation, ics=ics, **given)
         special = None if shorter is None else as_text(shorter.rhs)
         data = {
@@ -223,6 +229,23 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
             "validity": str(validity(found)) or None,
             "notices": [str(warning.message) for warning in noticed],
         }
+    return json_line(data)
+
+
+def _system_in_json(text: str, ics: str, found: Sequence[Any], noticed: Sequence[Any]) -> str:
+    """The solutions of a system, as a line of JSON."""
+    from kovacic.numerals import as_latex, as_text
+
+    data = {
+        "schema": 1,
+        "input": text,
+        "ics": ics or None,
+        "status": "solved",
+        "unknown": [str(solution.lhs) for solution in found],
+        "solution": [as_text(solution.rhs) for solution in found],
+        "latex": [as_latex(solution) for solution in found],
+        "notices": [str(warning.message) for warning in noticed],
+    }
     return json_line(data)
 
 

@@ -39,6 +39,9 @@ from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numerals import as_text
+from kovacic.reading.pieces import taken_apart
+from kovacic.reading.read import declared
+from kovacic.reading.systems import read_equations
 
 Expr = Any  # SymPy publishes no types
 #: Names of the one method.
@@ -168,6 +171,8 @@ def dsolve(
     Eq(y(x), exp(-x))
     """
     _check_method(hint, xi, eta)
+    if isinstance(eq, str):
+        eq, func, ics = _several(eq, func, ics, parameters)
     is_list = isinstance(eq, list | tuple)
     if is_list and len(eq) > 1:
         found, notices = _system(eq, func, ics, limits)
@@ -178,6 +183,15 @@ def dsolve(
     for notice in notices:
         warn_user(notice)
     return found
+
+
+def _several(text: str, func: Any, ics: Any, parameters: Sequence[str]) -> tuple[Any, Any, Any]:
+    """The equations, unknown functions and values of a text with several equations; anything else as it was given."""
+    paste = taken_apart(text)
+    if len(paste.scans("equation")) < 2:
+        return text, func, ics
+    reading = read_equations(paste, names=declared(parameters))
+    return list(reading.equations), func or list(reading.functions), ics or dict(reading.conditions)
 
 
 def _system(equations: Sequence[Any], functions: Any, ics: Any, limits: Limits) -> tuple[list[Expr], list[str]]:

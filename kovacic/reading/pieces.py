@@ -456,6 +456,8 @@ class _Apart:
                 self.variable = texts[0]  # MATLAB's variable
             self.found.append(PastedPiece("name", tuple(part)))
             return True
+        if texts[0] in ("[", "{") and not _has_equals(part, depth=1):  # the unknown functions of a system
+            return all(inner and self.argument(inner, names) for inner in _listed(part[1:-1]))
         if _has_equals(part) and not (len(texts) > 2 and texts[1] == "=" and is_word(texts[0])):
             self.equation(part)
             return True
@@ -492,13 +494,30 @@ class _Apart:
         equations = [k for k, piece in enumerate(self.found) if piece.role == "equation"]
         if len(equations) < 2:
             return self.found
-        are_conditions = {k: _is_condition(self.found[k].scan, is_first=k == equations[0]) for k in equations}
+        letters = _arguments(self.found[equations[0]].scan)
+        are_conditions = {
+            k: _is_condition(self.found[k].scan, is_first=k == equations[0])
+            and not (k > equations[0] and letters & _arguments(self.found[k].scan))
+            for k in equations
+        }
         if all(are_conditions.values()):
             are_conditions[equations[0]] = False
         return [
             PastedPiece("condition", piece.scan) if are_conditions.get(k) else piece
             for k, piece in enumerate(self.found)
         ]
+
+
+def _arguments(scan: Scan) -> set[str]:
+    """The letters that functions are applied to: t of y(t) and y'[t]."""
+    found: set[str] = set()
+    if any(token.text in ("subs", "Subs") for token in scan):
+        return found
+    for k in range(len(scan) - 2):
+        is_applied = scan[k].text in ("(", "[") and scan[k + 2].text in (")", "]") and k > 0
+        if is_applied and scan[k + 1].kind == "WORD" and scan[k - 1].kind in ("WORD", "PRIMES"):
+            found.add(scan[k + 1].text)
+    return found - _POINTS
 
 
 def is_word(text: str) -> bool:

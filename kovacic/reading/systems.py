@@ -1,0 +1,115 @@
+"""Several equations in one text, as SymPy has them: x' = y, y' = -x.
+
+>>> reading = read_equations("x' = y, y' = -x, x(0) = 1")
+>>> reading.equations
+(Eq(Derivative(x(t), t), y(t)), Eq(Derivative(y(t), t), -x(t)))
+>>> reading.functions, reading.conditions
+((x(t), y(t)), (PlacedValue(place='x(0)', value='1'),))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy
+
+from kovacic.errors import InputError
+from kovacic.limits import Limits
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
+from kovacic.reading.naming import Vocabulary
+from kovacic.reading.parser import Site, evaluate
+from kovacic.reading.pieces import Paste, taken_apart
+from kovacic.reading.symbolic import SymbolicReader
+
+Expr = Any  # SymPy publishes no types
+
+
+@dataclass(frozen=True)
+class SystemReading:
+    """Equations in unknown functions of one variable; `conditions` are pairs of a place, x(0), and its value."""
+
+    equations: tuple[Expr, ...]
+    functions: tuple[Expr, ...]
+    conditions: tuple[tuple[str, str], ...]
+    notes: tuple[str, ...]
+
+
+def read_equations(
+    text: str | Paste, *, var: str | None = None, names: Collection[str] = (), limits: Limits | None = None
+) -> SystemReading:
+    """The equations of a text, of any order; `names` are declared parameters.  Raises `InputError`."""
+    paste = text if isinstance(text, Paste) else taken_apart(text)
+    unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in _differentiated(tokens)))
+    if not unknowns:
+        raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
+    chosen = var or paste.variable or _variable(paste.equations, unknowns)
+    notes = dict.fromkeys(paste.notes)
+    equations = []
+    for tokens in paste.equations:
+        named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).equation(tokens)
+        notes |= dict.fromkeys(named.notes)
+        equations.append(evaluate(named.tokens, _SystemReader(chosen, unknowns, limits or Limits())))
+    x = sympy.Symbol(chosen)
+    functions = tuple(sympy.Function(name)(x) for name in unknowns)
+    return SystemReading(tuple(equations), functions, paste.conditions, tuple(notes))
+
+
+def _differentiated(tokens: Tokens) -> list[str]:
+    """The names that have primes, or are differentiated."""
+    found = []
+    for k, piece in enumerate(tokens.pieces):
+        is_argument = k > 1 and tokens.pieces[k - 2] in DERIVATIVES and tokens.kinds[k - 1] == "LPAR"
+        if tokens.kinds[k] in ("PRIMED", "HEAD") and piece.endswith(PRIMES):
+            found.append(piece.rstrip(PRIMES))
+        elif is_argument and tokens.kinds[k] in ("NAME", "HEAD"):
+            found.append(piece)
+    return found
+
+
+def _variable(equations: Collection[Tokens], unknowns: Collection[str]) -> str:
+    """What an unknown function is applied to or differentiated by; else t, and x where that occurs and isn't unknown."""
+    for tokens in equations:
+        for k, piece in enumerate(tokens.pieces):
+            is_applied = tokens.are(k, "HEAD", "LPAR", "NAME", "RPAR") or tokens.are(k, "NAME", "COMMA", "NAME")
+            if piece.rstrip(PRIMES) in unknowns and is_applied:
+                return tokens.pieces[k + 2]
+    occurring = {name for tokens in equations for name in tokens.names()}
+    if "x" in occurring and "x" not in unknowns and "t" not in occurring:
+        return "x"
+    return "t"
+
+
+class _SystemReader(SymbolicReader):
+    """What a text means in which several functions of one variable are unknown."""
+
+    def __init__(self, variable: str, unknowns: Collection[str], limits: Limits) -> None:
+        limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
+        super().__init__(None, "the equation", limits)
+        self.x = sympy.Symbol(variable)
+        self.unknowns = unknowns
+
+    def name(self, name: str) -> Any:
+        return sympy.Function(name)(self.x) if name in self.unknowns else super().name(name)
+
+    def derivative(self, text: str) -> Any:
+        name = text.rstrip(PRIMES)
+        return sympy.Function(name)(self.x).diff(self.x, len(text) - len(name))
+
+    def follows_without_sign(self, name: str) -> bool:
+        return name.rstrip(PRIMES) in self.unknowns or name in DERIVATIVES
+
+    def equation(self, left: Any, right: Any) -> Any:
+        left, right = (self.arithmetic.expression(side) for side in (left, right))
+        return sympy.Eq(left, right, evaluate=False)
+
+    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
+        if head in DERIVATIVES and not any(isinstance(argument, tuple) for argument in arguments):
+            function, *by = (self.arithmetic.expression(argument) for argument in arguments)
+            order = int(by[1]) if len(by) == 2 and by[1].is_Integer else 1
+            return function.diff(self.x, order)
+        name = head.rstrip(PRIMES)
+        if name in self.unknowns and len(arguments) == 1 and self.arithmetic.expression(arguments[0]) == self.x:
+            return self.name(head) if name == head else self.derivative(head)
+        return super().call(head, arguments, site)
