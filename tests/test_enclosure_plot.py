@@ -380,6 +380,18 @@ def test_a_picture_shows_what_its_labels_say(equation: str, start: Any, stop: An
         assert np.linalg.matrix_rank(np.stack(data), tol=1e-6 * np.abs(data[0]).max()) == 2
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("a", ["4", "1/4", "sqrt(2)"])
+def test_solutions_with_values_of_parameters_are_named_with_these(a: str) -> None:
+    figure = kovacic.solve("y'' + a*y = 0").plot(0, 7, params={"a": a})
+    lines = [line for line in figure.axes[0].lines if line.get_label().startswith("$y_")]
+    assert len(lines) == 2
+    for line in lines:
+        assert demand_what_the_label_says(line.get_label(), line.get_xdata(), line.get_ydata(), sympy.Symbol("x"))
+    (line, *_) = kovacic.solve("y'' + a*y = 0").plot(0, 7, params={"a": 0}).axes[0].lines  # where sin(sqrt(a) x) is 0
+    assert line.get_label().startswith("$y$, where")
+
+
 def test_the_envelope_of_bessels_functions_is_their_amplitude() -> None:
     """Between its points, too: near 1, where it falls as 1/sqrt(x), they are near to each other."""
     from scipy.special import hankel1

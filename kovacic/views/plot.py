@@ -40,6 +40,7 @@ from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import Limits, limited, limits_of
 from kovacic.numerals import as_text, plain_text
 from kovacic.reading.read import read_input
+from kovacic.reading.symbolic import read_expression
 from kovacic.views.sentences import normal_form
 from kovacic.writing.formula import latex_text, of_sympy
 
@@ -408,6 +409,11 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
     x = sympy.Symbol(_axis_names(answer)[0])
     form = derived.closed_form(answer)
     pair = tuple(derived.special(answer) if form is None else form)
+    try:
+        letters = {name: read_expression(plain_text(value)) for name, value in (options.get("params") or {}).items()}
+    except InputError:  # an enclosure, which no formula has
+        return []
+    pair = tuple(y.subs(letters) for y in pair)
     for y in pair:
         is_long = has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED
         if is_long or y.has(sympy.Integral) or not y.free_symbols <= {x}:
@@ -430,6 +436,8 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
         return sample(answer, start, stop, **asked)
 
     names = [_typeset(f"{_axis_names(answer)[1]}_{k}") for k in (1, 2)]
+    if len(_independent(list(zip(names, data, strict=True)))) < 2:  # for these values of parameters
+        return []
     if len(intervals) == 1 and not all(value.is_real for values in data for value in values):
         # The equation is real: real and imaginary parts solve it on an interval without a singular point.
         parts = [
