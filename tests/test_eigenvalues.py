@@ -207,3 +207,39 @@ def test_a_weight_may_vanish_at_the_ends_or_touch_zero():
     assert even[0].value.overlaps(half[0].value)
     with pytest.raises(kovacic.InputError, match="positive"):
         eigenvalues("y'' + lambda*cos(x)*y = 0", "y(0)=0, y(pi)=0")
+
+
+@pytest.mark.long
+def test_generated_potentials_agree_with_collocation():
+    """No level is missed: eight polynomials on an interval with y = 0 or y' = 0 at its ends, beside Legendre collocation."""
+    numpy = pytest.importorskip("numpy")
+    points = numpy.random.default_rng(47)
+    for _ in range(8):
+        coefficients = [int(c) for c in points.integers(-9, 10, 5)]
+        q = " + ".join(f"({c})*x^{k}" for k, c in enumerate(coefficients))
+        orders = [int(order) for order in points.integers(0, 2, 2)]
+        conditions = ", ".join(f"y{chr(39) * order}({end})=0" for order, end in zip(orders, (-1, 2), strict=True))
+        found = schroedinger(q, conditions, count=4, digits=10)
+        assert [level.zeros for level in found] == [0, 1, 2, 3]
+        expected = _galerkin(numpy, coefficients, orders)
+        assert numpy.allclose([float(level.value) for level in found], expected[:4], rtol=1e-8, atol=1e-8)
+
+
+def _galerkin(numpy, coefficients, orders, size=40):
+    """Eigenvalues on (-1, 2) with y = 0 (order 0) or y' = 0 (order 1) at the ends: polynomials as trial functions."""
+    P = numpy.polynomial.legendre
+    x, weights = P.leggauss(3 * size)
+    values, slopes = [], []
+    for k in range(size):
+        p = P.Legendre.basis(k)
+        for end, order in zip((-1, 1), orders, strict=True):
+            p = p * P.Legendre.fromroots([end]) if order == 0 else p  # y' = 0 is the natural condition
+        values.append(p(x))
+        slopes.append(p.deriv()(x))
+    values, slopes = numpy.array(values), numpy.array(slopes)
+    potential = numpy.polyval(coefficients[::-1], (3 * x + 1) / 2)
+    stiffness = slopes * weights @ slopes.T * (2 / 3) + (values * weights * potential) @ values.T * 1.5
+    mass = (values * weights) @ values.T * 1.5
+    root = numpy.linalg.cholesky(mass)
+    half = numpy.linalg.solve(root, stiffness)
+    return numpy.linalg.eigvalsh(numpy.linalg.solve(root, half.T))

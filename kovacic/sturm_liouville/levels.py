@@ -86,7 +86,7 @@ class Eigenvalues(Sequence[Level]):
         if not lines:
             lines = ["no eigenvalues"] if self.complete else ["no eigenvalues were found"]
         elif self.complete:
-            lines.append("these are all eigenvalues" if "below" not in " ".join(self.notes) else "there are no others")
+            lines.append("these are all eigenvalues")
         return "\n".join([*lines, *self.notes])
 
     def wave(self, k: int) -> Callable[[Any], Any]:
