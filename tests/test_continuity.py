@@ -9,7 +9,9 @@ import sympy
 from build import parametrize
 
 import kovacic
+from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.continuity import jumps
+from kovacic.general_solution.question import read_question
 
 x = sympy.Symbol("x")
 
@@ -92,3 +94,26 @@ def test_values_on_both_sides(problem: tuple[str, int]) -> None:
 )
 def test_jumps_are_seen(formula: Any, coefficient: Any, is_seen: bool) -> None:
     assert jumps(formula, x, [coefficient]) is is_seen
+
+
+def test_a_letter_of_known_sign_chooses_the_half_plane() -> None:
+    """Whether Ei(a + i x) crosses its cut depends on the sign of a; where it isn't known, the integrals stay."""
+    plain = "y'' + y = 1/(x^2 + a^2)"
+    assert kovacic.dsolve(plain).has(sympy.Integral)
+    known = kovacic.dsolve(plain, assume={"a": "positive"}).rhs
+    assert known.has(sympy.expint)
+    assert known.has(sympy.Ei)
+
+
+def test_a_formula_that_jumps_is_said_to() -> None:
+    """sqrt(x^2) satisfies y'' = 0 on either side of 0, an ordinary point at which its slope jumps; x does everywhere."""
+    question = read_question("y'' = 0", None, None, None, kovacic.Limits())
+    assert any("jumps" in note for note in check_answer(question, sympy.sqrt(x**2)))
+    assert check_answer(question, x) == []
+
+
+def test_functions_of_pairs_count_as_continuous() -> None:
+    """The rest is looked at beside them, without their values in wide balls, which take minutes."""
+    series = sympy.hyper((sympy.Rational(-1, 24), sympy.Rational(11, 24)), (sympy.Rational(3, 4),), x**2 / (x - 2) ** 2)
+    assert not jumps(series * sympy.log(x), x, [1 / x])
+    assert jumps(series * sympy.sqrt(sympy.sin(x) ** 2) / sympy.sin(x), x, [x])

@@ -28,7 +28,6 @@ from kovacic.general_solution.special_integrals import (
     fresnel,
     in_complex_exponentials,
     incomplete_gamma,
-    without_crossings,
 )
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, wave_changes
@@ -58,7 +57,7 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
         return None
     if _has_a_root_of_a_sum(integrand, x) and not _holds_on_every_side(found, integrand, x):
         return None
-    return without_crossings(found, x)
+    return found
 
 
 def _by_rules(integrand: Expr, x: Expr) -> Expr | None:

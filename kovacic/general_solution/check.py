@@ -25,6 +25,7 @@ from kovacic.closed_form.check import value_at as value_of_fraction
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.jumps import break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
@@ -64,6 +65,11 @@ def check_answer(
     for condition in question.conditions:
         if set(condition.points).isdisjoint(limits):
             unchecked += _check_condition(question, value, condition, numbers)
+    a, b, c, f = map(question.own, _coefficients(question))
+    if jumps(value, question.x, [b / a, c / a, f / a]):
+        unchecked.append(
+            "the formula jumps at an ordinary point of the equation: it is a solution between such points only"
+        )
     return unchecked
 
 

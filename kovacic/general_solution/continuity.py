@@ -4,6 +4,7 @@ A formula that satisfies the equation wherever it is analytic is a solution on a
 They are on a ball on which every part of the formula is finite, and no argument of a function with a branch cut meets this
 cut, unless it is real all along and not zero: principal values are continuous on the cut itself.  An interval on which that
 isn't seen is halved, down to a short one, whose ends are compared, unless the equation is singular between them.
+Bessel functions and others of which pairs of solutions are made count as continuous.
 """
 
 from __future__ import annotations
@@ -15,8 +16,10 @@ from itertools import islice, pairwise
 from typing import Any
 
 import sympy
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
+from sympy.core.function import AppliedUndef
 
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.zero import samples
 from kovacic.limits import check_time
@@ -55,26 +58,22 @@ def _square(e: Expr) -> Expr:
     return e.args[0] ** 2
 
 
-def _of_series(e: Expr) -> Expr:
-    """2F1 has a cut from 1 to oo, 2F0 one along the positive axis; with fewer parameters above they are entire."""
-    above, below = len(e.ap), len(e.bq)
-    if above <= below:
-        return None
-    return 1 - e.argument if above == below + 1 and below else -1 / e.argument
-
-
 #: Functions with branch cuts, and what lies on the negative axis where they have theirs; None for none.
 _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     **dict.fromkeys((sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _argument),
-    **dict.fromkeys((sympy.bessely, sympy.besselk, sympy.yn), _argument),
-    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), lambda e: None if e.args[0].is_integer else e.args[1]),
     **dict.fromkeys((sympy.atan, sympy.acot, sympy.asinh), _above_minus_one),
-    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh, sympy.assoc_legendre), _squared_below_one),
-    **dict.fromkeys((sympy.polylog, sympy.elliptic_k, sympy.elliptic_e), _beside_one),
-    **dict.fromkeys((sympy.legendre, sympy.gegenbauer, sympy.jacobi), lambda e: 1 + e.args[-1]),
+    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh), _squared_below_one),
+    sympy.polylog: _beside_one,
     **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), _square),
-    sympy.hyper: _of_series,
 }
+#: What stands for entire functions here: integrals that are left, and the functions of which pairs of solutions are made.
+_OPAQUE = (
+    *(sympy.Integral, sympy.hyper, sympy.besselj, sympy.bessely, sympy.besseli, sympy.besselk, sympy.jn, sympy.yn),
+    *(sympy.airyai, sympy.airybi, sympy.airyaiprime, sympy.airybiprime, sympy.legendre, sympy.assoc_legendre),
+    *(sympy.gegenbauer, sympy.jacobi, sympy.hermite, sympy.laguerre, sympy.assoc_laguerre, sympy.elliptic_k),
+    *(sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi, sympy.mathieuc, sympy.mathieus, sympy.mathieucprime),
+    *(sympy.mathieusprime, AppliedUndef),
+)
 
 
 def cut_of(e: Expr) -> Expr | None:
@@ -94,20 +93,20 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     >>> jumps(sympy.atan(2 * sympy.tan(x / 2)), x, [x]), jumps(sympy.log(x), x, [1 / x])
     (True, False)
     """
-    y = _without_integrals(y, x)
+    y = _without_opaque_parts(y, x)
     if not _cuts_of(y, x):
         return False
-    with ctx.workprec(_BITS):
+    with working_precision(_BITS):
         return any(
             _Course(x, _with_roots(y.xreplace(numbers)), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere()
             for numbers in _letters(y.free_symbols - {x})
         )
 
 
-def _without_integrals(y: Expr, x: Expr) -> Expr:
-    """With an entire function for each integral: they are continuous, and any such function does in their place."""
-    integrals = sorted(y.atoms(sympy.Integral), key=str)
-    return y.xreplace({e: sympy.cos(x * (k + 1) / 3) for k, e in enumerate(integrals)})
+def _without_opaque_parts(y: Expr, x: Expr) -> Expr:
+    """With an entire function for each of them: the rest jumps, or doesn't, beside any continuous functions."""
+    parts = sorted((e for e in y.atoms(*_OPAQUE) if e.has(x)), key=str)
+    return y.xreplace({e: sympy.cos(x * (k + 1) / 3) for k, e in enumerate(parts)})
 
 
 def _with_roots(y: Expr) -> Expr:

@@ -78,7 +78,7 @@ def _basis(question: Question, pair: Pair) -> Basis:
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair[0].xreplace(plain), pair[1].xreplace(plain)
     y1, y2 = (solution_in_x(question.equation, y).xreplace(NUMBERS) for y in pair)
-    return Basis(y1, y2, question.x, question.equation)
+    return Basis(y1, y2, question.x, question.equation, question.own)
 
 
 def decide(question: Question, budget: Budget) -> Solution:

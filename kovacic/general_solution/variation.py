@@ -5,7 +5,7 @@ Integrals that aren't known stay as they are: SymPy's rules know hardly any othe
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -28,6 +28,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, prepared, radicands
+from kovacic.general_solution.special_integrals import without_crossings
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import finite_value, size, slope
 from kovacic.limits import check_time
@@ -39,7 +40,7 @@ _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (17
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
 #: Functions that appear with complex arguments, and how many of these are better than an integral.
-_COMPLEX = (sympy.Ei, sympy.erf, sympy.erfi, sympy.uppergamma, sympy.lowergamma)
+_COMPLEX = (sympy.Ei, sympy.expint, sympy.erf, sympy.erfi, sympy.uppergamma, sympy.lowergamma)
 _MOST_COMPLEX = 4
 #: C1 with C2 and C1 C2' - C1' C2.
 _PAIRS: dict[Any, tuple[Any, Any]] = {
@@ -70,12 +71,16 @@ class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
 
 @dataclass(frozen=True)
 class Basis:
-    """Two solutions of the homogeneous equation in x, which is that of `equation` unless this has another variable."""
+    """Two solutions of the homogeneous equation in x, which is that of `equation` unless this has another variable.
+
+    `own` puts the user's symbols, with what is known of them, into an expression.
+    """
 
     y1: Expr
     y2: Expr
     x: Expr
     equation: Equation
+    own: Callable[[Expr], Expr] = sympy.sympify
 
     @cached_property
     def wronskian(self) -> Expr:
@@ -173,7 +178,7 @@ class Basis:
     def at_once(self, right: Expr) -> Expr | None:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
         right = prepared(right)
-        parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
+        parts = [self._antiderivative(y * right / self.wronskian) for y in (self.y2, self.y1)]
         if any(part is None or part.has(sympy.Integral) for part in parts):
             return None
         if not _are_readable(parts):
@@ -198,7 +203,12 @@ class Basis:
         """Is it a solution, and without jumps at ordinary points?"""
         if self.equation.change is None and not is_solution(y, coefficients, right, self.x):
             return False
-        return not jumps(y, self.x, [*self.rates, right])
+        return not jumps(self.own(y), self.x, [self.own(e) for e in (*self.rates, right)])
+
+    def _antiderivative(self, integrand: Expr) -> Expr | None:
+        """With the exponential integrals that don't jump on the real axis."""
+        found = antiderivative(integrand, self.x)
+        return None if found is None else without_crossings(found, self.x, self.own)
 
     def _without_homogeneous(self, total: Expr) -> Expr:
         """A sum without the terms that are multiples of y1 or y2."""
@@ -236,7 +246,7 @@ class Basis:
         """The integrals that are known within the limits; none of them where they are harder to read than unknown ones."""
         known: list[Any] = [None for _ in integrands]
         with suppress(LimitExceeded):
-            known = [antiderivative(integrand, self.x) for integrand in integrands]
+            known = [self._antiderivative(integrand) for integrand in integrands]
         if _are_readable(known):
             return known
         return [None for _ in integrands]
