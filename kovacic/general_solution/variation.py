@@ -173,7 +173,7 @@ class Basis:
         u, v = (y.xreplace(series) for y in (self.y1, self.y2))
         if series and not u.has(sympy.hyper) and not v.has(sympy.hyper):
             W = u * v.diff(self.x) - u.diff(self.x) * v
-            yield expand(expand(W) / kernel).subs(self.x, 0)
+            yield powsimp(expand(expand(W) / kernel)).subs(self.x, 0)  # x^c x^(1 - c) x^-1 is 1
 
     def at_once(self, right: Expr) -> Expr | None:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
