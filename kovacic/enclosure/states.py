@@ -71,16 +71,16 @@ class AskedSolution:
             return raise_precision(self.journey, targets, None, self.digits, self.limits)
 
     def _on_kept_ways(self, targets: Sequence[Number]) -> tuple[PointValue, ...] | None:
-        """The values of an equation with a right-hand side, where its ways pay; None on all others."""
+        """The values of an equation with a right-hand side by power series; None on all others."""
         if self.journey.problem.right is None or self.method is not None:
             return None
-        from kovacic.enclosure.forced_ways import ways_of  # imports SymPy
+        from kovacic.enclosure.forced_ways import forced_journey, is_straight  # imports SymPy
 
-        ways = ways_of(self.journey)
-        if ways is None or not ways.pay(targets):
+        forced = forced_journey(self.journey)
+        if forced is None or not is_straight(self.journey, targets):
             return None
         try:
-            found = raise_precision(ways.journey, targets, None, self.digits, self.limits)
+            found = raise_precision(forced, targets, None, self.digits, self.limits)
         except InputError:
             # A right-hand side such as sqrt(x) from 0 on is integrated there, and has no power series.
             return None
