@@ -103,7 +103,7 @@ class _Latex:
                 self.command(token)
             elif token.text == "_":
                 self.index()
-            elif token.text.isdigit() and self.found and self.found[-1].text in _FRACTIONS:
+            elif token.kind == "NUMBER" and token.text.isdigit() and self.found and self.found[-1].text in _FRACTIONS:
                 self.digits(token)
             elif token.text not in LAYOUT:
                 self.found.append(token)

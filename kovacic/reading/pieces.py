@@ -442,6 +442,8 @@ class _Apart:
     def argument(self, part: list[Token], names: set[str]) -> bool:
         """An argument behind the equation; false where it says nothing that is read."""
         texts = [token.text for token in part]
+        if not part:
+            return False
         if texts[:1] in (["ivar"], ["func"], ["function"]) and texts[1:2] == ["="]:
             part = part[2:]
             texts = texts[2:]
