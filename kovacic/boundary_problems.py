@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
 from kovacic.exact import exact_text, whole
-from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
+from kovacic.general_solution.conditions import Condition, ConditionReader, Term, as_mapping
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
@@ -114,9 +114,12 @@ def read_eigenproblem(
     limits: Limits = DEFAULT_LIMITS,
 ) -> Eigenproblem:
     """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
-    linear = _linear(equation, var, parameter, dict(params or {}), limits)
+    values = {str(name): read_expression(exact_text(value, str(name))) for name, value in (params or {}).items()}
+    linear = _linear(equation, var, parameter, values, limits)
+    if not isinstance(conditions, Mapping | str | None):
+        raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
     reader = ConditionReader(linear.function, linear.function.func.__name__)
-    given = [reader.read(key, value) for key, value in as_mapping(conditions).items()]
+    given = [_with_values(reader.read(key, value), values) for key, value in as_mapping(conditions).items()]
     ends = _ends(given, domain)
     wrap, wishes = _wishes(given, ends)
     pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
@@ -138,10 +141,18 @@ class _Linear:
         return self.function.args[0]
 
 
-def _linear(equation: Any, var: str | None, parameter: str, params: dict[Any, Any], limits: Limits) -> _Linear:
+def _with_values(condition: Condition, values: Mapping[str, Expr]) -> Condition:
+    """With values for parameters in the points and in the coefficients."""
+    named = {sympy.Symbol(name): value for name, value in values.items()}
+    terms = (
+        Term(t.point.xreplace(named), t.order, sympy.sympify(t.coefficient).xreplace(named)) for t in condition.terms
+    )
+    return replace(condition, terms=tuple(terms))
+
+
+def _linear(equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits) -> _Linear:
     expression, function = _expression(equation, var, limits)
     x = function.args[0]
-    values = {str(name): read_expression(exact_text(value, str(name))) for name, value in params.items()}
     named = {s: values[s.name] for s in expression.free_symbols if s.name in values}
     expression = expression.xreplace(named)
     symbol = next((s for s in expression.free_symbols if s.name == parameter and s != x), None)

@@ -121,6 +121,16 @@ def test_what_has_no_levels_is_refused_with_the_reason(V, given, said):
         schroedinger(V, **given)
 
 
+def test_parameters_have_values_in_the_equation_and_in_the_conditions():
+    given = {"params": {"L": 2, "k": 1}, "count": 1, "digits": 8}
+    found = eigenvalues("y'' + (lambda - k)*y = 0", "y(0)=0, y(L)=0", **given)
+    assert abs(float(found[0].value) - 1 - (3.14159265358979 / 2) ** 2) < 1e-7
+    with pytest.raises(kovacic.InputError, match="the end L isn't one"):
+        eigenvalues("y'' + lambda*y = 0", "y(0)=0, y(L)=0")
+    with pytest.raises(kovacic.InputError, match="a text or a mapping"):
+        eigenvalues("y'' + lambda*y = 0", 5)
+
+
 def test_a_parameter_that_is_not_linear_is_refused():
     with pytest.raises(kovacic.InputError, match="linear in y and in k"):
         eigenvalues("y'' + k^2*y = 0", "y(0)=0, y(1)=0", parameter="k")
