@@ -18,7 +18,7 @@ from kovacic.sturm_liouville.solve import Eigenproblem
 
 _DIGITS = 8
 _BITS = 160
-_PARTS = 8
+_PARTS = 32
 """Points that are taken in a step."""
 
 
