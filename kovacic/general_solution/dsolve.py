@@ -35,6 +35,7 @@ from kovacic.general_solution.places import limit_points, real_basis_at, real_pa
 from kovacic.general_solution.question import Question, apart, has_floats, read_question
 from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.systems import read_system, solved_system
+from kovacic.general_solution.textbook import by_end_points, shortest
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -328,6 +329,9 @@ def _determined(question: Question, found: DecidedBasis, budget: Budget) -> tupl
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
     value = combination(question, basis, particular, generic.values)
+    if not set(names) & set().union(*(c.free_symbols for c in generic.values)):
+        y1, y2, y0 = (question.own(y) for y in (basis.y1, basis.y2, particular))
+        value = shortest([value, by_end_points(y1, y2, y0, question.conditions, question.x)])
     notices = _by_sign(question, found, particular, None)
     notices += check_answer(question, value, start, tuple(limits), natural=found.natural)
     return value, notices + [f"this holds unless {said}" for said in exceptions]

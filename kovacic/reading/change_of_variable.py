@@ -88,12 +88,42 @@ def in_x(equation: Equation, expression: Any) -> Any:
     with_integrals = _with_integrals_in_x(equation, expression)
     if is_power(equation):
         return _with_powers(with_integrals, own, t.exp, x)
-    result = with_integrals.xreplace({own: t})
+    result = _continued(with_integrals.xreplace({own: t}), t)
     if t.func in (sympy.cos, sympy.cosh):
         return _with_half_angles(result, t)
     if t.func is sympy.exp:
         return _with_joined_powers(result, x)
     return result
+
+
+#: For t(w): what an inverse function of t is, a polynomial q(t), and the function s with q(t) = s^2, where w is between 0 and
+#: pi/2.  Both sides are analytic, so that what holds there for solutions holds wherever they are continued.
+_INVERSES: dict[Any, dict[Any, Any]] = {
+    sympy.sin: {sympy.asin: lambda w: w, sympy.acos: lambda w: sympy.pi / 2 - w},
+    sympy.cos: {sympy.acos: lambda w: w, sympy.asin: lambda w: sympy.pi / 2 - w},
+    sympy.tan: {sympy.atan: lambda w: w},
+    sympy.sinh: {sympy.asinh: lambda w: w},
+    sympy.cosh: {sympy.acosh: lambda w: w},
+}
+_ROOTS: dict[Any, Any] = {
+    sympy.sin: (lambda t: 1 - t**2, sympy.cos, 1),
+    sympy.cos: (lambda t: 1 - t**2, sympy.sin, 1),
+    sympy.tan: (lambda t: 1 + t**2, sympy.cos, -1),
+    sympy.sinh: (lambda t: 1 + t**2, sympy.cosh, 1),
+    sympy.cosh: (lambda t: t**2 - 1, sympy.sinh, 1),
+}
+
+
+def _continued(expression: Any, t: Any) -> Any:
+    """With x for asin(sin(x)) and cos(x) for sqrt(1 - sin(x)^2), the analytic continuations, which SymPy's branches aren't."""
+    if t.func not in _ROOTS:
+        return expression
+    w = t.args[0]
+    for function, inverse in _INVERSES[t.func].items():
+        expression = expression.xreplace({function(t, evaluate=False): inverse(w)})
+    square, other, sign = _ROOTS[t.func]
+    powers = {e for e in expression.atoms(sympy.Pow) if e.base == square(t) and (2 * e.exp).is_Integer}
+    return expression.xreplace({e: other(w) ** (2 * sign * e.exp) for e in powers})
 
 
 def _with_integrals_in_x(equation: Equation, expression: Any) -> Any:
