@@ -34,6 +34,8 @@ _BEYOND = fmpq(37, 100)
 _BITS = 100
 _HALVINGS = 12
 _COMPARISONS = 12
+#: How many short intervals are compared between two points: a formula along the cut itself has hundreds, a jump a few.
+_MOST_SUSPECTS = 8
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
 
 
@@ -150,7 +152,11 @@ class _Course:
 
     def jumps_somewhere(self) -> bool:
         """Between two of the points that the arguments of its functions suggest."""
-        return any(self._jumps_between(a, b, _HALVINGS) for a, b in pairwise(self._points()))
+        for a, b in pairwise(self._points()):
+            suspects = islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS)
+            if any(self._jumps_within(*suspect) for suspect in suspects):
+                return True
+        return False
 
     def _points(self) -> list[Any]:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""
@@ -161,16 +167,23 @@ class _Course:
                 points |= {place - _BEYOND, place + _BEYOND}
         return sorted(points)
 
-    def _jumps_between(self, a: Any, b: Any, halvings: int) -> bool:
+    def _suspects(self, a: Any, b: Any, halvings: int) -> Iterator[tuple[Any, Any]]:
+        """The short intervals on which the formula isn't seen to be continuous."""
         check_time()
-        here = acb(arb(a).union(arb(b)))
-        if self._is_analytic(here, [self.y], self._cuts):
-            return False
+        if self._is_analytic(acb(arb(a).union(arb(b))), [self.y], self._cuts):
+            return
         if halvings == 0:
-            is_ordinary = self._is_analytic(here, self.coefficients, _cuts_of(sympy.Tuple(*self.coefficients), self.x))
-            return is_ordinary and any(self._differ(a, b, order) for order in (0, 1))
+            yield a, b
+            return
         middle = (3 * a + 4 * b) / 7
-        return self._jumps_between(a, middle, halvings - 1) or self._jumps_between(middle, b, halvings - 1)
+        yield from self._suspects(a, middle, halvings - 1)
+        yield from self._suspects(middle, b, halvings - 1)
+
+    def _jumps_within(self, a: Any, b: Any) -> bool:
+        """Is the equation regular on a short interval, and do y or y' differ at its ends?"""
+        here = acb(arb(a).union(arb(b)))
+        is_ordinary = self._is_analytic(here, self.coefficients, _cuts_of(sympy.Tuple(*self.coefficients), self.x))
+        return is_ordinary and any(self._differ(a, b, order) for order in (0, 1))
 
     def _is_analytic(self, here: Acb, functions: Sequence[Expr], cuts: Sequence[Expr]) -> bool:
         """Are all functions finite on a real ball, with no argument on a cut; or continuous along one?"""
