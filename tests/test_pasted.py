@@ -586,3 +586,8 @@ def test_given_functions_are_read_where_the_unknown_one_is_named() -> None:
 def test_systems_are_read_in_their_notations(text: str) -> None:
     first, second = kovacic.dsolve(text)
     assert (str(first), str(second)) == ("Eq(x(t), cos(t))", "Eq(y(t), -sin(t))")
+
+
+def test_a_value_declares_its_name() -> None:
+    expected = kovacic.evaluate("y'' + 2*y = 0", 1, x0=0, y0=1, dy0=0)
+    assert kovacic.evaluate("mass*y'' + k*y = 0", 1, x0=0, y0=1, dy0=0, params={"mass": 1, "k": 2}) == expected

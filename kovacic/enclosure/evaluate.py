@@ -317,7 +317,7 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
 def _prepared(equation: object, x0: object, options: Mapping[str, Any]) -> Prepared:
     """The solution, whether the coefficients are rational or any functions of x."""
     given: dict[str, Any] = {"x0": x0, **options}
-    equation = with_variable(equation, given.pop("var", None), given.get("limits"))
+    equation = with_variable(equation, given.pop("var", None), given.get("limits"), given.get("params"))
     start = {name: given.get(name) for name in ("x0", "y0", "dy0", "frobenius", "which")}
     if change_of(equation) is None:
         try:

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from kovacic.answer import Answer
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits, limits_of
+from kovacic.reading.names import words_among
 
 
-def with_variable(equation: object, var: object, limits: Limits | None = None) -> object:
+def with_variable(
+    equation: object, var: object, limits: Limits | None = None, params: Mapping[str, object] | None = None
+) -> object:
     """The equation, read with this name of its variable; as it was given where none is named."""
-    if var is None:
+    declared = words_among(params or ())
+    if var is None and not (declared and isinstance(equation, str)):
         return equation
     if isinstance(equation, Answer):
         if str(var) != equation.variable:
@@ -19,7 +25,7 @@ def with_variable(equation: object, var: object, limits: Limits | None = None) -
 
     limits = limits_of(limits)
     try:
-        return read_input(equation, var=var, limits=limits, exponentials=True)
+        return read_input(equation, var=var, limits=limits, exponentials=True, names=declared)
     except NotRational:
         from kovacic.enclosure.functions import as_written  # imports SymPy
 
