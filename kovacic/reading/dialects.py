@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise, zip_longest
 
 from kovacic.errors import ParseError
-from kovacic.limits import Limits
+from kovacic.limits import Limits, check_time
 from kovacic.reading.lexer import DERIVATIVES, Token, Tokens, check_length, has_dots, scanned, unexpected
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, is_function, unglued
 
@@ -219,6 +219,8 @@ _AT_POINT = [
 #: Function('y'), Symbol("x").
 _QUOTED = re.compile(r"(?:Function|function|Symbol|symbols|var)\(['\"](\w+)['\"]\)")
 _SECOND_INDEX = re.compile(r"([a-zA-Z])_([xtzsr])\2")
+#: A token takes some 30 calls of functions, and a look at the clock is due after some thousands.
+_TOKENS_BETWEEN_LOOKS = 100
 _MOST = 18  # tokens of what these patterns describe
 
 #: What names of Mathematica's and Maple's are.
@@ -282,6 +284,8 @@ class _Translation:
 
     def tokens(self) -> Tokens:
         while self.k < len(self.scan):
+            if self.k % _TOKENS_BETWEEN_LOOKS == 0:
+                check_time()
             self.close()
             token = self.scan[self.k]
             if self.k in self.skipped:
