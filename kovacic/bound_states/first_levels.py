@@ -8,8 +8,9 @@ from itertools import islice, product
 from typing import Any
 
 import sympy
-from flint import acb, ctx, fmpq
+from flint import acb, fmpq
 
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 from kovacic.bound_states.levels import Levels, Spectrum
 from kovacic.closed_form.jets import jet
@@ -59,7 +60,7 @@ def _is_false(y: Any, difference: Any, x: Any, found: Spectrum, chosen: Values) 
     if place is None or y.has(sympy.nan, sympy.zoo) or y.free_symbols - {x}:
         return False
     try:
-        with ctx.workprec(_PRECISION):
+        with working_precision(_PRECISION):
             point = acb(fmpq(place.numerator, place.denominator))
             value, _, second = jet(y, x, point)
             return not (second - jet(difference, x, point)[0] * value).contains(0)
