@@ -10,7 +10,7 @@ first: `kovacic.api`, then `kovacic.engine.decide`, where the cases are taken in
 
 from importlib import import_module
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 
 #: The public names by their modules; each is imported when it is first used, so that `import kovacic` costs nothing.
 #: (lazy_loader would do the same, but it and what it imports cost 8 ms at every start, ten times as much as this.)
