@@ -33,7 +33,7 @@ def test_the_equation_of_the_first_command_is_solved(capsys: pytest.CaptureFixtu
     command = blocks("sh")[0]
     arguments = shlex.split(command[command.index("kovacic solve") :])[1:]
     assert run(arguments) == 0
-    assert "case 3" in capsys.readouterr().out
+    assert "case 1" in capsys.readouterr().out
 
 
 def test_files_that_it_mentions_exist() -> None:
