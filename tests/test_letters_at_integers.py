@@ -107,3 +107,10 @@ def test_values_at_a_point_divide_by_the_wronskian_of_abel(a: str) -> None:
     exceptions = kovacic.validity(found).exceptions
     assert not any(exception.has(sympy.hyper) for exception in exceptions)
     assert len(str(found.rhs)) < 320
+
+
+def test_the_letter_i_is_a_parameter_and_said_to_be() -> None:
+    with pytest.warns(UserWarning, match="i is taken as a parameter: the imaginary unit is I"):
+        found = kovacic.dsolve("y'' = i*y").rhs
+    assert found.has(sympy.Symbol("i"))
+    assert kovacic.dsolve("y'' = i*y", parameters=["i"]).rhs == found
