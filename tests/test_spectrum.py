@@ -468,8 +468,11 @@ def test_the_only_name_is_the_variable_where_it_usually_is_one() -> None:
     assert in_r.text().splitlines()[1] == "  note: r is taken for the variable, of which V is a function"
     constant = kovacic.spectrum("c")
     assert (constant.variable, constant.parameters) == ("x", ("c",))
-    with pytest.raises(kovacic.InputError, match=r"which of Z, r is the variable\?\n  hint: name it: var='r'"):
-        kovacic.spectrum("-Z/r")
+    radial = kovacic.spectrum("l*(l+1)/r^2 - 2*Z/r", domain=HALF, assume={"l": ">=1", "Z": "positive"})
+    assert (radial.variable, {*radial.parameters}) == ("r", {"l", "Z"})
+    assert "r is taken for the variable" in radial.text()
+    with pytest.raises(kovacic.InputError, match=r"which of .* is the variable\?"):
+        kovacic.spectrum("a*b/c^2")
 
 
 def test_hints_speak_the_language_of_the_door(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -179,10 +180,16 @@ def _variable_of(expression: Any) -> _Variable:
     names = names_of(expression)
     if DEFAULT_VARIABLE in names or not names:
         return _Variable(DEFAULT_VARIABLE)
-    only = chosen_variable(names)
+    only = _usual_one(names) or chosen_variable(names)
     if only in USUAL_VARIABLES:
         return _Variable(only, (f"{only} is taken for the variable, of which V is a function",))
     return _Variable(DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",))
+
+
+def _usual_one(names: Sequence[str]) -> str | None:
+    """The only name that usually is a variable, as r in l (l+1)/r^2 - Z/r; None without one, or if x is among the names."""
+    usual = [name for name in names if name in USUAL_VARIABLES and name.islower()]
+    return usual[0] if len(usual) == 1 and DEFAULT_VARIABLE not in names else None
 
 
 def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _Potential:
@@ -207,6 +214,9 @@ def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) 
 def _as_written(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _Potential:
     """The potential as text, as an expression, or as a number."""
     if isinstance(V, str):
+        if var is None:
+            with suppress(InputError):  # with the position, below
+                var = _usual_one(names_of(read_expression(V)))
         source = source_of(V, var, SYMBOLIC, names=(*names, energy))
         if source.unknown:
             raise InputError(
