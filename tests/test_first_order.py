@@ -108,6 +108,8 @@ def test_values_at_a_singular_point() -> None:
     assert kovacic.dsolve("x*y' = 2*y, y(0) = 0").rhs == sympy.Symbol("C1") * x**2
     with pytest.raises(kovacic.InputError, match="no solution with this value at 0, a singular point"):
         kovacic.dsolve("x*y' = 2*y, y(0) = 1")
+    with pytest.raises(kovacic.InputError, match="at most one solution is finite at 0, a singular point"):
+        kovacic.dsolve("x*y' + y = sin(x), y(0) = 1")
 
 
 def test_letters_in_denominators_are_named() -> None:

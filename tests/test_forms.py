@@ -212,6 +212,28 @@ def test_the_derivatives_of_bessel_functions() -> None:
     assert kovacic.dsolve(equation).rhs.has(sympy.besselj(1, x))
 
 
+# ------------------------------------------------------------------------------------------ lengths
+
+
+@pytest.mark.parametrize("k", [15, 35, -41])
+def test_short_pairs_in_error_functions_stay(k: int) -> None:
+    """y'' = (x^2 + k) y: polynomials times exp(+-x^2/2), and erf or erfi, in fewer than 1,000 characters."""
+    pair = kovacic.solve(f"x^2 + {k}").solutions
+    assert pair[1].has(sympy.erf, sympy.erfi)
+    assert not any(y.has(sympy.hyper) for y in pair)
+
+
+def test_legendre_functions_stay_logarithms() -> None:
+    """Of degree 20, in fewer than 1,000 characters."""
+    assert kovacic.solve("(1-x^2)*y'' - 2*x*y' + 420*y = 0").solutions[1].has(sympy.log)
+
+
+def test_a_short_pair_is_independent_where_both_solutions_grow() -> None:
+    """y z' and y' z agree in more than 30 digits at the point where the Wronskian is shown not to be zero."""
+    pair = kovacic.solve("(11445*x^2 - 34326*x + 22877)/(4*(x-1)*(x-2))^2").solutions
+    assert sum(len(str(y)) for y in pair) < 200
+
+
 # ------------------------------------------------------------------------------------------ all doors
 
 

@@ -30,7 +30,8 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
     count, wanted = whole(levels, "levels", least=1), whole(digits, "digits", least=1)
     if found.parameters:
         names = ", ".join(found.parameters)
-        raise InputError(f"numeric levels need values of {names}", hint='assume={"a": 2} gives values')
+        hint = f'assume={{"{found.parameters[0]}": 2}} gives a value'
+        raise InputError(f"numeric levels need values of {names}", hint=hint)
     if found.needs_boundary_condition:
         return replace(found, numeric=Eigenvalues((), False, found.energy, ("a boundary condition is needed",)))
     problem = None

@@ -68,9 +68,17 @@ class Triangular:
     def length(self) -> int:
         if isinstance(self.primitive, OpenPrimitive):
             return 2 * self.first.length + self.bare.length
-        # y1 stands before each logarithm, error function, ...
         parts = primitive_parts(self.primitive)
-        return self.first.length * (1 + len(parts)) + written_length(parts)
+        length = self.first.length + written_length(parts)
+        # y1 stands before each logarithm, error function, ...; the denominator of the rational part cancels with it.
+        if isinstance(self.primitive, RationalPrimitive):
+            exact, residues = self.primitive.parts.exact, self.primitive.parts.residues
+            logarithms = len({str(residue.value * residue.value) for residue in residues})  # c log u - c log v is one
+            return length + self.first.length * logarithms - written_length([exact.den])
+        if isinstance(self.primitive, ExponentialPrimitive):
+            functions = len(self.primitive.terms) + len(self.primitive.poles)
+            return length + self.first.length * functions - written_length([self.primitive.W.den])
+        return length + self.first.length * len(parts)
 
 
 @dataclass(frozen=True)

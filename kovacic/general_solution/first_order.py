@@ -274,17 +274,13 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
 def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, value: GivenValue, free: Expr) -> Expr:
     """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a."""
     x = equation.x
+    if not equation.is_regular_at(value.point) and not is_finite(h.subs(x, value.point)):
+        raise InputError(f"at most one solution is finite at {value.point}, a singular point of the equation")
     rest = value.v - value_at(particular, x, value.point)
-    if not equation.is_regular_at(value.point):
-        if not is_finite(h.subs(x, value.point)):
-            raise InputError(f"only one solution is finite at {value.point}, a singular point of the equation")
-        there = value_at(h, x, value.point)
-        if is_zero(there):
-            if not is_zero(rest):
-                raise InputError(
-                    f"there is no solution with this value at {value.point}, a singular point of the equation"
-                )
-            return free
+    if not equation.is_regular_at(value.point) and is_zero(value_at(h, x, value.point)):
+        if not is_zero(rest):
+            raise InputError(f"there is no solution with this value at {value.point}, a singular point of the equation")
+        return free
     return sympy.powsimp(rest / value_at(h, x, value.point))
 
 
