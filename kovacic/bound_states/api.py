@@ -282,8 +282,9 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     if examined.needs_boundary_condition:
         if not any(end.oscillates for end in examined.ends):
             return _answered(question.with_friedrichs_condition(), max_degree, budget)
-        return _without_condition(examined)
-    oscillating = _oscillating_end(examined)
+        # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
+        return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
+    oscillating = next((end for end in examined.ends if end.oscillates and end.circle is False), None)
     if oscillating is not None:
         reason = f"no solution is square integrable at {oscillating.at}"
         return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
@@ -297,11 +298,6 @@ def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spe
     return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
 
 
-def _oscillating_end(examined: _Examined) -> End | None:
-    """One at which no solution is square integrable."""
-    return next((end for end in examined.ends if end.oscillates and end.circle is False), None)
-
-
 def _without_formula(examined: _Examined, why: Uncovered, max_degree: int, budget: Budget) -> Spectrum:
     """Where the equation is no standard one: from another potential, or one level at a time."""
     question = examined.question
@@ -310,7 +306,12 @@ def _without_formula(examined: _Examined, why: Uncovered, max_degree: int, budge
         return transformed
     wall = next((end.at for end in examined.ends if end.is_ordinary), None)
     if wall is not None:
-        return examined.spectrum(reason=f"undecided: {_at_a_wall(question, wall)}")
+        where = f"{question.variable} = {caret(str(question.plain(wall)))}"
+        reason = (
+            f"undecided: the levels are the energies for which a solution vanishes at {where}, an ordinary point; a formula "
+            "is known where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
+        )
+        return examined.spectrum(reason=reason)
     if _is_circular(question):
         raise why
     return _one_by_one(examined, str(why), max_degree, budget)
@@ -328,19 +329,6 @@ def _examined(question: SpectralProblem, ends: Sequence[End]) -> _Examined:
         relation = sympy.true if signs.holds(circle) else tidied([circle], signs)[0]
         excluded[relation] = None
     return _Examined(question, tuple(ends), tuple(excluded))
-
-
-def _without_condition(examined: _Examined) -> Spectrum:
-    """Where solutions oscillate at an end, so that no boundary condition is distinguished, and none was given."""
-    return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
-
-
-def _at_a_wall(question: SpectralProblem, at: Any) -> str:
-    where = f"{question.variable} = {caret(str(question.plain(at)))}"
-    return (
-        f"the levels are the energies for which a solution vanishes at {where}, an ordinary point; a formula is known "
-        "where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
-    )
 
 
 def _transformed(examined: _Examined, max_degree: int, budget: Budget) -> Spectrum | None:

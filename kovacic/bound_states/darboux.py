@@ -63,7 +63,8 @@ def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[Dar
         return
     q = sympy.Mul(*poles.apparent)
     for sign in (-1, 1):
-        for exponents in _exponents(poles.regular):
+        for choice in product((1, -1), repeat=len(poles.regular)):
+            exponents = {pole: (1 + s * pole.delta) / 2 for s, pole in zip(choice, poles.regular, strict=True)}
             terms = [e / (x - pole.c) for pole, e in exponents.items()]
             W = sympy.together(-sympy.diff(q, x) / q + sympy.Add(*terms) + sign * line)
             energy = sympy.cancel(sympy.together(V - W**2 - sympy.diff(W, x)))
@@ -74,12 +75,6 @@ def steps(V: Any, x: Any, domain: tuple[Any, Any], signs: Signs) -> Iterator[Dar
             is_level = _is_level(sign, exponents, domain, signs)
             if is_level is not None:
                 yield DarbouxStep(W, energy, wave, is_level)
-
-
-def _exponents(poles: list[_Regular]) -> Iterator[dict[_Regular, Any]]:
-    """One of its two exponents for each pole, in all ways."""
-    for signs in product((1, -1), repeat=len(poles)):
-        yield {pole: (1 + sign * pole.delta) / 2 for sign, pole in zip(signs, poles, strict=True)}
 
 
 def _line(V: Any, x: Any, signs: Signs) -> Any:

@@ -344,7 +344,8 @@ def _finite(place: _Place, signs: Signs) -> End:
     is_ordinary = square == sympy.Rational(1, 4)
     if known:
         return End(at, True, f"{where}: {said}", is_ordinary=is_ordinary)
-    relation = _relation(tidied([circle], signs)[0])
+    condition = tidied([circle], signs)[0]
+    relation = f"{caret(as_text(condition.lhs))} {condition.rel_op} {caret(as_text(condition.rhs))}"
     return End(at, circle, f"{where}: {said} where {relation}", is_ordinary=is_ordinary)
 
 
@@ -370,10 +371,6 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
     sign = signs.sign(root)
     size = sympy.Abs(root) if sign is None else sign * root
     return tidied([sympy.Lt(size, 1)], signs)[0]
-
-
-def _relation(relation: Any) -> str:
-    return f"{caret(as_text(relation.lhs))} {relation.rel_op} {caret(as_text(relation.rhs))}"
 
 
 def _powers(distance: Any, square: Any) -> str:

@@ -114,20 +114,14 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
     """
     unknown = [root for root in roots if root.unknown and equation.has(root.value)]
     if not unknown:
-        yield from _solved_without_roots(equation, E)
+        if equation.has(E):
+            yield from (Solved(shortest(energy), {}) for energy in _zeros(equation, E))
     elif len(unknown) == 1:
         yield from _solved_with_root(equation, unknown[0], E)
     elif len(unknown) == 2:
         yield from _solved_with_two_roots(equation, unknown[0], unknown[1], E)
     else:
         raise Uncovered("more than two exponents depend on the energy")
-
-
-def _solved_without_roots(equation: Any, E: Any) -> Iterator[Solved]:
-    """The zeros of a function of E."""
-    if equation.has(E):
-        for energy in _zeros(equation, E):
-            yield Solved(shortest(energy), {})
 
 
 def _solved_with_root(equation: Any, root: Root, E: Any) -> Iterator[Solved]:

@@ -136,7 +136,7 @@ def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
 
     A pair of complex conjugate roots has one sign, since n is real.
     """
-    are_complex = [k for k, root in enumerate(roots) if _is_complex(root)]
+    are_complex = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
     if len(are_complex) == 1:
         return  # n isn't real
     if len(are_complex) == 3:
@@ -151,11 +151,6 @@ def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
         choice = [*chosen]
         choice[second] = conjugate(choice[first])
         yield choice
-
-
-def _is_complex(root: Root) -> bool:
-    """Isn't it real?  An unknown root is."""
-    return not root.unknown and bool(root.value.has(sympy.I))
 
 
 def _signed(k: int, spots: tuple[Spot, ...], roots: list[Root]) -> list[Any]:

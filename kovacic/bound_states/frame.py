@@ -321,7 +321,8 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], at: Mapping[str, Any], s
     spots: list[Spot] = []
     rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
     for place in problem.places:
-        for point, square in _points(place, signs):
+        for point in _roots(place, signs):
+            square = _square(place, point, signs)
             mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
             roles = _roles(point, at)
             if place.kind is not Kind.ORDINARY or mu or roles:
@@ -419,12 +420,6 @@ def _same(first: Any, second: Any) -> bool:
     if sympy.oo in (first, second):
         return bool(first == second)
     return bool(sympy.simplify(first - second) == 0)
-
-
-def _points(place: Place, signs: Signs) -> Iterator[tuple[Any, Any]]:
-    """The points of a place, each with delta^2; conjugate points one by one."""
-    for point in _roots(place, signs):
-        yield point, _square(place, point, signs)
 
 
 def _square(place: Place, point: Any, signs: Signs) -> Any:

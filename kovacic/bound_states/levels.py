@@ -277,13 +277,9 @@ class Spectrum:
             for k, level in enumerate(self.numeric[:count])
         ]
         first, last = (float(end.xreplace(at)) for end in self.domain)
-        return draw_levels(
-            function(self.potential), levels, (first, last), variable=self.variable, title=self._title(at)
-        )
-
-    def _title(self, at: Mapping[Any, Any]) -> str:
         kinetic = "" if self.kinetic == 1 else f"{_text(self.kinetic.xreplace(at))} "
-        return f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential.xreplace(at))}"
+        title = f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential.xreplace(at))}"
+        return draw_levels(function(self.potential), levels, (first, last), variable=self.variable, title=title)
 
     def _check_admitted(self, at: Mapping[Any, Any]) -> None:
         """Raises `InputError` for values that the spectrum excludes."""

@@ -51,7 +51,7 @@ def with_closed_forms(
         return found
     possible = _possible(found, conditions)
     if possible is not None:
-        others = possible - _listed(found)
+        others = possible - _polynomials((one.polynomial for one in found.algebraic), found.energy)
         if all(map(is_excluded, others)):
             reason = _reason(found, conditions, others)
             return replace(found, closed_forms_complete=True, reason=reason, hint="", shell="")
@@ -85,11 +85,6 @@ def _conditions(parsed: Parsed, known: Assumptions, limits: Limits) -> Parametri
     return conditions
 
 
-def _listed(found: Spectrum) -> set[Any]:
-    """The irreducible polynomials whose zeros are the levels that were found."""
-    return _polynomials((one.polynomial for one in found.algebraic), found.energy)
-
-
 def _possible(found: Spectrum, conditions: ParametricAnswer) -> set[Any] | None:
     """The irreducible polynomials of which the energies with a closed form are real zeros; None where they aren't known."""
     if not conditions.regions:
@@ -103,11 +98,7 @@ def _possible(found: Spectrum, conditions: ParametricAnswer) -> set[Any] | None:
     if any(function.free_symbols != {E} for function in functions):
         return None
     polynomials = _polynomials(functions, found.energy)
-    return {polynomial for polynomial in polynomials if _has_real_zero(polynomial, E)}
-
-
-def _has_real_zero(polynomial: Any, E: Any) -> bool:
-    return bool(sympy.Poly(polynomial, E).count_roots())
+    return {polynomial for polynomial in polynomials if sympy.Poly(polynomial, E).count_roots()}
 
 
 def _zeros_of(statement: Statement) -> list[Any] | None:

@@ -35,14 +35,11 @@ def on_real_circle(real: RealPotential) -> RealPotential:
     offset = sympy.expand(original.offset / sympy.I)
     value = (1 + sympy.I * t) / (1 - sympy.I * t)
     V = sympy.cancel(sympy.together(real.V.xreplace({t: value})), extension=sympy.I)
-    return RealPotential(_with_real_parts(V, t), Original(original.x, "tan", rate / 2, offset / 2), t, real.kinetic)
-
-
-def _with_real_parts(V: Any, t: Any) -> Any:
-    """A real function whose numerator and denominator have a complex factor in common, without it."""
+    # V is real, but its numerator and denominator may have a complex factor in common.
     num, den = sympy.fraction(sympy.together(V))
     scale = sympy.Poly(den, t).LC()
-    return sympy.expand(sympy.expand(num / scale)) / sympy.expand(sympy.expand(den / scale))
+    V = sympy.expand(sympy.expand(num / scale)) / sympy.expand(sympy.expand(den / scale))
+    return RealPotential(V, Original(original.x, "tan", rate / 2, offset / 2), t, real.kinetic)
 
 
 def check_poles(real: RealPotential, signs: Signs) -> None:

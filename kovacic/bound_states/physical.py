@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.levels import Algebraic, Levels, Spectrum
+from kovacic.bound_states.levels import Algebraic, Spectrum
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.reading.quotients import expression_of
@@ -46,13 +46,10 @@ class Schroedinger:
             found,
             potential=self.V,
             kinetic=k,
-            levels=tuple(map(self._levels, found.levels)),
+            levels=tuple(replace(one, energy=_simple(k * one.energy)) for one in found.levels),
             algebraic=tuple(self._algebraic(one, energy) for one in found.algebraic),
             notices=(*found.notices, note) if note else found.notices,
         )
-
-    def _levels(self, levels: Levels) -> Levels:
-        return replace(levels, energy=_simple(self.kinetic * levels.energy))
 
     def _algebraic(self, one: Algebraic, energy: Any) -> Algebraic:
         scaled = {energy: energy / self.kinetic}

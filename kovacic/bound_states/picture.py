@@ -61,7 +61,8 @@ def draw_levels(
     first, last = _window(levels, domain)
     x = np.linspace(first, last, _POINTS)[1:-1]
     energies = [level.energy for level in levels]
-    spread = (max(energies) - min(energies)) / max(len(levels) - 1, 1) or max(abs(energies[0]), 1.0)
+    ground = min(energies)
+    spread = (max(energies) - ground) / max(len(levels) - 1, 1) or max(abs(energies[0]), 1.0)
     figure = Figure(figsize=(8, 5.5), layout="constrained")
     axes = figure.add_subplot()
     V = _values(potential, x)
@@ -72,16 +73,13 @@ def draw_levels(
         (line,) = axes.plot(x, level.energy + y, lw=1.3, label=level.label)
         axes.fill_between(x, level.energy, level.energy + y, color=line.get_color(), alpha=0.15, lw=0)
         axes.axhline(level.energy, color=line.get_color(), lw=0.7, ls="--")
-    bottom = min(min(energies) - spread, _lowest(V, min(energies), spread))
+    bottom = ground - spread
+    finite = V[np.isfinite(V)]
+    if finite.size:  # V may not be bounded below
+        bottom = min(bottom, float(max(finite.min() - 0.1 * spread, ground - 6 * spread)))
     axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, max(energies) + spread), title=title)
     axes.legend(loc="upper right", fontsize=9)
     return figure
-
-
-def _lowest(V: Any, ground: float, spread: float) -> float:
-    """The least value of V, but not far below the ground state, where V isn't bounded below."""
-    finite = V[np.isfinite(V)]
-    return float(max(finite.min() - 0.1 * spread, ground - 6 * spread)) if finite.size else ground
 
 
 def _values(function: Function, x: Any) -> Any:

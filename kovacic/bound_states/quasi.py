@@ -156,7 +156,10 @@ def _degrees(problem: Problem, energy: str) -> Iterator[Poly]:
     """
     if any(place.kind is Kind.RAMIFIED for place in problem.places):
         raise Uncovered("at a ramified singular point no solution has a polynomial in it")
-    found = None if _has_many_conjugates(problem, energy) else choices(problem)
+    # Over a field with parameters beside E, factoring takes minutes where there are more poles than one pair.
+    beside = set(parameters_of(problem.field)) - {energy}
+    is_long = bool(beside) and prod(place.degree for place in problem.finite_places) > _CONJUGATES
+    found = None if is_long else choices(problem)
     if found is None:
         raise Uncovered("the exponents need too large an extension of the field")
     yield from _over_field(found, problem.field)
@@ -168,12 +171,6 @@ def _over_field(found: Iterable[Exponents], field: Field) -> Iterator[Poly]:
         degree = _over_base(choice.degree, field)
         if degree is not None:
             yield degree
-
-
-def _has_many_conjugates(problem: Problem, energy: str) -> bool:
-    """Are there more poles than one pair outside of a field with parameters beside E, where factoring takes minutes?"""
-    beside = set(parameters_of(problem.field)) - {energy}
-    return bool(beside) and prod(place.degree for place in problem.finite_places) > _CONJUGATES
 
 
 def degree_beyond(S: RatFunc, d: int, budget: Budget) -> int | None:
@@ -251,16 +248,12 @@ def _decay(choice: Exponents, end: End, demands: Ends) -> list[Any]:
 def _part_at(end: End, choice: Exponents, signs: Signs) -> LocalPart:
     """What is chosen at an end.  Raises `Uncovered` where that is an ordinary point."""
     for part in choice.parts:
-        if _point_of(part, signs) == end.point:
+        point = sympy.oo
+        if part.factor is not None:
+            point = signs.real(sympy.simplify((-part.factor[0]).to_sympy(sympy.Dummy("x"))))
+        if point == end.point:
             return part
     raise Uncovered(f"x = {end.at} is an ordinary point")
-
-
-def _point_of(part: LocalPart, signs: Signs) -> Any:
-    """The value of t that it belongs to."""
-    if part.factor is None:
-        return sympy.oo
-    return signs.real(sympy.simplify((-part.factor[0]).to_sympy(sympy.Dummy("x"))))
 
 
 def _found(

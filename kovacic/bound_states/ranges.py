@@ -26,7 +26,8 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
     meanings = dict(radicals or {})
-    squares = _squares_of_roots(meanings)
+    squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
+    squares = {symbol: square for symbol, square in squares.items() if not _has_radicals(square)}
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
     found = []
     implied = {sympy.true}
@@ -39,12 +40,6 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
             found.append(_solved(squared, signs))
             implied |= {_solved(sympy.Ge(square, 0), signs) for square in squares.values()}
     return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
-
-
-def _squares_of_roots(meanings: Mapping[Any, Any]) -> dict[Any, Any]:
-    """The squares of those symbols for roots whose squares have no roots in them."""
-    squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
-    return {symbol: square for symbol, square in squares.items() if not _has_radicals(square)}
 
 
 def _has_radicals(expression: Any) -> bool:
@@ -130,13 +125,9 @@ def _pair(first: Any, second: Any, signs: Signs) -> Any:
     st = sympy.simplify(s * (total - difference) / 2)
     if st.has(n) or sympy.degree(sympy.numer(sympy.together(s)), n) != 1:
         return None
-    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(_size(st, signs))))
-
-
-def _size(value: Any, signs: Signs) -> Any:
-    """|value|, without the bars where its sign is known."""
-    sign = signs.sign(value)
-    return sympy.Abs(value) if sign is None else sign * value
+    sign = signs.sign(st)
+    size = sympy.Abs(st) if sign is None else sign * st
+    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(size)))
 
 
 def _solved(condition: Any, signs: Signs) -> Any:

@@ -85,7 +85,10 @@ class Signs:
     def _known(self, expression: Any, question: str) -> bool | None:
         """What SymPy says in the first of the charts in which it says something."""
         for values in self._charts():
-            for form in _forms(sympy.sympify(expression).xreplace(values)):
+            factored = sympy.factor(sympy.together(sympy.sympify(expression).xreplace(values)))
+            # As a product of sums of products, and in factors.
+            expanded = sympy.Mul(*map(_expanded, sympy.Mul.make_args(factored)), evaluate=False)
+            for form in (expanded, factored):
                 found = getattr(form, question)
                 if found is not None:
                     return bool(found)
@@ -96,13 +99,6 @@ class Signs:
         symbols = [self.symbols[name] for name in self._bounds]
         for chosen in product(*self._bounds.values()):
             yield {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
-
-
-def _forms(expression: Any) -> tuple[Any, Any]:
-    """As a product of sums of products, and in factors."""
-    factored = sympy.factor(sympy.together(expression))
-    expanded = map(_expanded, sympy.Mul.make_args(factored))
-    return sympy.Mul(*expanded, evaluate=False), factored
 
 
 def _expanded(factor: Any) -> Any:

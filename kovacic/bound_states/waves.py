@@ -188,7 +188,7 @@ def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], sig
     z = frame.z
     order = _ordered(frame, roots)
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
-    if _is_negative_line(w_of_z, z):
+    if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
         order[0], order[1] = order[1], order[0]
         w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     first, second, third = (_Point(frame.spots[k], deltas[k]) for k in order)
@@ -202,11 +202,6 @@ def _on_domain(frame: SingularFrame, norm: Any) -> Any:
     """The norm on the whole domain from that on its right half, where the problem is one on this half."""
     tidy = _tidy(norm)
     return tidy if frame.fold is None else 2 * tidy
-
-
-def _is_negative_line(w: Any, z: Any) -> bool:
-    """Is w = -i z, or -i/z?"""
-    return any(sympy.cancel(w + sympy.I * form) == 0 for form in (z, 1 / z))
 
 
 def _argument(frame: SingularFrame, w: Any) -> Any:

@@ -149,7 +149,9 @@ def _number(e: Any) -> acb | None:
     if e.is_Rational:
         return acb(arb(fmpq(int(e.p), int(e.q))))
     if e.is_Float:
-        return _exact(e)
+        sign, mantissa, exponent, _ = e._mpf_
+        signed = -int(mantissa) if sign else int(mantissa)
+        return acb(arb((signed, int(exponent))))
     if e is sympy.I:
         return acb(0, 1)
     if e in _CONSTANTS:
@@ -164,13 +166,6 @@ def _number(e: Any) -> acb | None:
 def _coarse_value(root: Any) -> complex:
     """A root of a polynomial to a few digits: which one it is."""
     return complex(root.evalf(15))
-
-
-def _exact(number: Any) -> acb:
-    """The dyadic number that a float of SymPy is."""
-    sign, mantissa, exponent, _ = number._mpf_
-    signed = -int(mantissa) if sign else int(mantissa)
-    return acb(arb((signed, int(exponent))))
 
 
 def _check_series() -> None:

@@ -69,7 +69,8 @@ class _Evaluator(BallEvaluator):
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.values, a: root})(e.fun.expr) for root in self._roots(e.poly)))
-        if _is_antiderivative(e):
+        is_complete = isinstance(e, sympy.elliptic_e) and len(e.args) == 1  # E(m), which is no integral up to x
+        if isinstance(e, ANTIDERIVATIVES) and not is_complete:
             slope = _lifted(self(e.diff(next(iter(self.values)))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, sympy.Abs | sympy.sign | sympy.Heaviside):
@@ -143,12 +144,6 @@ class _Evaluator(BallEvaluator):
                 return _with_real_roots(acb_poly([precise(c) for c in coefficients]), tolerance)
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
         return [root for root, _ in complex_zeros(fmpz_poly([int(c) for c in integers]))]
-
-
-def _is_antiderivative(e: Any) -> bool:
-    """Is it an integral, up to a constant?  E(m), which is complete, isn't."""
-    is_complete = isinstance(e, sympy.elliptic_e) and len(e.args) == 1
-    return isinstance(e, ANTIDERIVATIVES) and not is_complete
 
 
 def _mathieu_values(arguments: Sequence[Any]) -> tuple[Acb, Acb, Acb, Acb]:

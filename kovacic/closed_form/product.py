@@ -164,7 +164,8 @@ def grouped(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
     fractional: dict[Poly, list[Factor]] = {}
     integral: dict[Poly, list[Poly]] = {}
     for factor in found:
-        if _is_integer(factor.exponent):
+        value = factor.exponent.field.rational_value(factor.exponent)
+        if value is not None and value.denominator == 1:
             integral.setdefault(factor.exponent, []).append(factor.base)
         else:
             fractional.setdefault(factor.key, []).append(factor)
@@ -176,11 +177,6 @@ def grouped(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
                 integral.setdefault(factor.exponent - exponent, []).append(factor.base)
         powers.append((_joined([factor.base for factor in group]), exponent))
     return powers + [([base], exponent) for exponent, bases in integral.items() for base in _joined(bases)]
-
-
-def _is_integer(exponent: Poly) -> bool:
-    value = exponent.field.rational_value(exponent)
-    return value is not None and value.denominator == 1
 
 
 def _joined(bases: list[Poly]) -> list[Poly]:

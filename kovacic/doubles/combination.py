@@ -151,7 +151,7 @@ def combination(
         first, second = (omega(known, which, base, _PREC) for which in (0, 1))
         gap = first - second
         factors = [(dy - second * y) / gap, (first * y - dy) / gap]
-        if not all(map(_is_safe, factors)):
+        if any(factor.contains(0) or not factor.is_finite() for factor in factors):
             return None
         are_conjugate = not first.imag.contains(0)
         used = (0,) if are_conjugate else (0, 1)
@@ -167,11 +167,6 @@ def _with_certificate(problem: NumericProblem) -> NumericProblem | None:
     known = decided(problem, _UNKNOWN)
     closed = None if known is None else closed_form_of(known)
     return known if closed is not None and closed.is_elementary else None
-
-
-def _is_safe(factor: acb) -> bool:
-    """Can it be told from 0, and is it finite?"""
-    return not factor.contains(0) and factor.is_finite()
 
 
 def _with_factors(

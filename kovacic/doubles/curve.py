@@ -99,15 +99,11 @@ def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> CurveCoeffi
     for k, point in enumerate(points):
         if k % 32 == 0:
             check_time()
-        rows.append(_at(chart, point))
+        a, b, c = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
+        slope_of_b = b[1] - b[0] * a[1]
+        rows.append((b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]))
     beta, S = np.array(rows).T
     return CurveCoefficients(np.array([float(point.re) for point in points]), beta, S)
-
-
-def _at(chart: PieceChart, point: ExactPoint) -> tuple[float, float]:
-    a, b, c = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
-    slope_of_b = b[1] - b[0] * a[1]
-    return b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]
 
 
 def arcs(

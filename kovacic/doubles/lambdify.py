@@ -253,9 +253,10 @@ class _Job:
             return replace(plain, careful=careful)  # the factors are the same
         if isinstance(plain, Combination):
             return replace(plain, careful=careful)
-        found = self._combination()
-        if found is not None:
-            return replace(found, careful=careful)
+        if self.start and isinstance(self.chart, RationalChart):
+            found = combination(self.chart, self.region, self.candidates, self.limits)
+            if found is not None:
+                return replace(found, careful=careful)
         form = self._product_form(careful)
         if form is not None:
             return replace(form, careful=careful)
@@ -268,11 +269,6 @@ class _Job:
             return None
         with working_precision(_PREC):
             return product_form(self.chart.problem, self.number, self.region, self.base, careful)
-
-    def _combination(self) -> Combination | None:
-        if not self.start or not isinstance(self.chart, RationalChart):
-            return None
-        return combination(self.chart, self.region, self.candidates, self.limits)
 
     def measured(self, function: Function) -> Measured | str:
         """The error of the function, or why it isn't known."""

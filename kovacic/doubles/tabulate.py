@@ -527,7 +527,11 @@ def _equations(chart: PieceChart, cells: list[Cell], terms: int) -> list[list[li
     for k, (centre, e) in enumerate(cells):
         if k % 32 == 0:
             check_time()
-        found.append(_local(chart, ExactPoint(centre), e, terms))
+        point = ExactPoint(centre)
+        if chart.is_regular(point, e):
+            found.append(chart.local(point, e, terms))
+        else:  # too near to a singular point: not numbers
+            found.append([[arb(1)], [], [arb("nan")]])
     return found
 
 
@@ -538,13 +542,6 @@ def _source(chart: PieceChart, cell: Cell, a: list[arb], terms: int) -> list[arb
     values = [[chart.source(ExactPoint(centre), e, u) * arb_poly(a)(u)] for u in nodes]
     coefficients: list[arb] = (inverse * arb_mat(values)).entries()
     return coefficients
-
-
-def _local(chart: PieceChart, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-    """The coefficients on a piece; not numbers where it is too near to a singular point."""
-    if not chart.is_regular(centre, e):
-        return [[arb(1)], [], [arb("nan")]]
-    return chart.local(centre, e, terms)
 
 
 @lru_cache

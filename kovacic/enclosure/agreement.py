@@ -275,20 +275,15 @@ def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreem
     contradiction = _contradiction(possible, group, fuchsian)
     if contradiction is not None:
         return Agreement(False, f"{contradiction} {group}")
-    if group.kind is GroupKind.SL2:
-        return _density(possible)
+    if group.kind is GroupKind.SL2:  # only a group in no proper algebraic subgroup is dense
+        if possible.reducible or possible.monomial or possible.primitive():
+            return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
+        return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
     if not fuchsian:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
     if _may_be_smaller(possible, group):
         return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
     return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
-
-
-def _density(possible: _Possible) -> Agreement:
-    """Is the monodromy dense in SL2, that is in no proper algebraic subgroup?"""
-    if possible.reducible or possible.monomial or possible.primitive():
-        return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
-    return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
 
 
 def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | None:

@@ -74,16 +74,12 @@ class Forcing:
                     hint="choose a point beside it",
                 )
         for function in (self.rational, self.over):
-            self._check_poles(function, a, b)
+            if self.embedded is None:
+                check_segment(System.of(function), a, b)
+            else:
+                check_apart((root for root, _ in self.embedded.poles(function)), to_acb(a), to_acb(b))
         if self.function is not None:
             self._check_analytic(to_acb(a), to_acb(b))
-
-    def _check_poles(self, function: RatFunc, a: ExactPoint, b: ExactPoint) -> None:
-        """Raise InputError where a rational part has a pole on the way."""
-        if self.embedded is None:
-            check_segment(System.of(function), a, b)
-        else:
-            check_apart((root for root, _ in self.embedded.poles(function)), to_acb(a), to_acb(b))
 
     def _check_analytic(self, a: acb, b: acb) -> None:
         """Raise InputError where the function isn't seen to be analytic on a short piece of the way, its ends left out."""

@@ -225,7 +225,11 @@ class _Way:
         first, last = (_end(problem, value) for value in (path[0], path[-1]))
         middle = [as_point(v, "a vertex") for v in path[1:-1]]
         if len(path) == 2 and isinstance(first, Singular) and isinstance(last, Singular):
-            middle = [_between(first, last)]
+            if first.inverted or last.inverted:
+                raise InputError(
+                    "a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']"
+                )
+            middle = [(first.near + last.near).scaled(fmpq(1, 2)).rounded(-64)]
         return cls(first, middle, last)
 
 
@@ -235,13 +239,6 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
         return as_point(value, "an end of the path of an equation whose constants aren't rational")
     place = place_of(problem, value, "a vertex")
     return place.near if place.is_ordinary else place
-
-
-def _between(a: Singular, b: Singular) -> ExactPoint:
-    """A point of the straight line between two finite singular points."""
-    if a.inverted or b.inverted:
-        raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
-    return (a.near + b.near).scaled(fmpq(1, 2)).rounded(-64)
 
 
 def _connection(problem: NumericProblem, way: _Way, prec: int) -> Matrix:

@@ -254,11 +254,9 @@ class _Run:
         """Has the value its digits, or a ball that isn't half of that at a lower precision?"""
         if value.reached:
             return True
-        return self._is_telling(value) and bool(2 * arb(value.y.rad) > arb(before.y.rad))
-
-    def _is_telling(self, value: PointValue) -> bool:
-        """Does the size of the ball tell of more than a precision that was too low at first?"""
-        return self.route.runs > 2 or not value.y.contains_zero()
+        # A ball around 0 may at first tell of nothing but a precision that was too low.
+        is_telling = self.route.runs > 2 or not value.y.contains_zero()
+        return is_telling and bool(2 * arb(value.y.rad) > arb(before.y.rad))
 
     def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
         """The values, with a note where there are fewer digits than were asked for: the limit, or what the balls tell.

@@ -196,7 +196,9 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
         while gone < length:
             with working_precision(_BITS):
                 x = start + direction * gone
-                radii = _radii(x, poles)
+                # The radius at a singular point, where a solution may start, is given by the others.
+                distances = [abs(x - pole) for pole in poles]
+                radii = [distance.mid() * _SHARE for distance in distances if not distance.contains(0)]
                 rate = _rate(num, den, x)
                 if rate > 0:
                     radii.append(growth / rate)
@@ -206,12 +208,6 @@ def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[a
             if not step > 0:
                 return
             yield step
-
-
-def _radii(x: acb, poles: Sequence[acb]) -> list[arb]:
-    """Of discs around x, by the distances of singular points; around one of them, where a solution starts, by the others."""
-    distances = [abs(x - pole) for pole in poles]
-    return [distance.mid() * _SHARE for distance in distances if not distance.contains(0)]
 
 
 def _within(growth: float, step: arb, rate: Callable[[arb], arb]) -> arb:

@@ -119,7 +119,9 @@ def read_start(
     if which == "decaying":
         if dy0 is not None or has_coordinates:
             raise InputError("the decaying solution is given by y0 alone")
-        return _decaying_start(x0, y0)
+        place = as_number(x0, "x0")
+        y = ExactPoint(1) if y0 is None else as_number(y0, "y0")
+        return Start(place, (y, ExactPoint(0)), decaying=True)
     if [has_values, has_coordinates, which == "regular"].count(True) != 1:
         raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
     if has_values:
@@ -128,13 +130,6 @@ def read_start(
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
     singular = place_of(problem, x0, "x0")
     return Start(singular, _frobenius_coordinates(singular, frobenius))
-
-
-def _decaying_start(x0: object, y0: object) -> Start:
-    """By y(x0), 1 by default."""
-    place = as_number(x0, "x0")
-    y = ExactPoint(1) if y0 is None else as_number(y0, "y0")
-    return Start(place, (y, ExactPoint(0)), decaying=True)
 
 
 def _check_frobenius_allowed(problem: NumericProblem) -> None:
@@ -180,7 +175,13 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
     more slowly than 1/x^2.
     """
-    _check_decaying(system)
+    is_positive = bool(system.num) and system.num[-1] * system.den[-1] > 0
+    if not is_positive or len(system.num) - len(system.den) < -1:
+        raise InputError(
+            "no solution decays for large x: S must be positive there, and x^2 S unbounded",
+            hint="for a regular singular point at infinity: x0='oo', which='regular'",
+            shell="for a regular singular point at infinity: --x0 oo --regular",
+        )
     beyond = max(math.ceil(_rightmost(system)) + 1, math.ceil(x0.re))
     far = ExactPoint(_with_growth(system, beyond, (prec + 20) * math.log(2) / 2))
     matrix = product(piece_matrices(system, far, x0, prec + 20))
@@ -189,17 +190,6 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     dn = -matrix[3]
     s = acb(arb(0.5, 0.5))  # all that is known of it: 0 < s < 1
     return dn / n + s / (n * (n + s * (m - n)))
-
-
-def _check_decaying(system: System) -> None:
-    """Raises InputError unless S is positive for large x and x^2 S unbounded."""
-    is_positive = bool(system.num) and system.num[-1] * system.den[-1] > 0
-    if not is_positive or len(system.num) - len(system.den) < -1:
-        raise InputError(
-            "no solution decays for large x: S must be positive there, and x^2 S unbounded",
-            hint="for a regular singular point at infinity: x0='oo', which='regular'",
-            shell="for a regular singular point at infinity: --x0 oo --regular",
-        )
 
 
 def _rightmost(system: System) -> float:

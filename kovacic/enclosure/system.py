@@ -235,7 +235,8 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> _Meeting | N
     step = b - a
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
     unit = step.scaled(1 / length)
-    coefficients = _singular_on_line(system, a - unit.scaled(first), unit)
+    real, imaginary = system.along("den", a - unit.scaled(first), unit)
+    coefficients = tuple(int(c) for c in real.gcd(imaginary).numer().coeffs())
     if len(coefficients) <= 1:
         return None
     prec = 128
@@ -250,12 +251,6 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> _Meeting | N
             if not (share.contains(0) or share.contains(1)):  # the ends were excluded exactly: else refine
                 return _Meeting(name_of(system, to_acb(a) + to_acb(step) * share), float(share.mid()))
         prec *= 2
-
-
-def _singular_on_line(system: System, origin: ExactPoint, unit: ExactPoint) -> tuple[int, ...]:
-    """gcd(A, B), in t, for the points origin + t unit of the line."""
-    real, imaginary = system.along("den", origin, unit)
-    return tuple(int(c) for c in real.gcd(imaginary).numer().coeffs())
 
 
 def name_of(system: System, point: acb) -> str:

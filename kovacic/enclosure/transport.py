@@ -84,7 +84,9 @@ class Disc:
             return
         is_free = self.begin == a or is_apart(system, a, *self._corners())
         near = to_double(self.frame.centre)
-        radius = self._radius()
+        radius = -1.0  # beyond the doubles the end alone is served
+        if abs(self.frame.e) < _LARGEST_EXPONENT:
+            radius = math.ldexp(_EDGE, self.frame.e)  # the edge is inside, for a target where two discs meet
         for stop in stops:
             if self.t_leave == 1 and stop.point == self.leave:
                 yield stop
@@ -99,15 +101,6 @@ class Disc:
         centre = self.frame.centre
         reach = self.frame.scale * REACH
         return [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]
-
-    def _radius(self) -> float:
-        """That of what the disc serves; the edge is inside, so that a target where two discs meet is served.
-
-        Negative beyond the doubles: there the end alone is served.
-        """
-        if abs(self.frame.e) >= _LARGEST_EXPONENT:
-            return -1.0
-        return math.ldexp(_EDGE, self.frame.e)
 
 
 def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:
@@ -164,8 +157,9 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
     # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
     in_a_disc = 2 * (_allowed_growth(prec) + 10) * math.log(2)
     forecast = Forecast(a, b, lambda: least_growth(system, a, b), in_a_disc)
-    if _is_steep(system, a, b):
-        forecast.refuse()
+    e = largest_exponent(system, a)
+    if e is not None and power_of_two(2 * e) * MAX_DISCS**2 < (b - a).norm_squared():
+        forecast.refuse()  # too many steps, were all as short as the first one has to be
     how = ", by binary splitting" if split else ""
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
@@ -177,12 +171,6 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
         else:
             yield Leg(disc, expand(disc.frame, prec))
         forecast.check(number)
-
-
-def _is_steep(system: System, a: ExactPoint, b: ExactPoint) -> bool:
-    """Would the way take too many steps if all were as short as the first one has to be?"""
-    e = largest_exponent(system, a)
-    return e is not None and bool(power_of_two(2 * e) * MAX_DISCS**2 < (b - a).norm_squared())
 
 
 def growth_of_disc(prec: int, targets: int) -> float:

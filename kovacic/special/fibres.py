@@ -54,7 +54,9 @@ def coverings(problem: Problem, *, extended: bool, hidden: int = 0) -> Iterator[
     different = [place.factor for place in places if place.delta_squared is None]
     if different:
         if extended and different[0].degree == 2:
-            yield from coverings(_with_root(problem, different[0]), extended=extended, hidden=hidden)
+            field = AlgebraicField(problem.field, different[0])  # with a root of the factor
+            S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
+            yield from coverings(analyse(S, problem.budget), extended=extended, hidden=hidden)
         return
     if len(places) > _PLACES:
         return
@@ -62,13 +64,6 @@ def coverings(problem: Problem, *, extended: bool, hidden: int = 0) -> Iterator[
         ones = _difference_at_ones(f, zeros.degree, regular)
         if ones is not None:
             yield Covering(f, zeros.square, ones, poles.square)
-
-
-def _with_root(problem: Problem, factor: Poly) -> Problem:
-    """The same over the field with a root of this polynomial."""
-    field = AlgebraicField(problem.field, factor)
-    S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
-    return analyse(S, problem.budget)
 
 
 # ------------------------------------------------------------------------------------------ places to fibres

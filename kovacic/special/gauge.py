@@ -183,7 +183,8 @@ def _zeros(problem: Problem, polar: RatFunc) -> Iterator[tuple[RatFunc, Poly]]:
         if value is None or place.delta_squared is None or not polar.derivative():
             continue
         f = polar - value
-        yield from ((f, e_squared) for e_squared in _differences(place.delta_squared, _multiplicity(f, place)))
+        multiplicity = -f.degree if place.at_infinity else f.num.remove(place.factor)[1]
+        yield from ((f, e_squared) for e_squared in _differences(place.delta_squared, multiplicity))
     if seen:
         return
     slope = polar.derivative().num
@@ -203,11 +204,6 @@ def _value(f: RatFunc, place: Place) -> Poly | None:
         return None
     value = f.num * f.den.inverse_modulo(place.factor) % place.factor
     return value if value.degree <= 0 else None
-
-
-def _multiplicity(f: RatFunc, place: Place) -> int:
-    """That of a zero."""
-    return -f.degree if place.at_infinity else f.num.remove(place.factor)[1]
 
 
 def _differences(square: Poly, k: int) -> Iterator[Poly]:
@@ -369,9 +365,14 @@ def _shifts_of_residues(first: Place, second: Place) -> list[int]:
 
 def _solved(S: RatFunc, T: RatFunc, rooms: Sequence[_Room]) -> tuple[Poly, RatFunc, RatFunc] | None:
     """m, a and b for these orders: b = sqrt(m) R B and a = sqrt(m) Q A with polynomials A and B."""
-    orders = [[(room, (of - room.of_b % 2) // 2) for room, of in pairs] for pairs in _orders(rooms)]
+    finite = [room for room in rooms if not room.at_infinity]
+    # Of Q and of R; the orders of a and b are doubled.
+    orders = [
+        [(room, (room.of_a - room.of_b % 2) // 2) for room in finite],
+        [(room, (room.of_b - room.of_b % 2) // 2) for room in finite],
+    ]
     at_infinity = next(room for room in rooms if room.at_infinity)
-    odd = sum(room.of_b % 2 * room.factor.degree for room in rooms if not room.at_infinity)
+    odd = sum(room.of_b % 2 * room.factor.degree for room in finite)
     degree_a, degree_b = (
         max(-1, (-least - odd) // 2 - sum(order * room.factor.degree for room, order in found))
         for least, found in zip((at_infinity.of_a, at_infinity.of_b), orders, strict=True)
@@ -404,12 +405,6 @@ def _solved(S: RatFunc, T: RatFunc, rooms: Sequence[_Room]) -> tuple[Poly, RatFu
     A = field.poly(vector[: degree_a + 1])
     B = field.poly(vector[degree_a + 1 :])
     return m, Q * A, R * B
-
-
-def _orders(rooms: Sequence[_Room]) -> tuple[list[tuple[_Room, int]], list[tuple[_Room, int]]]:
-    """The finite places with the orders of a, and with those of b, doubled."""
-    finite = [room for room in rooms if not room.at_infinity]
-    return [(room, room.of_a) for room in finite], [(room, room.of_b) for room in finite]
 
 
 def _columns(first: list[list[RatFunc]], second: list[list[RatFunc]], degrees: tuple[int, int]) -> list[Poly]:

@@ -153,7 +153,16 @@ class _GaussForm:
     @property
     def arranged(self) -> list[_GaussForm]:
         """The points 0, 1 and infinity in all orders."""
-        return [_GaussForm(self.writer, *parts) for parts in _orders(self.f, self.alpha, self.beta, self.gamma)]
+        f, alpha, beta, gamma = self.f, self.alpha, self.beta, self.gamma
+        orders = [
+            (f, alpha, beta, gamma),
+            (1 - f, beta, alpha, gamma),
+            (1 / f, gamma, beta, alpha),
+            (1 - 1 / f, beta, gamma, alpha),
+            (1 / (1 - f), gamma, alpha, beta),
+            (f / (f - 1), alpha, gamma, beta),
+        ]
+        return [_GaussForm(self.writer, *parts) for parts in orders]
 
     @property
     def signs(self) -> Iterator[_GaussForm]:
@@ -203,17 +212,6 @@ class _GaussForm:
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
         return not f.is_polynomial, uneven, natural, terms, not self.writer.is_negative(f.num.lc), str(f)
-
-
-def _orders(f: RatFunc, alpha: Number, beta: Number, gamma: Number) -> list[tuple[RatFunc, Number, Number, Number]]:
-    return [
-        (f, alpha, beta, gamma),
-        (1 - f, beta, alpha, gamma),
-        (1 / f, gamma, beta, alpha),
-        (1 - 1 / f, beta, gamma, alpha),
-        (1 / (1 - f), gamma, alpha, beta),
-        (f / (f - 1), alpha, gamma, beta),
-    ]
 
 
 def _named(form: _GaussForm) -> Expr:

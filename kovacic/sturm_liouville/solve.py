@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from flint import arb
@@ -15,7 +15,7 @@ from kovacic.sturm_liouville.count import SeparatedCounter
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
 from kovacic.sturm_liouville.hill import PeriodicCounter
 from kovacic.sturm_liouville.levels import Eigenvalues, Level
-from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball
+from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 from kovacic.sturm_liouville.search import LevelSearch
 
 _ROUGH = 6
@@ -50,15 +50,10 @@ class Eigenproblem:
     def search(self) -> LevelSearch:
         """Where the levels come from."""
         if self.problem.wrap:
-            return LevelSearch(self._periodic, self._scale(), separations=_PERIODIC_SEPARATIONS)
+            return LevelSearch(partial(PeriodicCounter, self.problem), self._scale(), separations=_PERIODIC_SEPARATIONS)
         threshold = None if self.threshold is None else ball(self.threshold)
-        return LevelSearch(self._separated, self._scale(), threshold=threshold, total=self._total)
-
-    def _periodic(self, span: Span, digits: int) -> PeriodicCounter:
-        return PeriodicCounter(self.problem, span, digits)
-
-    def _separated(self, span: Span, digits: int) -> SeparatedCounter:
-        return SeparatedCounter(self.problem, self.ends, span, digits)
+        counter = partial(SeparatedCounter, self.problem, self.ends)
+        return LevelSearch(counter, self._scale(), threshold=threshold, total=self._total)
 
     def _scale(self) -> Any:
         """An exact number of the size of the lowest levels, where the interval is finite; else 1."""
@@ -67,12 +62,10 @@ class Eigenproblem:
             return arb(1)
         with working_precision(64):
             middle = (ball(low) + (ball(high) - ball(low)) * 3 / 7).mid()
-            weight = BallEvaluator({self.problem.x: middle})(self._piece_at(middle).W).real
+            pieces = self.problem.pieces
+            piece = next((p for p in pieces if p.high.is_infinite or middle < ball(p.high)), pieces[-1])
+            weight = BallEvaluator({self.problem.x: middle})(piece.W).real
             return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
-
-    def _piece_at(self, x: Any) -> Stretch:
-        pieces = self.problem.pieces
-        return next((piece for piece in pieces if piece.high.is_infinite or x < ball(piece.high)), pieces[-1])
 
     def _total(self) -> int | None:
         """The number of levels below the essential spectrum; None where it isn't proven."""

@@ -30,7 +30,9 @@ def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float
         E = problem.sign * ball_to_flint(value).real.mid()
         counter = SeparatedCounter(problem, Eigenproblem(problem, "E").ends, Span(E, abs(E) + 1), _DIGITS)
         sides = [_side(counter, side, E) for side in (0, 1)]
-        (left, right), scale = sides, _joining(*(side[-1] for side in sides))
+        left, right = sides
+        k = 1 if abs(right[-1][1]) > abs(right[-1][2]) else 2  # Y or Y' is made continuous, whichever is larger
+        scale = (left[-1][k] / right[-1][k]).mid()
         joined = left + [(x, scale * u, scale * v) for x, u, v in right[-2::-1]]
         gauge = _gauge(problem)
         values = [(x, u * gauge(x)) for x, u, _ in joined]
@@ -55,12 +57,6 @@ def _inside(step: Step, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
     a = step.series(u, v, E)
     share = arb(k) / _PARTS
     return sum(c * share**n for n, c in enumerate(a)), arb(0)
-
-
-def _joining(left: tuple[Any, Any, Any], right: tuple[Any, Any, Any]) -> Any:
-    """The factor for the right solution at the matching point: of Y or of Y', whichever is larger."""
-    k = 1 if abs(right[1]) > abs(right[2]) else 2
-    return (left[k] / right[k]).mid()
 
 
 def _gauge(problem: SturmProblem) -> Any:
