@@ -52,7 +52,8 @@ class Solution(Answer):
     notices : tuple of str
         What was noticed when the input was read: decimals taken as exact fractions, names taken as parameters, ...
     verified : bool
-        Has the decision passed its independent check?  Always, for what `solve` returns.
+        Has the decision passed its independent check?  True for each decided answer that `solve` returns; False for an
+        undecided one, and for an answer that `from_json` read with `unverified` and that fails the check.
     seconds : float or None
         Wall-clock time of reading, deciding and verifying together; None for an answer that was read from JSON.
     equation : Equation or None
@@ -459,7 +460,8 @@ class Solution(Answer):
         Returns
         -------
         Solution
-            Equal to the one that was written.
+            Equal to the one that was written.  `seconds` and `notices` are taken from the text as they stand; nothing
+            checks them.
 
         Raises
         ------

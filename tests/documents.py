@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import re
 import shlex
+import warnings
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,8 @@ from kovacic.enclosure.states import journey_of
 ROOT = Path(kovacic.__file__).parent.parent
 README = ROOT / "README.md"
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
+#: A session may show the exit status as well.
+STATUS = '; echo "status $?"'
 
 
 def blocks(language: str, page: Path = README) -> list[str]:
@@ -35,12 +38,15 @@ def sessions(*pages: Path) -> list[tuple[str, str, str]]:
 
 
 def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
-    program, *arguments = shlex.split(command)
+    program, *arguments = shlex.split(command.removesuffix(STATUS))
     assert program == "kovacic"
     journey_of.cache_clear()  # a command is a process of its own: an earlier one's precision would change the radius
-    run(arguments)
+    with warnings.catch_warnings(record=True, action="always") as noticed:
+        status = run(arguments)
     shown = capsys.readouterr()
-    found = shown.out + shown.err
+    found = shown.out + "".join(f"kovacic: {warning.message}\n" for warning in noticed) + shown.err
+    if command.endswith(STATUS):
+        found += f"status {status}\n"
     assert found == output, f"{command}\nprints\n{found}"
 
 

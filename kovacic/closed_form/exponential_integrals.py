@@ -11,8 +11,8 @@ at infinity, where E - e has no zero, and the values at zeros of E' for which (E
 W' + W (E' + alpha/t) with a W whose denominator and degree are bounded by those of r and E, and constant multiples of (1):
 linear equations over K.
 
-Reference: Risch's algorithm for exponentials [Bronstein, Symbolic Integration I, ch. 5]; with Ei and erf as in G. W. Cherry,
-J. Symb. Comp. 1 (1985), here for constants e in K only.
+Reference: Risch's algorithm for exponentials [Bronstein, Symbolic Integration I, ch. 5]; with erf as in G. W. Cherry,
+J. Symb. Comp. 1 (1985) 283-302, and Ei (there li) as in SIAM J. Comput. 15 (1986) 1-21; here for constants e in K only.
 """
 
 from __future__ import annotations

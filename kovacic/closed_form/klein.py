@@ -20,7 +20,7 @@ which is Klein's J'^(-1/2) u(J), u the local solutions at J = 0 of the equation 
 0, 1, infinity, nu = 1/4 or 1/5: J' is a product of powers of v, t and H, which combine with those in u.  Since J is a
 multiple of v^(1/nu)/t^2, the local solutions at J = infinity, for the first ones 2F1(a, b; c; J), are
 
-    v^(-a/nu) 2F1(a, a - c + 1; 1/2; 1/J),    t v^(-b/nu) 2F1(b, b - c + 1; 3/2; 1/J).                                   (3)
+    v^(-a/nu) 2F1(a, a - c + 1; 1/2; 1/J),    t v^(-b/nu) 2F1(b, b - c + 1; 3/2; 1/J).                                   (2)
 
 References: F. Klein, Vorlesungen ueber das Ikosaeder (1884); W. Fakler, Theor. Comp. Sci. 187 (1997) 27-48; M. van Hoeij &
 J.-A. Weil, ISSAC 2005.
@@ -69,7 +69,7 @@ class Covariants:
 
 @dataclass(frozen=True)
 class KleinForm:
-    """The two solutions (1), functions of J, and (3), functions of 1/J."""
+    """The two solutions (1), functions of J, and (2), functions of 1/J."""
 
     J: RatFunc
     at_vertices: tuple[Hypergeometric, Hypergeometric]

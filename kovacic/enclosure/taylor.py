@@ -23,7 +23,8 @@ not: the coefficients of 1/q never enter with absolute values.
 Symbols: c centre, H = h 2^e scale, u = (x - c)/H, w bits after the binary point, N the number of terms.
 
 References: M. Mezzarobba and B. Salvy, "Effective bounds for P-recursive sequences", J. Symb. Comp. 45 (2010).
-A. Neumaier, "Validated solution of initial value problems by defect estimates" (the comparison used here is classical).
+A. Neumaier, "Global, rigorous and realistic bounds for the solution of dissipative differential equations. Part I:
+Theory", Computing 52 (1994) 315-336, for bounds by the defect (the comparison used here is classical).
 """
 
 from __future__ import annotations

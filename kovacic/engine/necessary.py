@@ -9,7 +9,7 @@ The group contains the local monodromies and exponential tori, so that
 - the order of a local monodromy in PGL2 is the denominator of Delta, and the orders in A4, S4, A5 are 1 to 3, 1 to 4, and
   1, 2, 3, 5; A4 and A5 don't contain S4's elements of order 4, and 5 occurs in A5 alone.
 
-Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1, and J. Calmet & F. Ulmer's and others' refinements.
+Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1; the sharper conditions follow from the facts above.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 Let y'' = (V - E) y with V and W free of E and W' + W^2 = V - E0.  For every E other than E0 the map y -> y' - W y takes the
 solutions to those of v'' = (V - 2 W' - E) v, and v -> v' + W v takes them back, times E0 - E.  W is rational, so one equation
 has Liouvillian solutions where the other one has, with the same case and group.  At a pole with the exponents -m and m + 1,
-the same for all E, and W = -m/(x - c) + ..., the difference V - V + 2 W' lowers m (m + 1) to m (m - 1).
+the same for all E, and W = -m/(x - c) + ..., V - 2 W' has the coefficient m (m - 1) where V has m (m + 1).
 
 References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Grandati & R. Milson, J. Phys. A 47 (2014) 015203.
 """

@@ -8,7 +8,7 @@ the third group determines, or, where that has none because m e = 1 at its point
 A function of degree n has 2 n - 2 ramification points, so that there are n + 2 + R points over 0, 1 and infinity, R being the
 ramification elsewhere, which the apparent places show.
 
-Reference: M. van Hoeij, R. Vidunas, J. Algebra 441 (2015) 626-659, for the patterns of branching.
+Reference: M. van Hoeij & R. Vidunas, J. Algebra 441 (2015) 626-659 [vHV15], for the patterns of branching.
 """
 
 from __future__ import annotations
