@@ -29,6 +29,7 @@ INTERNAL = {
     "Decision",
     "ExactPoint",
     "FunctionPoly",
+    "GivenSolutions",
     "NumericProblem",
     "Math",
     "Signed",

@@ -153,8 +153,6 @@ class Spectrum:
         What was noticed at reading: which name is the variable.
     numeric : Eigenvalues
         The lowest levels as proven numbers, if `levels` was given: a sequence, each with its `value` and its `zeros`.
-    numeric : Eigenvalues
-        The lowest levels as proven numbers, if `levels` was given: a sequence, each with its `value` and its `zeros`.
     hint, shell : str
         What to give beside for an answer, in Python and at the command line; empty where nothing helps.
     kinetic : sympy.Expr

@@ -102,6 +102,8 @@ def dsolve(
         As for `sympy.dsolve`: they belong to Lie's method, which isn't used here, and stay None.
     var : str, optional
         The name of the variable in a text, where it isn't clear.
+    parameters : sequence of str, optional
+        Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     assume : mapping, optional
         What is known of parameters, by name, as for `kovacic.solve`: {"n": "natural", "k": "positive", "l": ">=1"}.  It is used
         beside the assumptions of SymPy's symbols.
