@@ -55,7 +55,9 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     found = _by_rules(integrand, x)
     if found is None:
         return None
-    if _has_a_root_of_a_sum(integrand, x) and not _holds_on_every_side(found, integrand, x):
+    # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one
+    has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
+    if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x):
         return None
     return found
 
@@ -74,11 +76,6 @@ def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
     return sum_of(_of_terms(inverse, terms, x) for inverse, terms in groups.items())
 
 
-def _has_a_root_of_a_sum(integrand: Expr, x: Expr) -> bool:
-    """As in sqrt(1 + tan(x)^2), which is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one."""
-    return any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
-
-
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
     """Is its derivative the integrand at real points far apart, wherever that is real?"""
     slope = found.diff(x)
@@ -86,21 +83,12 @@ def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
     for point in _POINTS:
         here = {**others, x: point}
         value = ball(integrand, here)
-        if not _is_real(value):
+        if value is None or not value.is_finite() or not value.imag.contains(0):
             continue
-        if _is_another(ball(slope, here), value):
+        other = ball(slope, here)
+        if other is not None and other.is_finite() and not other.overlaps(value):
             return False
     return True
-
-
-def _is_real(value: Any) -> bool:
-    """Is a value known, finite, and a real number as far as its ball says?"""
-    return value is not None and value.is_finite() and value.imag.contains(0)
-
-
-def _is_another(value: Any, wanted: Any) -> bool:
-    """Is a value known, finite, and seen not to be the one that is wanted?"""
-    return value is not None and value.is_finite() and not value.overlaps(wanted)
 
 
 def _of_terms(inverse: Expr, terms: list[Expr], x: Expr) -> Expr | None:
@@ -121,14 +109,10 @@ def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
     """The terms, those with the same powers of functions that are to be differentiated together."""
     groups: dict[Expr, list[Expr]] = {}
     for term in sympy.Add.make_args(integrand):
-        powers = [factor for factor in sympy.Mul.make_args(term) if _goes_by_parts(factor, x)]
+        factors = [factor for factor in sympy.Mul.make_args(term) if factor.has(x)]
+        powers = [factor for factor in factors if factor.as_base_exp()[0].func in _BY_PARTS]
         groups.setdefault(sympy.Mul(*powers), []).append(term)
     return groups
-
-
-def _goes_by_parts(factor: Expr, x: Expr) -> bool:
-    """Is it a power of a function of x that is to be differentiated?"""
-    return factor.as_base_exp()[0].func in _BY_PARTS and factor.has(x)
 
 
 @dataclass(frozen=True)
@@ -185,10 +169,6 @@ def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
     return powers.subs(t, log(u))
 
 
-def _has_logarithm_of_x(term: Expr, x: Expr) -> bool:
-    return bool(term.has(log(x)))
-
-
 def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
     """In t = log(x)."""
     t = sympy.Dummy(real=True)
@@ -209,10 +189,6 @@ def _index_within_functions(term: Expr, x: Expr) -> int:
     return lcm(*(_index_of_root(argument, x) for argument in arguments))
 
 
-def _has_root_within_functions(term: Expr, x: Expr) -> bool:
-    return _index_within_functions(term, x) > 1
-
-
 def _in_roots_within_functions(term: Expr, x: Expr) -> Expr | None:
     """In t with x = t^q."""
     q = _index_within_functions(term, x)
@@ -229,10 +205,6 @@ def _index_of_root(e: Expr, x: Expr) -> int:
 def _in_root(integrand: Expr, x: Expr, t: Expr, q: int) -> Expr:
     """The integrand for x = t^q, times dx/dt."""
     return integrand.subs(x, t**q) * q * t ** (q - 1)
-
-
-def _has_root_of_x(term: Expr, x: Expr) -> bool:
-    return _index_of_root(term, x) > 1
 
 
 def _in_roots_of_x(term: Expr, x: Expr) -> Expr | None:
@@ -253,21 +225,12 @@ def _in_a_linear_argument(term: Expr, x: Expr) -> Expr | None:
     if len(bases) != 1:
         return None
     (line,) = bases
-    if not _is_line(line, x):
+    if not line.is_Add or not line.is_polynomial(x) or sympy.degree(line, x) != 1:
         return None
     u = sympy.Dummy()
     slope = line.diff(x)
     inner = term.subs(x, sympy.expand(x - (line - u) / slope)) / slope
     return _changed(inner, u, line, x)
-
-
-def _is_line(e: Expr, x: Expr) -> bool:
-    """Is it a x + b with b != 0?"""
-    return bool(e.is_Add and e.is_polynomial(x) and sympy.degree(e, x) == 1)
-
-
-def _has_functions_of_functions(term: Expr, x: Expr) -> bool:
-    return bool(_arguments_with_functions(term, x))
 
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
@@ -312,7 +275,7 @@ def _rate_of_variable(term: Expr, rates: dict[Expr, Expr]) -> Expr | None:
     if k is None:
         return None
     inner: set[Expr] = set()
-    for argument in _arguments_of_roots_and_logarithms(term):
+    for argument in [*radicands(term), *(f.args[0] for f in term.atoms(log))]:
         inner |= argument.atoms(exp)
     powers = [rates[e] / k for e in inner if e in rates]
     if powers and all(power.is_negative for power in powers):
@@ -331,10 +294,6 @@ def _in_one_exponential(integrand: Expr, u: Expr) -> Expr | None:
     if integrand.has(log(u)):  # in t = log(u) exponentials would come back
         return None
     return _known(integrand, u)
-
-
-def _arguments_of_roots_and_logarithms(term: Expr) -> list[Expr]:
-    return [*radicands(term), *(f.args[0] for f in term.atoms(log))]
 
 
 def _common_rate(rates: list[Expr]) -> Expr | None:
@@ -528,7 +487,8 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     c = _only_wave_below(term)
     if c is None:
         return None
-    s = _other_wave(c)
+    other = cos if c.func is sin else sin
+    s = other(c.args[0])
     above = term * c
     if not above.is_polynomial(s, c):
         return None
@@ -549,13 +509,6 @@ def _leaves_an_integral(rest: Expr, s: Expr, x: Expr) -> bool:
     return all(residue.has(x) and not residue.has(sin, cos) for residue in residues)
 
 
-def _other_wave(c: Expr) -> Expr:
-    """The cosine for a sine, and the other way round."""
-    if c.func is sin:
-        return cos(c.args[0])
-    return sin(c.args[0])
-
-
 def _only_wave_below(term: Expr) -> Expr | None:
     """The wave c of the only factor 1/c; None where there are others or none."""
     below = [factor.base for factor in sympy.Mul.make_args(term) if factor.is_Pow and factor.exp == -1]
@@ -568,29 +521,29 @@ def _only_wave_below(term: Expr) -> Expr | None:
 # --------------------------------------------------------------------------------------------------------------- rules
 
 
-def _any(_term: Expr, _x: Expr) -> bool:
-    return True
-
-
-def _has_waves_alone(term: Expr, x: Expr) -> bool:
-    return _has_waves(term, x) and not term.has(exp, log, atan)
-
-
 _RULES = (
-    _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", _any, by_coefficients),
-    _Rule("int f(x, log(x)) dx = int f(exp(t), t) exp(t) dt", _has_logarithm_of_x, _in_logarithms),
-    _Rule("int f(x^(1/q)) dx = int f(t) q t^(q - 1) dt", _has_root_within_functions, _in_roots_within_functions),
-    _Rule("int f(u) u' dx = int f(u) du", _has_functions_of_functions, _in_an_argument),
+    _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", lambda e, x: True, by_coefficients),
+    _Rule("int f(x, log(x)) dx = int f(exp(t), t) exp(t) dt", lambda e, x: e.has(log(x)), _in_logarithms),
+    _Rule(
+        "int f(x^(1/q)) dx = int f(t) q t^(q - 1) dt",
+        lambda e, x: _index_within_functions(e, x) > 1,
+        _in_roots_within_functions,
+    ),
+    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_arguments_with_functions(e, x)), _in_an_argument),
     _Rule("int f(exp(k x)) dx = int f(u)/(k u) du", _has_exponentials, _in_exponentials),
     _Rule("int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent", _has_waves, _in_waves),
     _Rule("the same with exp(i u) = cos(u) + i sin(u)", _has_exponentials, _with_real_arguments),
-    _Rule("products of powers and exponentials of rational functions", _any, integral_of_product),
+    _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
     _Rule("int P sin(q) dx for quadratic q: Fresnel functions", _has_waves, fresnel),
-    _Rule("int R cos(u) dx for linear u: Si and Ci", _has_waves_alone, beside_waves),
+    _Rule(
+        "int R cos(u) dx for linear u: Si and Ci",
+        lambda e, x: _has_waves(e, x) and not e.has(exp, log, atan),
+        beside_waves,
+    ),
     _Rule("int q + (a + b s)/c dx where the second part isn't elementary", _has_waves, _beside_tangents),
     _Rule("int P g dx = P G - int P' G dx", _has_polynomial_beside_simple_functions, _powers_by_parts),
     _Rule("int f(sqrt(u), u) dx for u = a x + b", _has_roots_beside_functions, _in_a_linear_argument),
     _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
-    _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", _any, incomplete_gamma),
-    _Rule("int R(x^(1/q)) dx: partial fractions in t = x^(1/q)", _has_root_of_x, _in_roots_of_x),
+    _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", lambda e, x: True, incomplete_gamma),
+    _Rule("int R(x^(1/q)) dx: partial fractions in t = x^(1/q)", lambda e, x: _index_of_root(e, x) > 1, _in_roots_of_x),
 )

@@ -6,7 +6,7 @@ functions of z and the errors beside it.  Functions without a rule, and integral
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +28,12 @@ Expr = Any  # SymPy publishes no types
 _ONE = sympy.Integer(1)
 _ZERO = sympy.Integer(0)
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch)
-_QUOTIENTS = (sympy.tan, sympy.cot, sympy.sec, sympy.csc)
+_QUOTIENTS: dict[Any, Callable[[Expr], Expr]] = {
+    sympy.tan: lambda u: sympy.sin(u) / sympy.cos(u),
+    sympy.cot: lambda u: sympy.cos(u) / sympy.sin(u),
+    sympy.sec: lambda u: 1 / sympy.cos(u),
+    sympy.csc: lambda u: 1 / sympy.sin(u),
+}
 #: Functions that are expanded as they are.
 _NOT_REWRITTEN = (sympy.acos, sympy.atanh)
 #: Numbers of terms that are tried, one after the other.
@@ -110,8 +115,10 @@ class _Expander:
             return self._product(e.args)
         if isinstance(e, exp):
             return self(e.args[0]).exp(self.depth)
+        if e.is_Pow and not e.exp.free_symbols & self.variables:
+            return self(e.base).power(e.exp, self.depth)
         if e.is_Pow:
-            return self._power(e)
+            return self(e.exp * log(e.base)).exp(self.depth)
         if isinstance(e, log):
             return self(e.args[0]).log(self.depth)
         return self._function(e)
@@ -128,11 +135,6 @@ class _Expander:
             total = total * self(factor)
         return total
 
-    def _power(self, e: Expr) -> Expansion:
-        if not e.exp.free_symbols & self.variables:
-            return self(e.base).power(e.exp, self.depth)
-        return self(e.exp * log(e.base)).exp(self.depth)
-
     def _function(self, e: Expr) -> Expansion:
         if isinstance(e, sympy.Heaviside):
             return Expansion.constant(_step_at(self(e.args[0])))
@@ -140,15 +142,15 @@ class _Expander:
             return Expansion({})
         if isinstance(e, _HYPERBOLIC):
             return self(e.rewrite(exp))
-        if isinstance(e, _QUOTIENTS):
-            return self(_as_quotient(e))
+        if e.func in _QUOTIENTS:
+            return self(_QUOTIENTS[e.func](e.args[0]))
         if not isinstance(e, _NOT_REWRITTEN):
             plain = rewritten(e)
             if plain is not None:
                 return self(plain)
         inner = self._argument(e)
         if not self._is_singular(e, inner):
-            found = inner.taylor(lambda z: _with_argument(e, z), self.depth)
+            found = inner.taylor(lambda z: e.func(*e.args[:-1], z), self.depth)
             if found is not None:
                 return found
         if isinstance(e, sympy.sin | sympy.cos):
@@ -238,17 +240,3 @@ def _rules_at_infinity(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:
 
 def _unknown(e: Expr) -> UnknownBehaviour:
     return UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
-
-
-def _as_quotient(e: Expr) -> Expr:
-    u = e.args[0]
-    return {
-        sympy.tan: sympy.sin(u) / sympy.cos(u),
-        sympy.cot: sympy.cos(u) / sympy.sin(u),
-        sympy.sec: 1 / sympy.cos(u),
-        sympy.csc: 1 / sympy.sin(u),
-    }[e.func]
-
-
-def _with_argument(e: Expr, z: Expr) -> Expr:
-    return e.func(*e.args[:-1], z)

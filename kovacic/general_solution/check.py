@@ -77,8 +77,9 @@ def _check_equation(question: Question, value: Expr, start: Expr | None, numbers
     """Is the residual 0?  As `check_answer`."""
     if start is not None:
         start = start.xreplace(numbers)
+    symbols = {name: numbers.get(symbol, symbol) for name, symbol in question.symbols.items()}
     try:
-        is_wrong = _is_wrong_at(_at_numbers(question, numbers), value.xreplace(numbers), start)
+        is_wrong = _is_wrong_at(replace(question, symbols=symbols), value.xreplace(numbers), start)
     except _NOT_EVALUATED as reason:
         return [f"the answer wasn't put into the equation, numerically: {_said(reason)}"]
     if is_wrong:
@@ -103,17 +104,13 @@ def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
     """
     known = {*question.symbols.values(), *value.free_symbols, *_symbols_of(question.conditions)}
-    symbols = sorted(filter(_has_a_kind, known), key=str)
+    special = [s for s in known if s.is_integer or s.is_negative or s.is_nonpositive]
+    symbols = sorted(special, key=str)
     candidates = [*_candidates(symbols, natural)]
     for numbers in candidates:
         if is_finite(value.xreplace(numbers)):
             return numbers
     return next(iter(candidates), {})
-
-
-def _has_a_kind(symbol: Expr) -> bool:
-    """Is it an integer, or not positive?"""
-    return bool(symbol.is_integer or symbol.is_negative or symbol.is_nonpositive)
 
 
 def _candidates(symbols: list[Expr], natural: Expr | None) -> Iterator[dict[Expr, Expr]]:
@@ -130,13 +127,6 @@ def _symbols_of(conditions: Sequence[Condition]) -> Iterator[Expr]:
         yield from getattr(condition.value, "free_symbols", ())
         for term in condition.terms:
             yield from term.point.free_symbols | term.coefficient.free_symbols
-
-
-def _at_numbers(question: Question, numbers: dict[Expr, Expr]) -> Question:
-    """The question with numbers for some of its symbols."""
-    if not numbers:
-        return question
-    return replace(question, symbols={name: numbers.get(symbol, symbol) for name, symbol in question.symbols.items()})
 
 
 def _said(reason: Exception) -> str:
@@ -348,14 +338,10 @@ def _is_violated(question: Question, value: Expr, condition: Condition, numbers:
     unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
     letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
     total = total.xreplace(letters)
-    return any(_is_not_zero(total.xreplace(sample)) for sample in _on_both_sides(total))
-
-
-def _on_both_sides(total: Expr) -> Iterator[dict[Expr, Expr]]:
-    """Values of the parameters, where a step depends on them: on either side of it as a rule."""
-    steps = total.atoms(sympy.Heaviside)
-    symbols = set().union(*(step.free_symbols for step in steps))
-    return islice(samples(symbols), _SAMPLES if symbols else 1)
+    # parameters on which a step depends, with values on either side of it as a rule
+    symbols = set().union(*(step.free_symbols for step in total.atoms(sympy.Heaviside)))
+    tried = islice(samples(symbols), _SAMPLES if symbols else 1)
+    return any(_is_not_zero(total.xreplace(sample)) for sample in tried)
 
 
 def _is_not_zero(number: Expr) -> bool:

@@ -28,7 +28,6 @@ _LONGEST = 200
 #: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
 _LONGEST_FACTORED = 300
 _MOST_ATOMS = 10
-_ZERO = sympy.Integer(0)
 _ONE = sympy.Integer(1)
 
 
@@ -155,20 +154,11 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
     norm = _norm(row)
     if norm is not None:
         return _along(row, norm, others, names[0])
-    if pivot.is_first:
-        return _solved_for_first(row, others, names[1])
-    return _solved_for_second(row, others, names[0])
-
-
-def _solved_for_first(row: Row, others: Sequence[Row], c2: Expr) -> DeterminedConstants:
-    """C1 = r/u - v/u C2 with a free C2."""
-    c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
-    return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
-
-
-def _solved_for_second(row: Row, others: Sequence[Row], c1: Expr) -> DeterminedConstants:
-    """C2 = r/v - u/v C1 with a free C1."""
-    c2 = tidy(row.r / row.v) - tidy(row.u / row.v) * c1
+    c1, c2 = names
+    if pivot.is_first:  # C1 = r/u - v/u C2 with a free C2
+        c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
+        return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
+    c2 = tidy(row.r / row.v) - tidy(row.u / row.v) * c1  # with a free C1
     return DeterminedConstants((c1, c2), [other.v * row.r - other.r * row.v for other in others], row.v)
 
 
@@ -260,25 +250,16 @@ def can_be(case: ParameterCase) -> bool:
 def vanishing_factors(zero: Expr) -> Expr:
     """The factors that may be zero, each once; a long expression is taken with the factors that are seen."""
     factored = zero
-    if size(zero) <= _LONGEST_FACTORED and len(_atoms_of(zero)) <= _MOST_ATOMS:
+    # what SymPy takes for variables when it factors
+    powers = {power for power in zero.atoms(sympy.Pow) if not power.exp.is_Integer}
+    atoms = {*zero.free_symbols, *zero.atoms(sympy.Function), *powers}
+    if size(zero) <= _LONGEST_FACTORED and len(atoms) <= _MOST_ATOMS:
         whole = sympy.numer(sympy.together(zero))
         waves = sympy.expand(TR8(sympy.expand(whole)))
         factored = min(map(sympy.factor, (whole, waves)), key=size)
     factors = [factor for factor in sympy.Mul.make_args(factored) if not is_nowhere_zero(factor)]
-    return sympy.Mul(*map(_once, factors))
-
-
-def _once(factor: Expr) -> Expr:
-    """Without a positive exponent."""
-    if factor.is_Pow and factor.exp.is_positive:
-        return factor.base
-    return factor
-
-
-def _atoms_of(e: Expr) -> set[Expr]:
-    """What SymPy takes for variables when it factors an expression."""
-    powers = {power for power in e.atoms(sympy.Pow) if not power.exp.is_Integer}
-    return {*e.free_symbols, *e.atoms(sympy.Function), *powers}
+    once = [factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors]
+    return sympy.Mul(*once)
 
 
 def tidy(value: Any) -> Any:
@@ -289,7 +270,8 @@ def tidy(value: Any) -> Any:
         return value
     functions = {f.func for f in value.atoms(sympy.Function)}
     if not functions:
-        return _tidy_algebraic(value)
+        shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else sympy.expand
+        return sympy.radsimp(shorten(value))
     if not functions <= _ELEMENTARY:
         expanded = sympy.expand(value)
         return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
@@ -299,22 +281,13 @@ def tidy(value: Any) -> Any:
     return min(map(TR2i, (value, shorter)), key=size)
 
 
-def _tidy_algebraic(value: Expr) -> Expr:
-    """Of a constant without functions: numbers are expanded, all else is cancelled."""
-    if value.free_symbols or value.has(sympy.E):
-        return sympy.radsimp(sympy.cancel(value))
-    return sympy.radsimp(sympy.expand(value))
-
-
 def _is_left_alone(value: Expr) -> bool:
     """Is it a rational number, long, with parts that aren't simplified, or a product of powers?"""
     if value.is_Rational or size(value) > _LONGEST:
         return True
-    if value.has(sympy.RootSum, sympy.Integral) or any(map(_is_irrational_power, value.atoms(sympy.Pow))):
+    powers = value.atoms(sympy.Pow)
+    has_irrational_power = any(not power.exp.is_Rational and not power.base.is_Symbol for power in powers)
+    if value.has(sympy.RootSum, sympy.Integral) or has_irrational_power:
         return True
     functions = {f.func for f in value.atoms(sympy.Function)}
     return not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add)
-
-
-def _is_irrational_power(power: Expr) -> bool:
-    return not power.exp.is_Rational and not power.base.is_Symbol

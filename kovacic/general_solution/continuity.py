@@ -39,34 +39,16 @@ _MOST_SUSPECTS = 8
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
 
 
-def _argument(e: Expr) -> Expr:
-    return e.args[-1]
-
-
-def _beside_one(e: Expr) -> Expr:
-    return 1 - e.args[-1]
-
-
-def _squared_below_one(e: Expr) -> Expr:
-    return 1 - e.args[-1] ** 2
-
-
-def _above_minus_one(e: Expr) -> Expr:
-    return 1 + e.args[-1] ** 2
-
-
-def _square(e: Expr) -> Expr:
-    """Zero where the argument is: what has a sign isn't analytic there."""
-    return e.args[0] ** 2
-
-
 #: Functions with branch cuts, and what lies on the negative axis where they have theirs; None for none.
 _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
-    **dict.fromkeys((sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _argument),
-    **dict.fromkeys((sympy.atan, sympy.acot, sympy.asinh), _above_minus_one),
-    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh), _squared_below_one),
-    sympy.polylog: _beside_one,
-    **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), _square),
+    **dict.fromkeys(
+        (sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e: e.args[-1]
+    ),
+    **dict.fromkeys((sympy.atan, sympy.acot, sympy.asinh), lambda e: 1 + e.args[-1] ** 2),
+    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh), lambda e: 1 - e.args[-1] ** 2),
+    sympy.polylog: lambda e: 1 - e.args[-1],
+    # zero where the argument is: what has a sign isn't analytic there
+    **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
 }
 #: What stands for entire functions here: integrals that are left, and the functions of which pairs of solutions are made.
 _OPAQUE = (
@@ -95,26 +77,19 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     >>> jumps(sympy.atan(2 * sympy.tan(x / 2)), x, [x]), jumps(sympy.log(x), x, [1 / x])
     (True, False)
     """
-    y = _without_opaque_parts(y, x)
+    # An entire function for each opaque part: the rest jumps, or doesn't, beside any continuous functions.
+    parts = sorted((e for e in y.atoms(*_OPAQUE) if e.has(x)), key=str)
+    y = y.xreplace({e: sympy.cos(x * (k + 1) / 3) for k, e in enumerate(parts)})
     if not _cuts_of(y, x):
         return False
     with working_precision(_BITS):
-        return any(
-            _Course(x, _with_roots(y.xreplace(numbers)), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere()
-            for numbers in _letters(y.free_symbols - {x})
-        )
-
-
-def _without_opaque_parts(y: Expr, x: Expr) -> Expr:
-    """With an entire function for each of them: the rest jumps, or doesn't, beside any continuous functions."""
-    parts = sorted((e for e in y.atoms(*_OPAQUE) if e.has(x)), key=str)
-    return y.xreplace({e: sympy.cos(x * (k + 1) / 3) for k, e in enumerate(parts)})
-
-
-def _with_roots(y: Expr) -> Expr:
-    """With the terms of each `RootSum`: those of roots to so many digits lie on the same sides of cuts."""
-    sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in y.atoms(sympy.RootSum)}
-    return y.xreplace(sums)
+        for numbers in _letters(y.free_symbols - {x}):
+            here = y.xreplace(numbers)
+            # The terms of each `RootSum`: those of roots to so many digits lie on the same sides of cuts.
+            sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in here.atoms(sympy.RootSum)}
+            if _Course(x, here.xreplace(sums), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere():
+                return True
+    return False
 
 
 def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
