@@ -28,7 +28,6 @@ _LONGEST = 200
 #: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
 _LONGEST_FACTORED = 300
 _MOST_ATOMS = 10
-_ONE = sympy.Integer(1)
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,7 @@ class DeterminedConstants:
 
     values: Values
     needed: Sequence[Expr]
-    pivot: Expr = _ONE
+    pivot: Expr = sympy.S.One
 
 
 @dataclass(frozen=True)

@@ -128,23 +128,21 @@ def _orders_at_one_point(conditions: Sequence[Condition], limits: dict[Expr, App
 
 
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
-    """Where the condition is one on a limit; None for values at ordinary points.  Raises `InputError` for what is both."""
+    """Where the condition is one on a limit; None for values at ordinary points.
+
+    Raises `InputError` for what is both, and where y is to be bounded at an ordinary point.
+    """
     at_limits = [term for term in condition.terms if term.point in limits]
     if not at_limits:
-        _check_value(condition)
+        if condition.value is None:
+            point = condition.terms[0].point
+            raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
         return None
     place = at_limits[0].point
     if len(condition.terms) > 1 or at_limits[0].coefficient != 1:
         said = f"{place} is a singular point, or infinite"
         raise InputError(f"{condition.text}: {said}; there, y and y' are given apart", hint="write y(0) = bounded")
     return limits[place]
-
-
-def _check_value(condition: Condition) -> None:
-    """Raises `InputError` where y is bounded at an ordinary point."""
-    if condition.value is None:
-        point = condition.terms[0].point
-        raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
 
 
 def _limit(condition: Condition, solutions: _Solutions, basis: Basis, question: Question, place: Approach) -> Limit:
@@ -222,7 +220,9 @@ def _forbidden(found: Sequence[Expansion], least: int) -> list[ExpansionTerm]:
 
 def _follows(m: ExpansionTerm, large: Sequence[ExpansionTerm]) -> bool:
     """Has it a growing exponential, and isn't the largest one with that?"""
-    return m.growth_sign > 0 and any(_is_before(other, m) for other in large)
+    if m.growth_sign <= 0:
+        return False
+    return any(other != m and other.growth == m.growth and m.is_below(other) for other in large)
 
 
 def _is_large(m: ExpansionTerm, least: int) -> bool | None:
@@ -231,10 +231,6 @@ def _is_large(m: ExpansionTerm, least: int) -> bool | None:
         return m.size >= least
     except UnknownBehaviour:
         return None
-
-
-def _is_before(first: ExpansionTerm, second: ExpansionTerm) -> bool:
-    return first != second and first.growth == second.growth and second.is_below(first)
 
 
 def _uncertainty(expansion: Expansion, whole: Growth | None, least: int) -> str | None:

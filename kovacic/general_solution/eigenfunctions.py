@@ -37,7 +37,9 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     if parameter is None:
         return None
     c1 = sympy.simplify(c.diff(parameter))
-    others = [B, c1, *conditions[0], *(e for robin in _robins(conditions) for e in (robin.alpha, robin.beta))]
+    ends, wishes = conditions
+    robins = () if isinstance(wishes, int) else wishes
+    others = [B, c1, *ends, *(e for robin in robins for e in (robin.alpha, robin.beta))]
     if c1 == 0 or any(e.has(parameter) for e in others):
         return None
     c0 = sympy.simplify(c - parameter * c1)
@@ -66,10 +68,6 @@ def _coefficients(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
     return b, c
 
 
-def _robins(conditions: Any) -> tuple[Robin, ...]:
-    return () if isinstance(conditions[1], int) else conditions[1]
-
-
 def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
     """The two ends, and the conditions there, or 1 or -1 where they are periodic or antiperiodic; None for others."""
     given = question.conditions
@@ -77,7 +75,10 @@ def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
     is_homogeneous = len(given) == 2 and all(condition.value == 0 for condition in given)
     if not is_homogeneous or len(points) != 2 or any(point.is_infinite for point in points):
         return None
-    low, high = points if _is_in_order(*points) else points[::-1]
+    low, high = points
+    difference = _positive(high - low)
+    if difference.is_negative or difference.is_positive is False:
+        low, high = high, low
     if all(len(set(condition.points)) == 1 for condition in given):
         if given[0].points[0] == given[1].points[0]:
             return None
@@ -88,12 +89,6 @@ def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
         if wraps == {(0, -sign), (1, -sign)}:
             return (low, high), sign
     return None
-
-
-def _is_in_order(a: Expr, b: Expr) -> bool:
-    """For positive letters."""
-    difference = _positive(b - a)
-    return difference.is_positive is not False and not difference.is_negative
 
 
 def _positive(e: Expr) -> Expr:

@@ -62,25 +62,17 @@ def _size(expression: Expr, degree: float) -> _Size:
         return _Size(1, 1, 0)
     inner = [_size(part, degree) for part in expression.args]
     if expression.is_Add:
-        return _of_sum(inner)
+        terms = sum(one.terms for one in inner)
+        return _Size(terms, _parts(inner), max(one.degree for one in inner))
     if expression.is_Mul:
         return reduce(mul, sorted(inner, key=lambda part: part.degree))
-    if _is_expanded_power(expression):
+    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
         return _of_power(inner[0], expression.exp)
     return _Size(1, 1 + _parts(inner), math.inf)
 
 
 def _parts(sizes: Sequence[_Size]) -> float:
     return sum(one.parts for one in sizes)
-
-
-def _of_sum(sizes: Sequence[_Size]) -> _Size:
-    terms = sum(one.terms for one in sizes)
-    return _Size(terms, _parts(sizes), max(one.degree for one in sizes))
-
-
-def _is_expanded_power(e: Expr) -> bool:
-    return bool(e.is_Pow and e.exp.is_Rational and e.exp >= 1)
 
 
 def _of_power(base: _Size, exponent: Expr) -> _Size:

@@ -20,7 +20,6 @@ from kovacic.general_solution.zero import Zero, when_zero
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
-_ONE = sympy.Integer(1)
 #: The most monomials of an expansion.
 _MOST_TERMS = 400
 
@@ -211,7 +210,7 @@ class Expansion:
         return _series(first.rest, coefficients).times(first.coefficient**r, first.monomial.power(r))
 
     def _natural_power(self, n: int) -> Expansion:
-        total = Expansion.constant(_ONE)
+        total = Expansion.constant(sympy.Integer(1))
         for _ in range(n):
             total = total * self
         return total

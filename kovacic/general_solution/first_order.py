@@ -290,7 +290,8 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, v
 def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong."""
     value = value_of(conditions)
-    w, equation = _concrete(w), _concrete_equation(equation)
+    w = _concrete(w)
+    equation = FirstOrderEquation(equation.function, *map(_concrete, (equation.p, equation.q, equation.r)))
     known = [w, equation.p, equation.q, equation.r, *(value or ())]
     symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
@@ -312,10 +313,6 @@ def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequenc
 def _concrete(e: Expr) -> Expr:
     """With waves in the place of functions that aren't given."""
     return e.replace(lambda f: isinstance(f, AppliedUndef), lambda f: sympy.cos(f.args[0] + len(str(f.func))))
-
-
-def _concrete_equation(equation: FirstOrderEquation) -> FirstOrderEquation:
-    return FirstOrderEquation(equation.function, *map(_concrete, (equation.p, equation.q, equation.r)))
 
 
 def _is_missed(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], wanted: GivenValue) -> bool | None:

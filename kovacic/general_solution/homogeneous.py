@@ -107,7 +107,8 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     """
     how: dict[str, Any] = {"symbols": question.parameters, "joined": True}
     found: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
-    is_asked = _are_names_asked_for(question)
+    is_asked = not question.conditions or bool(limit_points(question))
+    is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
     if not found or is_asked:
         halves = by_sign(solution.S, solution.gauge, solution.variable, budget, **how)
         if halves is not None:
@@ -122,12 +123,6 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     if special and not are_independent(y1, y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     return y1, y2
-
-
-def _are_names_asked_for(question: Question) -> bool:
-    """Are names of functions, or their behaviour, asked for, and no particular solution?"""
-    is_asked = not question.conditions or bool(limit_points(question))
-    return is_asked and question.equation.is_homogeneous
 
 
 def _joined(solution: Solution, form: KleinForm, budget: Budget) -> Pair | None:

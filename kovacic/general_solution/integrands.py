@@ -68,9 +68,12 @@ def radicands(expression: Expr) -> list[Expr]:
 
 def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     """int g dx for a product g of powers and exponentials of rational functions; None for anything else, or unknown."""
-    if _has_other_functions(term, x):
+    functions = [f for f in term.atoms(sympy.Function) if f.has(x)]
+    if any(f.func is not exp for f in functions):
         return None
-    if _turns_at_zero(term, x):
+    # roots of a - x and the like are real for x -> -oo
+    odd = [polynomial for polynomial in _polynomial_radicands(term, x) if polynomial.degree() % 2]
+    if odd and all(polynomial.LC().is_negative for polynomial in odd):
         turned = integral_of_product(term.subs(x, -x), x)
         if turned is None:
             return None
@@ -83,7 +86,10 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
 
 def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     """int g dx for g = K h with h'/h = rate: K int h dx."""
-    atoms = Atoms(x, beyond_zeros=_is_real_far_away(term, x))
+    polynomials = _polynomial_radicands(term, x)
+    # sqrt(x^2 - 1) and the like are real for large x
+    is_real_far_away = bool(polynomials) and all(polynomial.LC().is_positive for polynomial in polynomials)
+    atoms = Atoms(x, beyond_zeros=is_real_far_away)
     h = product(rate)
     scale, shown = factors(h, atoms)
     if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes
@@ -97,38 +103,15 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     return sympy.expand(K * found)
 
 
-def _has_other_functions(term: Expr, x: Expr) -> bool:
-    """Are there functions of x that aren't exponentials?"""
-    functions = [f for f in term.atoms(sympy.Function) if f.has(x)]
-    return any(f.func is not exp for f in functions)
-
-
 def _constant_value(ratio: Expr, x: Expr) -> Expr | None:
     """The value of a ratio that doesn't depend on x, at the first point where it has one; None without such a point."""
     for point in (2, 3, 5):
-        value = _in_one_form(sympy.powsimp(ratio.subs(x, point)))
+        value = sympy.powsimp(ratio.subs(x, point))
+        if value.free_symbols and size(value) <= _LONGEST:  # without terms that cancel
+            value = sympy.cancel(value)
         if value != 0 and not value.has(sympy.nan, sympy.zoo):
             return value
     return None
-
-
-def _in_one_form(constant: Expr) -> Expr:
-    """Without terms that cancel, where it has parameters."""
-    if not constant.free_symbols or size(constant) > _LONGEST:
-        return constant
-    return sympy.cancel(constant)
-
-
-def _is_real_far_away(term: Expr, x: Expr) -> bool:
-    """Are its roots those of polynomials that are positive for large x, as in sqrt(x^2 - 1)?"""
-    polynomials = _polynomial_radicands(term, x)
-    return bool(polynomials) and all(polynomial.LC().is_positive for polynomial in polynomials)
-
-
-def _turns_at_zero(term: Expr, x: Expr) -> bool:
-    """Are its roots those of a - x and the like, which are real for x -> -oo?"""
-    polynomials = [polynomial for polynomial in _polynomial_radicands(term, x) if polynomial.degree() % 2]
-    return bool(polynomials) and all(polynomial.LC().is_negative for polynomial in polynomials)
 
 
 def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:

@@ -202,12 +202,7 @@ def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
         if on is None:
             return None
         total += (begins[k] - ends[k]) * on
-    return _reduced(total, x)
-
-
-def _reduced(total: Expr, x: Expr) -> Expr:
-    """With single steps in the place of products of steps at numbers."""
-    apart = taken_apart(total, x)
+    apart = taken_apart(total, x)  # with single steps in the place of products of steps at numbers
     assert apart is not None
     return sympy.Add(apart.plain, *(step.g * Heaviside(x - step.a) for step in apart.steps))
 
@@ -245,14 +240,6 @@ def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
 # ------------------------------------------------------------------------------------------------------------- steps
 
 
-def _step(e: Expr, x: Expr) -> Expr | None:
-    return above(e.args[0], x)
-
-
-def _step_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    return (1 + _sign_near(e, x, point)) / 2
-
-
 def _argument(e: Expr) -> list[Expr]:
     return [e.args[0]]
 
@@ -278,10 +265,6 @@ def _modulus(e: Expr, x: Expr) -> Expr | None:
     if sign is None:
         return None
     return e.args[0] * sign
-
-
-def _modulus_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    return _sign_near(e, x, point) * e.args[0]
 
 
 # ------------------------------------------------------------------------------------------------- Macaulay's brackets
@@ -316,14 +299,6 @@ def _distance(e: Expr) -> list[Expr]:
 # ------------------------------------------------------------------------------------------------------------- impulses
 
 
-def _unchanged(e: Expr, _x: Expr) -> Expr:
-    return e
-
-
-def _zero_near(_e: Expr, _x: Expr, _point: Expr) -> Expr:
-    return sympy.Integer(0)
-
-
 # -------------------------------------------------------------------------------------------------- largest and smallest
 
 
@@ -331,18 +306,12 @@ def _extremum(e: Expr, x: Expr) -> Expr | None:
     """The largest or the smallest, of two after the other."""
     best, *others = e.args
     for other in others:
-        on = above(_advantage(e, best, other), x)
+        advantage = best - other if isinstance(e, sympy.Max) else other - best
+        on = above(advantage, x)
         if on is None:
             return None
         best = other + (best - other) * on
     return best
-
-
-def _advantage(e: Expr, first: Expr, second: Expr) -> Expr:
-    """What is positive where a maximum, or a minimum, is the first one."""
-    if isinstance(e, sympy.Max):
-        return first - second
-    return second - first
 
 
 def _differences(e: Expr) -> list[Expr]:
@@ -446,9 +415,14 @@ def _product(indicators: Iterable[Expr | None]) -> Expr | None:
 _KINDS = (
     _Kind((sympy.Piecewise,), _cases, _borders_of_cases, _case_near),
     _Kind((sympy.Max, sympy.Min), _extremum, _differences, _extremum_near),
-    _Kind((sympy.Abs,), _modulus, _argument, _modulus_near),
+    _Kind((sympy.Abs,), _modulus, _argument, lambda e, x, point: _sign_near(e, x, point) * e.args[0]),
     _Kind((sympy.sign,), _sign, _argument, _sign_near),
     _Kind((sympy.SingularityFunction,), _bracket, _distance, _bracket_near),
-    _Kind((Heaviside,), _step, _argument, _step_near),
-    _Kind((DiracDelta,), _unchanged, _argument, _zero_near),
+    _Kind(
+        (Heaviside,),
+        lambda e, x: above(e.args[0], x),
+        _argument,
+        lambda e, x, point: (1 + _sign_near(e, x, point)) / 2,
+    ),
+    _Kind((DiracDelta,), lambda e, x: e, _argument, lambda e, x, point: sympy.Integer(0)),
 )

@@ -154,16 +154,6 @@ def _argument_within_one(e: Expr) -> Expr:
     return _not_negative(1 - e.args[0] ** 2)
 
 
-def _argument_strictly_within_one(e: Expr) -> Expr:
-    """atanh(u): u^2 < 1."""
-    return _positive(1 - e.args[0] ** 2)
-
-
-def _argument_from_one_on(e: Expr) -> Expr:
-    """acosh(u): u >= 1."""
-    return _not_negative(e.args[0] - 1)
-
-
 def _of_first_kind(e: Expr) -> Expr:
     """J_n(u), I_n(u): (u/2)^n times an entire function."""
     order = e.args[0]
@@ -216,15 +206,11 @@ def _of_third_elliptic_integral(e: Expr) -> Expr:
 def _of_hypergeometric(e: Expr) -> Expr:
     """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial."""
     u = e.argument
-    if len(e.ap) <= len(e.bq) or any(map(_is_nonpositive_integer, e.ap)):
+    if len(e.ap) <= len(e.bq) or any(a.is_integer and a.is_nonpositive for a in e.ap):
         return sympy.true
     if len(e.ap) == len(e.bq) + 1:
         return _argument_below_one(e)
     return _off_the_cut(-u)
-
-
-def _is_nonpositive_integer(a: Expr) -> bool:
-    return bool(a.is_integer and a.is_nonpositive)
 
 
 _OF_FUNCTIONS: dict[Any, Need] = {
@@ -232,8 +218,8 @@ _OF_FUNCTIONS: dict[Any, Need] = {
     # inverse functions, and those with poles
     sympy.asin: _argument_within_one,
     sympy.acos: _argument_within_one,
-    sympy.acosh: _argument_from_one_on,
-    sympy.atanh: _argument_strictly_within_one,
+    sympy.acosh: lambda e: _not_negative(e.args[0] - 1),  # u >= 1
+    sympy.atanh: lambda e: _positive(1 - e.args[0] ** 2),  # u^2 < 1
     sympy.tan: _no_pole_of_tangent,
     sympy.sec: _no_pole_of_tangent,
     sympy.cot: _no_pole_of_cotangent,

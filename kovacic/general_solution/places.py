@@ -95,8 +95,10 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
         return ordinary[0]
     poles = [*rational_poles(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
-    if not finite:
-        return _beyond(next(iter(limits.values())), poles)
+    if not finite:  # an integer beyond all poles
+        if next(iter(limits.values())).point == sympy.oo:
+            return sympy.ceiling(sympy.Max(0, *poles)) + 1
+        return sympy.floor(sympy.Min(0, *poles)) - 1
     place = finite[-1]
     others = [approach.point for approach in finite if approach.point != place.point]
     ahead = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
@@ -111,20 +113,13 @@ def _beside(place: Approach, ends: Sequence[Expr]) -> Expr:
     return (place.point + nearest) / 2
 
 
-def _beyond(place: Approach, poles: Sequence[Expr]) -> Expr:
-    """An integer beyond all poles."""
-    if place.point == sympy.oo:
-        return sympy.ceiling(sympy.Max(0, *poles)) + 1
-    return sympy.floor(sympy.Min(0, *poles)) - 1
-
-
 def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     """Raises `InputError` where a singular point lies between points of conditions or jumps.
 
     Solutions that are written with functions that are analytic everywhere may be continued.
     """
     points = [point for point in _points(question) if point not in _INFINITIES]
-    if len(points) < 2 or not all(_is_real_number(point) for point in points):
+    if len(points) < 2 or not all(point.is_real and point.is_number for point in points):
         return
     if all(_is_entire(question.own(y), question.x) for y in solutions):
         return
@@ -132,10 +127,6 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     last = sympy.Max(*points)
     for pole in poles_between(question, first, last):
         raise _apart(pole, points)
-
-
-def _is_real_number(point: Expr) -> bool:
-    return bool(point.is_real and point.is_number)
 
 
 def _points(question: Question) -> list[Expr]:

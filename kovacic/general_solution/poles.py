@@ -28,12 +28,6 @@ from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_p
 Expr = Any  # SymPy publishes no types
 
 
-def _logarithms(value: Expr) -> list[Expr]:
-    if value == 0:
-        return []
-    return [sympy.log(value)]
-
-
 @dataclass(frozen=True)
 class _Inverse:
     """The x with f(x) = value, up to a period if there is one."""
@@ -53,7 +47,7 @@ class _Inverse:
 
 #: Those of the functions f that are variables of equations.
 _INVERSES: dict[Any, _Inverse] = {
-    sympy.exp: _Inverse(_logarithms, 2 * sympy.pi * sympy.I),
+    sympy.exp: _Inverse(lambda value: [] if value == 0 else [sympy.log(value)], 2 * sympy.pi * sympy.I),
     sympy.cosh: _Inverse(lambda value: [sympy.acosh(value), -sympy.acosh(value)]),
     sympy.sinh: _Inverse(lambda value: [sympy.asinh(value)]),
     sympy.cos: _Inverse(lambda value: [sympy.acos(value), -sympy.acos(value)], 2 * sympy.pi),
@@ -210,17 +204,13 @@ def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Ite
     step = inverse.real_step(slope)
     for base in inverse.values(root):
         x0 = sympy.expand((base - inner.subs(x, 0)) / slope)
-        if not _is_nearly_real(x0):
+        is_nearly_real = x0.is_number and abs(sympy.im(x0).evalf(30)) <= 1e-20  # up to what may be rounded
+        if not is_nearly_real:
             continue
         if step is None:
             yield x0
         else:
             yield from _repeated(x0, step, first, last)
-
-
-def _is_nearly_real(point: Expr) -> bool:
-    """Is it a number, real up to what may be rounded?"""
-    return bool(point.is_number and abs(sympy.im(point).evalf(30)) <= 1e-20)
 
 
 def _repeated(x0: Expr, step: Expr, first: Expr, last: Expr) -> Iterator[Expr]:

@@ -93,7 +93,7 @@ def read_question(
     floats = has_floats(eq, values)
     renamed: dict[Expr, Expr] = {}
     if isinstance(eq, sympy.Basic):
-        renamed = _renamed(eq)
+        renamed = {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
         eq = exact(eq)
     if renamed:
         eq = _in_symbols(eq, renamed)
@@ -112,8 +112,11 @@ def read_question(
         conditions = tuple(condition.in_symbols(known) for condition in conditions)
     meanings = _meanings(read.letters, symbols)
     symbols |= {letter.name: letter for letter in meanings}
+    equation = read.equation
+    if equation.h is not None and equation.h.has(*JUMPING):
+        equation = replace(equation, h=in_steps(equation.h, sympy.Symbol(read.function.args[0].name)))
     return Question(
-        equation=_with_steps(read.equation, sympy.Symbol(read.function.args[0].name)),
+        equation=equation,
         given=read.equation,
         function=read.function,
         conditions=conditions,
@@ -263,13 +266,6 @@ def _read_text(text: str | Paste, sought: _Sought, var: str | None, limits: Limi
     return _Read(equation, sought.function(equation.unknown, variable), parsed.letters, guesses)
 
 
-def _with_steps(equation: Equation, x: Expr) -> Equation:
-    """With steps and impulses in the place of other functions that jump, or have corners."""
-    if equation.h is None or not equation.h.has(*JUMPING):
-        return equation
-    return replace(equation, h=in_steps(equation.h, x))
-
-
 def _only_function(eq: Expr) -> Expr:
     """y(x), where no other function occurs.  Raises `NotLinear`."""
     function = function_of(eq)
@@ -289,11 +285,6 @@ def _applied_in(eq: Any, func: Any) -> Expr:
     return min(found, key=str)
 
 
-def _renamed(eq: Expr) -> dict[Expr, Expr]:
-    """Other symbols for those with the names of numbers."""
-    return {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
-
-
 def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
     if isinstance(given, sympy.Basic):
         return given.xreplace(renamed)
@@ -302,17 +293,12 @@ def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
 
 def _letter(name: str, meaning: Expr) -> Expr:
     """The symbol for a constant, with what is known of its sign; powers are principal ones, and taken for positive."""
-    if meaning.is_positive or _is_principal_power(meaning):
+    is_power = meaning.is_Pow or isinstance(meaning, sympy.exp)
+    is_principal_power = is_power and not meaning.as_base_exp()[0].is_negative
+    if meaning.is_positive or is_principal_power:
         return sympy.Symbol(name, positive=True)
     if meaning.is_negative:
         return sympy.Symbol(name, negative=True)
     if meaning.is_real:
         return sympy.Symbol(name, real=True)
     return sympy.Symbol(name)
-
-
-def _is_principal_power(meaning: Expr) -> bool:
-    """Is it a power, or an exponential, whose base isn't known to be negative?"""
-    if not meaning.is_Pow and not isinstance(meaning, sympy.exp):
-        return False
-    return not meaning.as_base_exp()[0].is_negative

@@ -109,14 +109,10 @@ def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
     whole = _with_polar_powers(whole.subs(real), x, back)
     both = sympy.expand(whole, complex=True).as_real_imag()
     parts = [part.xreplace(back).as_independent(x, as_Add=False)[1] for part in both if part != 0]
-    if all(_is_readable(part, y) for part in parts):
+    most = _LARGEST * (size(y) + 5)
+    if all(size(part) <= most and not part.has(*_COMPLEX) for part in parts):
         return parts
     return [y]
-
-
-def _is_readable(part: Expr, y: Expr) -> bool:
-    """Is a part of y not much longer than y, without the real parts and moduli of anything?"""
-    return size(part) <= _LARGEST * (size(y) + 5) and not part.has(*_COMPLEX)
 
 
 def _with_positive_arguments(y: Expr, point: Expr, x: Expr, back: dict[Expr, Expr]) -> dict[Expr, Expr]:

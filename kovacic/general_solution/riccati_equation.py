@@ -37,7 +37,6 @@ from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_zero, when_zero
 
 Expr = Any  # SymPy publishes no types
-_ONE = sympy.Integer(1)
 #: The most terms of a numerator and a denominator, multiplied out, that are divided by their common divisor: about 0.1 s.
 _LONGEST = 400
 #: The largest sum of exponents with which E is integrated: partial fractions of order 1,000 take 20 s.
@@ -50,11 +49,6 @@ def _linear(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
     u = sympy.Function(f"{equation.function.func}_")(x)
     slope = sympy.cancel(equation.q + equation.r.diff(x) / equation.r)
     return sympy.Eq(u.diff(x, 2) - slope * u.diff(x) + sympy.cancel(equation.p * equation.r) * u, 0), u
-
-
-def _reciprocal(equation: FirstOrderEquation) -> FirstOrderEquation:
-    """The equation of 1/w."""
-    return FirstOrderEquation(equation.function, -equation.r, -equation.q, -equation.p)
 
 
 @dataclass(frozen=True)
@@ -77,7 +71,9 @@ def solved_riccati(
     """
     value = value_of(conditions)
     is_inverted = _is_inverted(equation, value)
-    solved_for = _reciprocal(equation) if is_inverted else equation
+    solved_for = equation
+    if is_inverted:  # the equation of 1/w
+        solved_for = FirstOrderEquation(equation.function, -equation.r, -equation.q, -equation.p)
     found = _solved_linear(equation, solved_for, value, linear_solution)
     forms = [*_forms(found, solved_for)]
     if is_inverted:
@@ -101,17 +97,14 @@ def _solved_linear(
         found, notices = linear_solution(linear, u, ics=start)
         return _LinearSolution(found.rhs, (), notices)
     found, notices = linear_solution(linear, u, ics={})
-    solution, constants = _with_own_constants(found.rhs, linear)
+    # Letters of their own for C1 and C2, which may be symbols of r, or of the value, too.
+    symbols = sorted(found.rhs.free_symbols - linear.free_symbols, key=str)
+    letters = {symbol: sympy.Dummy() for symbol in symbols}
+    solution = found.rhs.xreplace(letters)
+    constants = tuple(letters.values())
     if value is not None:
         solution = _through(solution, constants, equation, value)
     return _LinearSolution(solution, constants, notices)
-
-
-def _with_own_constants(solution: Expr, linear: Expr) -> tuple[Expr, tuple[Expr, ...]]:
-    """With letters of their own for C1 and C2, which may be symbols of r, or of the value, too."""
-    symbols = sorted(solution.free_symbols - linear.free_symbols, key=str)
-    letters = {symbol: sympy.Dummy() for symbol in symbols}
-    return solution.xreplace(letters), tuple(letters.values())
 
 
 def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool:
@@ -132,7 +125,7 @@ def _is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
 def _start(equation: FirstOrderEquation, u: Expr, value: GivenValue, *, is_inverted: bool) -> dict[Expr, Expr]:
     """The values of u and u' for w(a) = v."""
     here = {equation.x: value.point}
-    u_there = _ONE
+    u_there = sympy.Integer(1)
     slope_there = -(equation.r * value.v).subs(here)
     if is_inverted:
         u_there = value.v

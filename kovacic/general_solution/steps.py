@@ -75,11 +75,10 @@ def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
 
 def with_single_steps(e: Expr) -> Expr:
     """H(u)^n = H(u)."""
-    return e.replace(_is_power_of_step, lambda power: power.base)
-
-
-def _is_power_of_step(e: Expr) -> bool:
-    return bool(e.is_Pow and isinstance(e.base, Heaviside) and e.exp.is_positive)
+    return e.replace(
+        lambda power: power.is_Pow and isinstance(power.base, Heaviside) and power.exp.is_positive,
+        lambda power: power.base,
+    )
 
 
 def taken_apart(right: Expr, x: Expr) -> Apart | None:
@@ -112,7 +111,7 @@ def _together(parts: Sequence[Apart]) -> Apart:
 def _term_apart(term: Expr, x: Expr) -> Apart | None:
     """The same for a product: without jumps; g H H ... H, which begins with the last step; or g delta^(n) H ... H."""
     term = with_single_steps(term)
-    jumps = [factor for factor in sympy.Mul.make_args(term) if _jumps(factor, x)]
+    jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
     if not jumps:
         return Apart(term, (), ())
     last = _last_place(jumps, x)
@@ -126,10 +125,6 @@ def _term_apart(term: Expr, x: Expr) -> Apart | None:
         return None
     steps = [jump for jump in jumps if jump not in deltas]
     return _impulses_beside_steps(g, deltas[0], steps, x)
-
-
-def _jumps(factor: Expr, x: Expr) -> bool:
-    return bool(factor.has(*JUMPING) and factor.has(x))
 
 
 def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> Apart | None:
@@ -178,7 +173,7 @@ def _are_on(steps: Sequence[Expr], x: Expr, a: Expr) -> bool | None:
 def _impulses(g: Expr, delta: Expr, place: HeavisidePlace, x: Expr) -> list[Impulse]:
     """g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n)."""
     a = place.a
-    n = _order(delta)
+    n = int(delta.args[1]) if len(delta.args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
     scale = abs(place.slope) * place.slope**n
     found = []
     for k in range(n + 1):
@@ -186,10 +181,3 @@ def _impulses(g: Expr, delta: Expr, place: HeavisidePlace, x: Expr) -> list[Impu
         if strength != 0:
             found.append(Impulse(a, n - k, strength))
     return found
-
-
-def _order(delta: Expr) -> int:
-    """n of DiracDelta(u, n), which is DiracDelta(u) for 0."""
-    if len(delta.args) == 1:
-        return 0
-    return int(delta.args[1])

@@ -118,7 +118,8 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, Coefficients] | None:
 
 def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
     """Products with one wave at most; none of 0.  None where powers of functions of x aren't natural, or there are too many."""
-    if not all(map(_is_natural, _exponents(right, x))):
+    exponents = [power.exp for power in right.atoms(sympy.Pow) if power.base.has(x)]
+    if not all(exponent.is_Integer and exponent > 0 for exponent in exponents):
         return None  # before it is expanded
     right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
     if right.has(sin, cos):
@@ -129,15 +130,6 @@ def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
     if len(summands) > _LARGEST:
         return None
     return summands
-
-
-def _exponents(e: Expr, x: Expr) -> list[Expr]:
-    """Those of the powers of functions of x."""
-    return [power.exp for power in e.atoms(sympy.Pow) if power.base.has(x)]
-
-
-def _is_natural(exponent: Expr) -> bool:
-    return bool(exponent.is_Integer and exponent > 0)
 
 
 def _term(summand: Expr, x: Expr) -> _ForcingTerm | None:
@@ -159,7 +151,7 @@ def _without_waves(constant: Expr, factors: Sequence[Expr], x: Expr) -> _Forcing
     rho = sympy.Integer(0)
     for factor in factors:
         base, exponent = factor.as_base_exp()
-        if base == x and _is_degree(exponent):
+        if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
             degree += int(exponent)
             continue
         line = _line(exponent, x)
@@ -169,10 +161,6 @@ def _without_waves(constant: Expr, factors: Sequence[Expr], x: Expr) -> _Forcing
         rho += line.slope * sympy.log(base)
     nothing = sympy.Integer(0)
     return _ForcingTerm(degree, Rate(rho, nothing), RealAndImaginary(constant, nothing))
-
-
-def _is_degree(exponent: Expr) -> bool:
-    return bool(exponent.is_Integer and 0 <= exponent <= _LARGEST)
 
 
 def _beside_wave(term: _ForcingTerm, wave: Expr, x: Expr) -> _ForcingTerm | None:

@@ -104,13 +104,10 @@ def validity(solution: Any) -> Validity:
     for nonzero in (*needed.nonzero, _wronskian_somewhere(value, x)):
         exceptions |= dict.fromkeys(_exceptions(nonzero))
     exceptions |= dict.fromkeys(_exceptions_of_series(value, x))
-    return Validity(_without_weaker(needed.on_x), tuple(exceptions), _is_of_real_numbers(value))
-
-
-def _is_of_real_numbers(value: Expr) -> bool:
-    """Are all numbers in it known to be real?  The bounds of an integral may be infinite."""
+    # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
-    return all(number.is_extended_real for number in numbers)
+    is_of_real_numbers = all(number.is_extended_real for number in numbers)
+    return Validity(_without_weaker(needed.on_x), tuple(exceptions), is_of_real_numbers)
 
 
 @dataclass(frozen=True)
@@ -136,16 +133,11 @@ def _sorted(relations: Iterable[Expr], x: Expr) -> _Relations:
     on_x = []
     nonzero = []
     for relation in dict.fromkeys(relations):
-        if _is_on_parameters(relation, x):
+        if isinstance(relation, sympy.Ne) and not relation.has(x):
             nonzero.append(relation.lhs)
         elif not _holds_for_real_symbols(relation):
             on_x.append(relation)
     return _Relations(on_x, nonzero)
-
-
-def _is_on_parameters(relation: Expr, x: Expr) -> bool:
-    """Does it say that an expression in parameters alone isn't zero?"""
-    return isinstance(relation, sympy.Ne) and not relation.has(x)
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
@@ -220,28 +212,17 @@ def _elementary_value(W: Expr, x: Expr) -> Expr:
         found = finite_value(W, x, sympy.Integer(point))
         if found is None or found.is_zero:
             continue
-        if _is_elementary(found):
+        if {f.func for f in found.atoms(sympy.Function)} <= _ELEMENTARY:
             return found
     return sympy.S.One
-
-
-def _is_elementary(e: Expr) -> bool:
-    return {f.func for f in e.atoms(sympy.Function)} <= _ELEMENTARY
 
 
 def _exceptions(nonzero: Expr) -> Iterator[Expr]:
     """The factors with parameters that may be zero, each once and without a sign."""
     for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(nonzero))):
-        base = _without_sign(_base(factor))
+        base = _without_sign(factor.base if factor.is_Pow else factor)
         if base.free_symbols:
             yield base
-
-
-def _base(factor: Expr) -> Expr:
-    """What is zero where a factor, a power perhaps, is."""
-    if factor.is_Pow:
-        return factor.base
-    return factor
 
 
 def _without_sign(e: Expr) -> Expr:

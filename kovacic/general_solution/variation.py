@@ -212,12 +212,10 @@ class Basis:
 
     def _without_homogeneous(self, total: Expr) -> Expr:
         """A sum without the terms that are multiples of y1 or y2."""
-        terms = [term for term in sympy.Add.make_args(total) if not self._is_homogeneous(term)]
+        terms = sympy.Add.make_args(total)
+        for y in (self.y1, self.y2):
+            terms = [term for term in terms if not _is_constant(term / y, self.x)]
         return sympy.factor_terms(sympy.Add(*terms))
-
-    def _is_homogeneous(self, term: Expr) -> bool:
-        """Is it a multiple of y1 or y2?"""
-        return _is_constant(term / self.y1, self.x) or _is_constant(term / self.y2, self.x)
 
     def with_integrals(self, right: Expr, start: Expr | None) -> Expr:
         """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
@@ -339,7 +337,7 @@ def _gathered(form: Expr, x: Expr) -> Expr:
     found = []
     for rest, parts in groups.items():
         fraction = sympy.Add(*parts)
-        if not _is_polynomial_in(fraction, x):
+        if not fraction.is_polynomial(x) or (fraction.free_symbols and not fraction.has(x)):
             fraction = sympy.factor(fraction)
         found.append(rest * fraction)
     return sympy.Add(*found)
@@ -350,11 +348,6 @@ def _are_readable(integrals: Sequence[Expr | None]) -> bool:
     known = [integral for integral in integrals if integral is not None]
     functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known))
     return sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX
-
-
-def _is_polynomial_in(f: Expr, x: Expr) -> bool:
-    """With x, or without any symbol."""
-    return bool(f.is_polynomial(x) and (f.has(x) or not f.free_symbols))
 
 
 def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:
@@ -386,19 +379,16 @@ def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
 
 def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
     """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
-    sample = _sample_functions(y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING), x)
+    given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
+    # An exponential function for each that is given by its name, or jumps: the formula holds for any function.
+    functions = enumerate(sorted(given, key=str))
+    sample = {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in functions if f.has(x)}
     if sample:
         y = y.xreplace(sample)
         right = right.xreplace(sample)
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
         return all(_is_solution_at(point, y, coefficients, right, x) for point in _points())
     return False
-
-
-def _sample_functions(given: set[Expr], x: Expr) -> dict[Expr, Expr]:
-    """An exponential function for each that is given by its name, or jumps: the formula holds for any function."""
-    functions = enumerate(sorted(given, key=str))
-    return {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in functions if f.has(x)}
 
 
 def _is_solution_at(point: Any, y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:

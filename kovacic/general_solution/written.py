@@ -37,7 +37,8 @@ def combination(question: Question, basis: Basis, particular: Expr, constants: t
     """c1 y1 + c2 y2 + y0 in the user's symbols, factors that y1 and y2 share before the sum; in the variable of `basis`."""
     common: list[Expr] = []
     if 0 not in constants:
-        common = _common_factors(basis.y1, basis.y2)
+        others = sympy.Mul.make_args(basis.y2)
+        common = [factor for factor in sympy.Mul.make_args(basis.y1) if factor in others]
     summands = []
     for constant, y in zip(constants, (basis.y1, basis.y2), strict=True):
         own = [factor for factor in sympy.Mul.make_args(y) if factor not in common]
@@ -46,11 +47,6 @@ def combination(question: Question, basis: Basis, particular: Expr, constants: t
     if question.conditions:
         general = min(general, sympy.expand_mul(general, deep=False), key=size)
     return question.own(general)
-
-
-def _common_factors(y1: Expr, y2: Expr) -> list[Expr]:
-    others = sympy.Mul.make_args(y2)
-    return [factor for factor in sympy.Mul.make_args(y1) if factor in others]
 
 
 def written(question: Question, value: Expr) -> Expr:
@@ -77,7 +73,8 @@ def with_floats(e: Expr) -> Expr:
         return e
     if e.is_number and not e.has(sympy.Integral):
         return _as_float(e)
-    if _is_root_or_power(e):
+    is_power = e.is_Pow and not isinstance(e, sympy.exp)
+    if is_power and e.exp.is_Rational and e.exp.q <= 2:
         return with_floats(e.base) ** e.exp
     if e.is_Function and len(e.args) > 1:
         *parameters, argument = e.args
@@ -91,10 +88,3 @@ def _as_float(number: Expr) -> Expr:
     if not number.is_real:
         return value
     return sympy.Float(str(value), _DIGITS)
-
-
-def _is_root_or_power(e: Expr) -> bool:
-    """Is the exponent an integer, or half an integer?"""
-    if not e.is_Pow or isinstance(e, sympy.exp):
-        return False
-    return bool(e.exp.is_Rational and e.exp.q <= 2)

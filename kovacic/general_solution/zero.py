@@ -66,22 +66,19 @@ def when_zero(value: Expr) -> Zero:
         return Zero.ALWAYS
     if value.is_Rational or is_nowhere_zero(value):
         return Zero.NEVER
-    if _differs_somewhere(value):
+    tried = islice(samples(value.free_symbols), _SAMPLES)
+    if any(differs_from_zero(value, sample) for sample in tried):
         return _where_not_always(value)
     if is_identically_zero(value):
         return Zero.ALWAYS
     raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
 
 
-def _differs_somewhere(value: Expr) -> bool:
-    """Is it seen not to be zero at one of some values of its parameters?"""
-    tried = islice(samples(value.free_symbols), _SAMPLES)
-    return any(differs_from_zero(value, sample) for sample in tried)
-
-
 def _where_not_always(value: Expr) -> Zero:
     """A number that isn't zero never is; what has parameters may be for other values of these."""
-    if value.free_symbols and not _is_nowhere_zero_by_parity(value):
+    parts = _by_parity(value)
+    is_nowhere_zero_by_parity = bool(parts) and all(map(is_nowhere_zero, parts))
+    if value.free_symbols and not is_nowhere_zero_by_parity:
         return Zero.SOMETIMES
     return Zero.NEVER
 
@@ -132,11 +129,6 @@ _WITHOUT_ZEROS: tuple[tuple[tuple[Any, ...], Callable[[Expr], Any]], ...] = (
 )
 
 
-def _is_nowhere_zero_by_parity(value: Expr) -> bool:
-    parts = _by_parity(value)
-    return bool(parts) and all(map(is_nowhere_zero, parts))
-
-
 def _by_parity(value: Expr) -> list[Expr]:
     """The value for even and for odd n, where n/2 for an integer n occurs in a wave or a gamma function; else nothing."""
     halved = _integers_of_unknown_parity(value)
@@ -177,17 +169,15 @@ def _reordered(symbols: Sequence[Expr], k: int) -> list[Expr]:
 
 def sample_value(symbol: Expr, k: int) -> Expr:
     """The k-th value of a symbol."""
-    value = _sample_beside_sign(symbol, k)
+    if symbol.is_integer:
+        value = _integer_sample(symbol, k)
+    else:
+        # between 1 and 2.01 but for k, with a large numerator and denominator: another one for most other names
+        code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
+        value = sympy.Rational(9973 + 2 * code % 9973, 9967) + k
     if symbol.is_negative or symbol.is_nonpositive:
         return -value
     return value
-
-
-def _sample_beside_sign(symbol: Expr, k: int) -> Expr:
-    """A positive one."""
-    if symbol.is_integer:
-        return _integer_sample(symbol, k)
-    return _sample_by_name(symbol.name) + k
 
 
 def _integer_sample(symbol: Expr, k: int) -> Expr:
@@ -197,12 +187,6 @@ def _integer_sample(symbol: Expr, k: int) -> Expr:
     if symbol.is_even:
         return sympy.Integer(2 * k + 2)
     return sympy.Integer(k + 1)
-
-
-def _sample_by_name(name: str) -> Expr:
-    """A number between 1 and 2.01 with a large numerator and denominator, another one for most other names."""
-    code = sum(ord(character) * 31**place for place, character in enumerate(name))
-    return sympy.Rational(9973 + 2 * code % 9973, 9967)
 
 
 def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
