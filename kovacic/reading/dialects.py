@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
+from functools import cached_property, lru_cache
 from itertools import pairwise, zip_longest
 
 from kovacic.errors import ParseError
@@ -283,15 +284,20 @@ class _Translation:
         self.words = Counter(token.text for token in self.scan)
 
     def tokens(self) -> Tokens:
+        rules = _rules_for(_MARKS.intersection("".join(self.words)))
         while self.k < len(self.scan):
             if self.k % _TOKENS_BETWEEN_LOOKS == 0:
                 check_time()
-            self.close()
+            if self.k in self.closers:
+                self.close()
             token = self.scan[self.k]
             if self.k in self.skipped:
                 self.k += 1
                 continue
-            if not any(rule(self, token) for rule in _RULES.get(token.kind, ())):
+            for rule in rules.get(token.text) or rules.get(token.kind, ()):
+                if rule(self, token):
+                    break
+            else:
                 raise unexpected(self.text, token)
         for k in sorted(self.closers):
             self.k = k
@@ -351,9 +357,14 @@ class _Translation:
         texts = [token.text for token in self.scan[begin:end] if token.text not in "()[]{}"]
         return "".join(texts).replace("**", "^").translate(_SUPERSCRIPT_DIGITS)
 
+    @cached_property
+    def in_parentheses(self) -> list[str]:
+        """The texts of the tokens, with round brackets for all."""
+        return [token.text.translate(_AS_PARENTHESES) for token in self.scan]
+
     def match(self, pattern: re.Pattern[str], k: int) -> tuple[re.Match[str], int] | None:
         """Whole tokens from number k on, in round brackets, and the number of the token behind them."""
-        texts = [token.text.translate(_AS_PARENTHESES) for token in self.scan[k : k + _MOST]]
+        texts = self.in_parentheses[k : k + _MOST]
         found = pattern.match("".join(texts))
         if found is None:
             return None
@@ -506,7 +517,7 @@ class _Translation:
     def method(self, token: Token) -> bool:
         """y(x).diff(x, 2): what stands before the point is differentiated."""
         is_method = self.text_at(self.k + 1) in DERIVATIVES and self.text_at(self.k + 2) == "("
-        if token.text != "." or not is_method or not self.found:
+        if not is_method or not self.found:
             return False
         self.differentiate_last(token)
         if self.text_at(self.k + 3) != ")":
@@ -550,7 +561,7 @@ class _Translation:
         if token.text in ("sympy", "sp", "sm", "sy", "np", "math", "numpy") and self.text_at(self.k + 1) == ".":
             self.k += 2
             return True
-        found = self.match(_QUOTED, self.k) if self.text_at(self.k + 1) == "(" else None
+        found = self.match(_QUOTED, self.k) if self.kind_at(self.k + 2) == "PRIMES" else None
         if found is None:
             return False
         self.write("NAME", found[0][1], token)
@@ -671,8 +682,6 @@ class _Translation:
 
     def opening(self, token: Token) -> bool:
         """A parenthesis, the argument of a name before it or a factor."""
-        if token.text not in OPENING:
-            return False
         k = self.k
         if token.text == "{" and k not in self.partner and self.latex:
             hint = "write for example (x^2 + 1)/(2*x), y''"
@@ -696,8 +705,6 @@ class _Translation:
         return token.text == "(" and (is_function(name) or (name in _STEPS and self.words[name] == 1))
 
     def fraction(self, token: Token) -> bool:
-        if token.text not in _FRACTIONS:
-            return False
         groups = self.groups(self.k + 1)
         if groups is None:
             return self.incomplete(token)
@@ -723,8 +730,6 @@ class _Translation:
 
     def root(self, token: Token) -> bool:
         r"""\sqrt{x}, \sqrt[3]{x}, √x, √(x+1), ∛x."""
-        if token.text not in ("\\sqrt", "√", "∛"):
-            return False
         k = self.k + 1
         index = "3" if token.text == "∛" else ""
         if token.text == "\\sqrt" and self.text_at(k) == "[" and k in self.partner:
@@ -755,8 +760,6 @@ class _Translation:
         return self.text_at(k) not in (*_POWERS, "(") and self.kind_at(k) != "SUPERSCRIPT"
 
     def dotted(self, token: Token) -> bool:
-        if token.text not in _DOTS:
-            return False
         k = self.k + 1
         inside = k + 1 if self.text_at(k) == "{" else k
         if self.kind_at(inside) != "WORD" or (inside > k and self.partner.get(k) != inside + 1):
@@ -775,7 +778,7 @@ class _Translation:
 
     def raised_primes(self, token: Token) -> bool:
         r"""y^{\prime\prime}, y^{(2)}."""
-        if token.text != "^" or not self.found or self.found[-1][0] not in ("NAME", "PRIMED"):
+        if not self.found or self.found[-1][0] not in ("NAME", "PRIMED"):
             return False
         for pattern in _RAISED_PRIMES[not self.latex :]:
             found = self.match(pattern, self.k)
@@ -790,7 +793,7 @@ class _Translation:
     def percent(self, token: Token) -> bool:
         """Maxima's %e, %i, %pi."""
         following = self.text_at(self.k + 1)
-        if token.text != "%" or following not in ("e", "i", "pi"):
+        if following not in ("e", "i", "pi"):
             return False
         self.write("NAME", {"i": "I"}.get(following, following), token)
         self.k += 2
@@ -799,7 +802,7 @@ class _Translation:
     def dollar(self, token: Token) -> bool:
         """Maple's x$2."""
         is_order = self.kind_at(self.k - 1) == "WORD" and self.kind_at(self.k + 1) == "NUMBER"
-        if token.text != "$" or not is_order:
+        if not is_order:
             return False
         self.write("COMMA", ",", token)
         self.k += 1
@@ -807,7 +810,7 @@ class _Translation:
 
     def greek(self, token: Token) -> bool:
         r"""Mathematica's \[Alpha]; a digit behind it belongs to the name."""
-        if token.text != "\\[" or self.text_at(self.k + 2) != "]":
+        if self.text_at(self.k + 2) != "]":
             return False
         name = self.text_at(self.k + 1).lower()
         self.k += 3
@@ -829,11 +832,12 @@ class _Translation:
         return True
 
 
-#: What a kind of token may begin, the first rule that applies.
 _Rule = Callable[[_Translation, Token], bool]
+#: What a sign, a command or else a kind of token may begin, the first rule that applies.
 _RULES: dict[str, list[_Rule]] = {
     "NUMBER": [_Translation.ordinary],
     "SUPERSCRIPT": [_Translation.ordinary],
+    "SIGN": [_Translation.ordinary],
     "PRIMES": [_Translation.primes],
     "WORD": [
         _Translation.derivative,
@@ -844,26 +848,36 @@ _RULES: dict[str, list[_Rule]] = {
         _Translation.function,
         _Translation.word,
     ],
-    "COMMAND": [
-        _Translation.derivative,
-        _Translation.fraction,
-        _Translation.root,
-        _Translation.dotted,
-        _Translation.greek,
-    ],
-    "SIGN": [
-        _Translation.derivative,
-        _Translation.several,
-        _Translation.method,
-        _Translation.raised_primes,
-        _Translation.bar,
-        _Translation.root,
-        _Translation.percent,
-        _Translation.dollar,
-        _Translation.opening,
-        _Translation.ordinary,
-    ],
+    **dict.fromkeys(_FRACTIONS, [_Translation.derivative, _Translation.fraction]),
+    **dict.fromkeys(_DOTS, [_Translation.dotted]),
+    **dict.fromkeys(("\\sqrt", "√", "∛"), [_Translation.root]),
+    "\\[": [_Translation.greek],
+    "(": [_Translation.derivative, _Translation.several, _Translation.opening],
+    "{": [_Translation.derivative, _Translation.opening],
+    "[": [_Translation.opening],
+    ".": [_Translation.method],
+    "^": [_Translation.raised_primes, _Translation.ordinary],
+    "|": [_Translation.bar],
+    "%": [_Translation.percent],
+    "$": [_Translation.dollar],
 }
+#: Characters one of which a text has if the rule applies anywhere in it: d/dx, D or diff, subs, a quotation mark or a point.
+_NEEDED: dict[_Rule, str] = {
+    _Translation.derivative: "d",
+    _Translation.several: "Df",
+    _Translation.at_point: "b",
+    _Translation.prefix: "'\".",
+}
+_MARKS = frozenset("".join(_NEEDED.values()))
+
+
+@lru_cache(maxsize=128)
+def _rules_for(marks: frozenset[str]) -> dict[str, list[_Rule]]:
+    """The rules that may apply in a text with these of the characters that rules need."""
+    idle = {rule for rule, needed in _NEEDED.items() if marks.isdisjoint(needed)}
+    return {key: [rule for rule in rules if rule not in idle] for key, rules in _RULES.items()}
+
+
 #: The order of a derivative as an exponent, the first form in LaTeX alone.
 _RAISED_PRIMES = [re.compile(r"\^\(\(([1-4])\)\)"), re.compile(r"\^\(?(['\"]+)\)?")]
 

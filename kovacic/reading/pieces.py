@@ -44,9 +44,13 @@ _EQUALS = ("=", "==")
 _INEQUALITIES = frozenset("<>≤≥≠")
 _ENVIRONMENTS = ("\\begin", "\\end", "\\label", "\\tag", "\\ref")
 _TEXTS = ("\\text", "\\textrm", "\\mbox", "\\textnormal")
+_PROMPTS = ([">", ">", ">"], [">", ">"], [">"], ["sage", ":"], ["In", "[", "*", "]", ":="], ["(", "%", "*", ")"])
 BOUNDED = "bounded"
 
 
+_FRACTIONS = frozenset({"/", "\\frac", "\\dfrac", "\\tfrac"})
+#: What no derivative is without, if it isn't written with primes or dots: the d of dy/dx, or an index.
+_DIFFERENTIAL = re.compile(r"d|_|\\partial")
 #: D2y and y_xx.
 _SECOND_ORDER = re.compile(r"D[23]\w|[a-zA-Z]_([xtzsr])\1")
 
@@ -134,9 +138,10 @@ def _is_equation(scan: Scan) -> bool:
             return True
         if token.text in DERIVATIVES and following in OPENING and following:
             return True
-    if any(token.text in ("/", "\\frac", "\\dfrac", "\\tfrac") for token in scan):
-        return "diff" in _pieces_of(scan)
-    return any(_SECOND_ORDER.fullmatch(token.text) for token in scan)
+    texts = [token.text for token in scan]
+    if not _FRACTIONS.isdisjoint(texts):
+        return _DIFFERENTIAL.search(" ".join(texts)) is not None and "diff" in _pieces_of(scan)
+    return any(map(_SECOND_ORDER.fullmatch, texts))
 
 
 def _pieces_of(scan: Scan) -> list[str]:
@@ -318,14 +323,7 @@ class _Apart:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
         while scan and scan[-1].text in (".", ":", "$", ",") and len(scan) > 1:
             scan = scan[:-1]
-        for prompt in (
-            [">", ">", ">"],
-            [">", ">"],
-            [">"],
-            ["sage", ":"],
-            ["In", "[", "*", "]", ":="],
-            ["(", "%", "*", ")"],
-        ):
+        for prompt in _PROMPTS:
             texts = [token.text for token in scan[: len(prompt)]]
             if len(texts) == len(prompt) and all(b in (a, "*") for a, b in zip(texts, prompt, strict=True)):
                 scan = scan[len(prompt) :]
@@ -372,8 +370,7 @@ class _Apart:
         prose = [token for token in words if _is_prose(token)]
         is_sentence = len(prose) > 1 or words[-1:] == [Token("SIGN", ":", *words[-1][2:])] if words else False
         is_capital = bool(prose) and prose[0].text.istitle() and len(words) == 1
-        is_equation = _is_equation(scan[count:])
-        if not prose or not (is_sentence or is_capital) or not is_equation:
+        if not prose or not (is_sentence or is_capital) or not _is_equation(scan[count:]):
             return scan
         following = scan[count]
         if following.text in ("=", "==", ":=", "*", "/", "^", ")", "(", "[") and not (
