@@ -257,8 +257,8 @@ def translated(text: str, scan: Sequence[Token], *, condition: bool = False) -> 
     Raises `ParseError` for what has no meaning in any notation.
     """
     latex = _is_latex(scan)
-    ordinary = _Latex(text, scan).ordinary() if latex else [token for token in scan if token.kind != "NEWLINE"]
-    return _Translation(text, ordinary, latex=latex, condition=condition).tokens()
+    scan = [token for token in (_Latex(text, scan).ordinary() if latex else scan) if token.kind != "NEWLINE"]
+    return _Translation(text, scan, latex=latex, condition=condition).tokens()
 
 
 class _Translation:
@@ -266,7 +266,7 @@ class _Translation:
 
     def __init__(self, text: str, scan: list[Token], *, latex: bool, condition: bool) -> None:
         self.text = text
-        self.scan = [token for token in scan if token.kind != "NEWLINE"]
+        self.scan = scan
         self.latex = latex
         self.condition = condition
         self.k = 0
@@ -278,10 +278,10 @@ class _Translation:
         self.closers: dict[int, list[tuple[str, str]]] = {}
         self.skipped: set[int] = set()
         self.partner = partners(self.scan)
-        self.bars = _bars(self.scan)
-        self.by_time = any(token.text in _DOTS for token in scan) or has_dots(text)
-        self.mathematica = not latex and _calls_with_brackets(self.scan)
-        self.words = Counter(token.text for token in self.scan)
+        self.words = Counter(token.text for token in scan)
+        self.bars = _bars(scan) if "|" in self.words else {}
+        self.by_time = not self.words.keys().isdisjoint(_DOTS) or has_dots(text)
+        self.mathematica = "[" in self.words and not latex and _calls_with_brackets(scan)
 
     def tokens(self) -> Tokens:
         rules = _rules_for(_MARKS.intersection("".join(self.words)))
@@ -834,12 +834,12 @@ class _Translation:
 
 _Rule = Callable[[_Translation, Token], bool]
 #: What a sign, a command or else a kind of token may begin, the first rule that applies.
-_RULES: dict[str, list[_Rule]] = {
-    "NUMBER": [_Translation.ordinary],
-    "SUPERSCRIPT": [_Translation.ordinary],
-    "SIGN": [_Translation.ordinary],
-    "PRIMES": [_Translation.primes],
-    "WORD": [
+_RULES: dict[str, tuple[_Rule, ...]] = {
+    "NUMBER": (_Translation.ordinary,),
+    "SUPERSCRIPT": (_Translation.ordinary,),
+    "SIGN": (_Translation.ordinary,),
+    "PRIMES": (_Translation.primes,),
+    "WORD": (
         _Translation.derivative,
         _Translation.at_point,
         _Translation.several,
@@ -847,19 +847,19 @@ _RULES: dict[str, list[_Rule]] = {
         _Translation.synonym,
         _Translation.function,
         _Translation.word,
-    ],
-    **dict.fromkeys(_FRACTIONS, [_Translation.derivative, _Translation.fraction]),
-    **dict.fromkeys(_DOTS, [_Translation.dotted]),
-    **dict.fromkeys(("\\sqrt", "√", "∛"), [_Translation.root]),
-    "\\[": [_Translation.greek],
-    "(": [_Translation.derivative, _Translation.several, _Translation.opening],
-    "{": [_Translation.derivative, _Translation.opening],
-    "[": [_Translation.opening],
-    ".": [_Translation.method],
-    "^": [_Translation.raised_primes, _Translation.ordinary],
-    "|": [_Translation.bar],
-    "%": [_Translation.percent],
-    "$": [_Translation.dollar],
+    ),
+    **dict.fromkeys(_FRACTIONS, (_Translation.derivative, _Translation.fraction)),
+    **dict.fromkeys(_DOTS, (_Translation.dotted,)),
+    **dict.fromkeys(("\\sqrt", "√", "∛"), (_Translation.root,)),
+    "\\[": (_Translation.greek,),
+    "(": (_Translation.derivative, _Translation.several, _Translation.opening),
+    "{": (_Translation.derivative, _Translation.opening),
+    "[": (_Translation.opening,),
+    ".": (_Translation.method,),
+    "^": (_Translation.raised_primes, _Translation.ordinary),
+    "|": (_Translation.bar,),
+    "%": (_Translation.percent,),
+    "$": (_Translation.dollar,),
 }
 #: Characters one of which a text has if the rule applies anywhere in it: d/dx, D or diff, subs, a quotation mark or a point.
 _NEEDED: dict[_Rule, str] = {
@@ -872,10 +872,10 @@ _MARKS = frozenset("".join(_NEEDED.values()))
 
 
 @lru_cache(maxsize=128)
-def _rules_for(marks: frozenset[str]) -> dict[str, list[_Rule]]:
+def _rules_for(marks: frozenset[str]) -> dict[str, tuple[_Rule, ...]]:
     """The rules that may apply in a text with these of the characters that rules need."""
     idle = {rule for rule, needed in _NEEDED.items() if marks.isdisjoint(needed)}
-    return {key: [rule for rule in rules if rule not in idle] for key, rules in _RULES.items()}
+    return {key: tuple(rule for rule in rules if rule not in idle) for key, rules in _RULES.items()}
 
 
 #: The order of a derivative as an exponent, the first form in LaTeX alone.

@@ -27,6 +27,7 @@ _FREQUENCIES = ("omega", "ω", "w")
 _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
+_DIGITS = "0123456789"
 
 
 @dataclass(frozen=True)
@@ -110,9 +111,10 @@ class Vocabulary:
             return True
         if name in NUMBER_NAMES or is_function(name):
             return True
-        numbered = [other for other in tokens.names() if other.rstrip("0123456789") in (x, y) and other not in (x, y)]
-        if numbered == [name] and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
-            return False  # x2 alone may be a product, or a power; x1 and x2 are two points
+        if name.rstrip(_DIGITS) in (x, y) and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
+            numbered = [other for other in tokens.names() if other.rstrip(_DIGITS) in (x, y) and other not in (x, y)]
+            if numbered == [name]:
+                return False  # x2 alone may be a product, or a power; x1 and x2 are two points
         return is_letter(name) or tokens.kinds[k] == "HEAD"
 
     def _unknown_name(self, tokens: Tokens, k: int, x: str, y: str) -> InputError:
@@ -122,7 +124,7 @@ class Vocabulary:
         declare = f"or declare it: parameters=[{name!r}]"
         shell = f"or declare it: --names {name}"
         meant = unglued(name)
-        bare = name.rstrip("0123456789")
+        bare = name.rstrip(_DIGITS)
         if {*name} == {"E", "I"}:
             meant = "one letter for a stiffness, as B"
         elif bare in (x, y):
@@ -223,15 +225,11 @@ def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     alone = {*tokens.names(), x} - {y}
     kinds = list(tokens.kinds)
     for k, kind in enumerate(tokens.kinds[:-3]):
+        if kind != "HEAD":
+            continue
         name = tokens.pieces[k]
         is_applied = tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
-        if (
-            kind == "HEAD"
-            and name in alone
-            and not is_applied
-            and name not in FUNCTION_NAMES
-            and name not in DERIVATIVES
-        ):
+        if name in alone and not is_applied and name not in FUNCTION_NAMES and name not in DERIVATIVES:
             kinds[k] = "NAME"
     return tokens if kinds == tokens.kinds else replace(tokens, kinds=kinds)
 

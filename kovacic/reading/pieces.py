@@ -44,6 +44,8 @@ _EQUALS = ("=", "==")
 _INEQUALITIES = frozenset("<>≤≥≠")
 _ENVIRONMENTS = ("\\begin", "\\end", "\\label", "\\tag", "\\ref")
 _TEXTS = ("\\text", "\\textrm", "\\mbox", "\\textnormal")
+#: With what else than a command comments and layout begin.
+_AROUND = frozenset("( / - # % $ \\".split()) | LAYOUT  # noqa: SIM905
 _PROMPTS = ([">", ">", ">"], [">", ">"], [">"], ["sage", ":"], ["In", "[", "*", "]", ":="], ["(", "%", "*", ")"])
 BOUNDED = "bounded"
 
@@ -179,6 +181,10 @@ class _Apart:
         found: list[Token] = []
         k = 0
         while k < len(scan):
+            if scan[k].kind != "COMMAND" and scan[k].text not in _AROUND:
+                found.append(scan[k])
+                k += 1
+                continue
             end = self.comment_end(scan, k)
             if end is not None:
                 self.found.append(PastedPiece("comment", tuple(scan[k:end])))
@@ -324,6 +330,8 @@ class _Apart:
         while scan and scan[-1].text in (".", ":", "$", ",") and len(scan) > 1:
             scan = scan[:-1]
         for prompt in _PROMPTS:
+            if not scan or scan[0].text != prompt[0]:
+                continue
             texts = [token.text for token in scan[: len(prompt)]]
             if len(texts) == len(prompt) and all(b in (a, "*") for a, b in zip(texts, prompt, strict=True)):
                 scan = scan[len(prompt) :]
