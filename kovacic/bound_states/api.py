@@ -410,7 +410,10 @@ def _one_by_one(examined: _Examined, why: str, max_degree: int, budget: Budget) 
         why = f"{why}; {uncovered}"
     else:
         higher = degree_beyond(question.parsed.S, max_degree, budget)
-    hints = {} if higher is None else _hints_of_degree(higher)
+    hints = {}
+    if higher is not None:
+        may = "there may be levels with a polynomial of degree"
+        hints = {"hint": f"{may} {higher}: max_degree={higher}", "shell": f"{may} {higher}: --max-degree {higher}"}
     if not found:
         reason = f"undecided: {why}; degrees up to {max_degree} were tried"
         return examined.spectrum(reason=reason, **hints)
@@ -453,11 +456,6 @@ def _in_energy(question: SpectralProblem, polynomial: Any) -> FunctionPoly:
     for c in sympy.Poly(polynomial, sympy.Symbol(question.energy)).all_coeffs():
         total = total * E + Fraction(int(c.p), int(c.q))
     return over_parameters(total)
-
-
-def _hints_of_degree(higher: int) -> dict[str, str]:
-    may = "there may be levels with a polynomial of degree"
-    return {"hint": f"{may} {higher}: max_degree={higher}", "shell": f"{may} {higher}: --max-degree {higher}"}
 
 
 def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:

@@ -256,7 +256,7 @@ def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> 
     kind = original.kind
     if kind == "cosh" or (kind == "exp" and point in (0, sympy.oo)):
         return 1  # t > 0, and t > 1 for the hyperbolic cosine
-    is_left = _is_left(at, other, signs)
+    is_left = at == -sympy.oo or other == sympy.oo or (at != sympy.oo and signs.sign(other - at) == 1)
     if kind in ("x", "exp", "sinh"):
         return _side_of_monotonic(original, at, signs, is_left=is_left)
     return _side_of_periodic(original, at, point, signs, is_left=is_left)
@@ -280,13 +280,6 @@ def _side_of_periodic(original: Original, at: Any, point: Any, signs: Signs, *, 
     t = getattr(sympy, original.kind)(angle + step)
     u = 1 / t if point == sympy.oo else t - point
     return 1 if u > 0 else -1
-
-
-def _is_left(at: Any, other: Any, signs: Signs) -> bool:
-    """Is this end known to be the left one?"""
-    if at == -sympy.oo or other == sympy.oo:
-        return True
-    return at != sympy.oo and signs.sign(other - at) == 1
 
 
 def _infinite(place: _Place, signs: Signs, kinetic: Any) -> End:

@@ -136,7 +136,10 @@ def read_question(
     signs = Signs(known, names)
     potential = given.expression
     if S is not given.S:
-        potential = _with_values(potential, assume or {}, {*names} | {energy, variable.name})
+        left = {*names, energy, variable.name}
+        gone = {str(name): value for name, value in (assume or {}).items() if str(name) not in left}
+        values = {sympy.Symbol(name): read_expression(exact_text(value, "a value")) for name, value in gone.items()}
+        potential = potential.xreplace(values)
     return SpectralProblem(
         potential,
         parsed,
@@ -149,13 +152,6 @@ def read_question(
         notices=variable.notices,
         kinetic=signs.real(sympy.sympify(kinetic)),
     )
-
-
-def _with_values(potential: Any, assume: Mapping[Any, Any], left: Iterable[str]) -> Any:
-    """The potential with the values of the parameters that aren't left."""
-    gone = {str(name): value for name, value in assume.items() if str(name) not in left}
-    values = {sympy.Symbol(name): read_expression(exact_text(value, "a value")) for name, value in gone.items()}
-    return potential.xreplace(values)
 
 
 def _check_options(energy: Any, boundary: str | None) -> None:

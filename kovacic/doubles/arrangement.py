@@ -80,10 +80,11 @@ def _exponential(
     degree = branch.P.degree
     table = None
     if degree > _FEW_ZEROS and region.is_real:
+        ends = (as_point(end.real, "an end") for end in (region.low, region.high))
         if any(region.singular):
             table = polynomial_table(_Expansion.of(problem, branch, base), region, careful)
-        elif _is_for_a_table(problem, degree, region):
-            return None
+        elif degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
+            return None  # the solution itself is tabulated with less effort
     roots: list[tuple[acb, int]] = []
     if table is None:
         if degree > _MAX_ZEROS:
@@ -96,12 +97,6 @@ def _exponential(
     is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *embed(branch.P, c).coeffs()])
     factors = _factors(powers, to_acb(base), is_real)
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
-
-
-def _is_for_a_table(problem: NumericProblem, degree: int, region: Region) -> bool:
-    """Is the solution itself tabulated with less effort, on an interval without a singular end?"""
-    ends = (as_point(end.real, "an end") for end in (region.low, region.high))
-    return degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT
 
 
 class _CellSeries(NamedTuple):

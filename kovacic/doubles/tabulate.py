@@ -436,7 +436,9 @@ def _pieces(
         check_time()
         too_large: list[Cell] = []
         if untried:
-            for cell, is_refused in zip(untried, _refused(untried, refused), strict=True):
+            centres = np.array([float(c) for c, _ in untried])
+            scales = np.array([math.ldexp(1.0, e) for _, e in untried])
+            for cell, is_refused in zip(untried, refused(centres, scales), strict=True):
                 is_inside = low <= cell[0] <= high  # values are inside only
                 fate = promising if is_inside and not is_refused else too_large
                 fate.append(cell)
@@ -450,13 +452,6 @@ def _pieces(
         untried = [half for cell in too_large for half in _halves(cell, low, high)]
     cells = sorted(done)
     return cells, [done[cell] for cell in cells]
-
-
-def _refused(cells: list[Cell], refused: Callable[[Any, Any], Any]) -> Any:
-    """What is said of the centres and scales of pieces."""
-    centres = np.array([float(c) for c, _ in cells])
-    scales = np.array([math.ldexp(1.0, e) for _, e in cells])
-    return refused(centres, scales)
 
 
 def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:

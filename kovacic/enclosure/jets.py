@@ -57,8 +57,6 @@ _BOX = 4.0
 """Bounds by boxes are so many times too large."""
 _SHARE = 6
 """A disc's coefficients are seen to be real on an interval that is smaller by so many powers of two."""
-_LOG2_E = 1.4427
-_REACH = fmpq(1)
 
 
 @dataclass(frozen=True)
@@ -126,7 +124,7 @@ class CoefficientField:
             # Beside a solution of size 1 what is smaller needn't be followed.
             if inner is None or not near[2] * h * h <= (inner[2] * h * h).max(arb(1)) * arb(steepest).exp():
                 return None
-            growth = int(_LOG2_E * min(steepest, float(_rate(near[0] * h, near[1] * h * h))))
+            growth = int(1.4427 * min(steepest, float(_rate(near[0] * h, near[1] * h * h))))  # log2(e): in bits
             bits = prec + growth + _SPARE
             bounds = []
             for radius in _RADII:
@@ -245,7 +243,7 @@ class JetBasis:
 
 
 def _local(jets: Jets, poly: Any, error: arb) -> Local:
-    return Local.of(jets.centre, jets.e, poly, (error, error), reach=_REACH, precision=jets.precision)
+    return Local.of(jets.centre, jets.e, poly, (error, error), reach=fmpq(1), precision=jets.precision)
 
 
 def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:

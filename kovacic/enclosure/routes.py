@@ -39,7 +39,6 @@ _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
 _HELPS = 0.9  # to half a step the growth falls by more
-_LOG_2 = 0.69
 _MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
 _SEARCH = 0.6  # what it may take of them where the equation was decided before it
 _BITS = 64
@@ -180,7 +179,7 @@ class Foreseen:
 def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[arb]:
     """The radii of the discs of a walk in small balls, about."""
     problem = journey.problem
-    growth = growth_of_disc(prec, len(targets)) * _LOG_2
+    growth = growth_of_disc(prec, len(targets)) * 0.69  # log 2: from bits
     place = journey.start.place
     here = place.near if isinstance(place, Singular) else middle(place)
     stops = [middle(vertex) for vertex in journey.vertices]

@@ -82,8 +82,11 @@ class Disc:
         """
         if self.begin is None:
             return
-        is_free = self.begin == a or is_apart(system, a, *self._corners())
-        near = to_double(self.frame.centre)
+        centre = self.frame.centre
+        reach = self.frame.scale * REACH
+        corners = [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]  # around what is served
+        is_free = self.begin == a or is_apart(system, a, *corners)
+        near = to_double(centre)
         radius = -1.0  # beyond the doubles the end alone is served
         if abs(self.frame.e) < _LARGEST_EXPONENT:
             radius = math.ldexp(_EDGE, self.frame.e)  # the edge is inside, for a target where two discs meet
@@ -95,12 +98,6 @@ class Disc:
             is_inside = abs(stop.near - near) + rounding <= radius  # `Frame.seen` checks it exactly
             if is_inside and (is_free or is_apart(system, a, self.begin, stop.point)):
                 yield stop
-
-    def _corners(self) -> list[ExactPoint]:
-        """Those of a square about what the disc serves."""
-        centre = self.frame.centre
-        reach = self.frame.scale * REACH
-        return [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]
 
 
 def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:

@@ -53,7 +53,10 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
         return None
     size, shift = _size_and_shift(cosine, sine)
     a, q = (sympy.expand(2 * part / kappa**2) for part in (-2 * mean, size))
-    factor = _factor(gauge, t, is_tangent=is_tangent).subs(t, T)
+    # exp(int gauge dt)/sqrt(s), but for its constant: v = u/sqrt(s), and s is t or 1 + t^2 times one.
+    X = RatFunc(gauge.field.poly([0, 1]))
+    half_of_slope = X / (X * X + 1) if is_tangent else 1 / (2 * X)
+    factor = display(product(gauge + half_of_slope), Atoms(t)).subs(t, T)
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
     z = sympy.expand((unit * angle - shift) / 2)
     return factor * mathieuc(a, q, z), factor * mathieus(a, q, z)
@@ -73,10 +76,3 @@ def _size_and_shift(cosine: Expr, sine: Expr) -> tuple[Expr, Expr]:
         return sine, pi / 2
     ratio = sine / cosine
     return cosine * sympy.sqrt(1 + ratio**2), atan(ratio)
-
-
-def _factor(gauge: RatFunc, t: sympy.Symbol, *, is_tangent: bool) -> Expr:
-    """exp(int gauge dt)/sqrt(s), but for its constant: v = u/sqrt(s), and s is t or 1 + t^2 times one."""
-    X = RatFunc(gauge.field.poly([0, 1]))
-    half_of_slope = X / (X * X + 1) if is_tangent else 1 / (2 * X)
-    return display(product(gauge + half_of_slope), Atoms(t))

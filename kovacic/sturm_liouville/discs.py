@@ -222,9 +222,7 @@ class Road:
         series = (coefficients(e, self.x, here, terms) for e in (piece.Q, piece.W))
         q_t, w_t = ([c * t ** (n + 2) for n, c in enumerate(s)] for s in series)
         q_t += [arb(0)] * (len(w_t) - len(q_t))
-        return Step(t, radius, q_t, w_t, terms, tail, self._turn(piece, here, t)), is_last
-
-    def _turn(self, piece: Stretch, here: Any, t: Any) -> Any:
         at = BallEvaluator({self.x: acb(here.union(here + t))})
         depth = (self.span.high * at(piece.W) - at(piece.Q)).real.upper()
-        return (depth.sqrt() * abs(t)).upper() if depth > 0 else arb(0)
+        turn = (depth.sqrt() * abs(t)).upper() if depth > 0 else arb(0)
+        return Step(t, radius, q_t, w_t, terms, tail, turn), is_last

@@ -18,7 +18,6 @@ from kovacic.sturm_liouville.levels import Eigenvalues, Level
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 from kovacic.sturm_liouville.search import LevelSearch
 
-_ROUGH = 6
 _PREC = 128
 _PERIODIC_SEPARATIONS = 2
 """Pairs of periodic levels often coincide: twice the digits are tried, not more."""
@@ -75,7 +74,7 @@ class Eigenproblem:
             return None
         with working_precision(_PREC):
             bottom = ball(self.threshold)
-        counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), _ROUGH)
+        counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), digits=6)
         return counter.at(bottom, _PREC, high=True).count
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:

@@ -16,7 +16,6 @@ from kovacic.sturm_liouville.discs import Step
 from kovacic.sturm_liouville.problem import Span, SturmProblem
 from kovacic.sturm_liouville.solve import Eigenproblem
 
-_DIGITS = 8
 _BITS = 160
 _PARTS = 32
 """Points that are taken in a step."""
@@ -28,7 +27,7 @@ def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float
         raise InputError("functions of periodic problems aren't drawn")
     with working_precision(_BITS):
         E = problem.sign * ball_to_flint(value).real.mid()
-        counter = SeparatedCounter(problem, Eigenproblem(problem, "E").ends, Span(E, abs(E) + 1), _DIGITS)
+        counter = SeparatedCounter(problem, Eigenproblem(problem, "E").ends, Span(E, abs(E) + 1), digits=8)
         sides = [_side(counter, side, E) for side in (0, 1)]
         left, right = sides
         k = 1 if abs(right[-1][1]) > abs(right[-1][2]) else 2  # Y or Y' is made continuous, whichever is larger
