@@ -161,11 +161,16 @@ def _linear(equation: Any, var: str | None, parameter: str, values: Mapping[str,
         raise InputError(
             f"the parameter {parameter} doesn't occur in the equation",
             hint=f'names in it: {names}; parameter="E" names another',
+            shell=f"names in it: {names}; --parameter E names another",
         )
     others = expression.free_symbols - {x, symbol}
     if others:
-        names = ", ".join(sorted(s.name for s in others))
-        raise InputError(f"eigenvalues are numbers: values are needed for {names}", hint="params={...} gives them")
+        needed = sorted(s.name for s in others)
+        raise InputError(
+            f"eigenvalues are numbers: values are needed for {', '.join(needed)}",
+            hint=f"params={dict.fromkeys(needed, 3)}, for instance",
+            shell=" ".join(f"--param {name}=3" for name in needed) + ", for instance",
+        )
     unknown = [sympy.Dummy("y2"), sympy.Dummy("y1"), sympy.Dummy("y0")]
     derivatives = [function.diff(x, 2), function.diff(x), function]
     plain = expression.doit().xreplace(dict(zip(derivatives, unknown, strict=True)))
@@ -206,7 +211,11 @@ def _ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tupl
     points = {point for condition in conditions for point in condition.points}
     for point in points:
         if point.free_symbols:
-            raise InputError(f"eigenvalues are numbers: the end {point} isn't one", hint="params={...} gives values")
+            raise InputError(
+                f"eigenvalues are numbers: the end {point} isn't one",
+                hint="params={...} gives values",
+                shell="--param NAME=NUMBER gives a value",
+            )
     if domain is not None:
         if isinstance(domain, str) or len(domain) != 2:
             raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')

@@ -253,3 +253,12 @@ def _galerkin(numpy, coefficients, orders, size=40):
     root = numpy.linalg.cholesky(mass)
     half = numpy.linalg.solve(root, stiffness)
     return numpy.linalg.eigvalsh(numpy.linalg.solve(root, half.T))
+
+
+def test_missing_values_are_asked_for_in_the_words_of_each_door() -> None:
+    with pytest.raises(kovacic.InputError) as asked:
+        kovacic.eigenvalues("y'' + (lambda - k*x^2)*y = 0", "y(0)=0, y(1)=0")
+    assert (asked.value.hint, asked.value.shell) == ("params={'k': 3}, for instance", "--param k=3, for instance")
+    with pytest.raises(kovacic.InputError) as asked:
+        kovacic.spectrum("2/x^2 - Z/x", domain=(0, "oo"), assume={"Z": "positive"}, levels=2)
+    assert (asked.value.hint, asked.value.shell) == ("assume={'Z': 2}, for instance", "--assume Z=2, for instance")

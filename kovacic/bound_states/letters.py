@@ -101,6 +101,7 @@ def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
         raise InputError(
             f"sqrt({name}) is real, and of {name} it can be assumed only that it is positive or nonnegative",
             hint=f'assume={{"{name}": "positive"}}, or write {name} = b^2 where more is known',
+            shell=f"--assume {name}=positive, or write {name} = b^2 where more is known",
         )
     return _SIGNS[word]
 

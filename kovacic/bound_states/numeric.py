@@ -30,8 +30,9 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
     count, wanted = whole(levels, "levels", least=1), whole(digits, "digits", least=1)
     if found.parameters:
         names = ", ".join(found.parameters)
-        hint = f'assume={{"{found.parameters[0]}": 2}} gives a value'
-        raise InputError(f"numeric levels need values of {names}", hint=hint)
+        hint = f"assume={dict.fromkeys(found.parameters, 2)}, for instance"
+        shell = " ".join(f"--assume {name}=2" for name in found.parameters) + ", for instance"
+        raise InputError(f"numeric levels need values of {names}", hint=hint, shell=shell)
     if found.needs_boundary_condition:
         return replace(found, numeric=Eigenvalues((), False, found.energy, ("a boundary condition is needed",)))
     problem = None
