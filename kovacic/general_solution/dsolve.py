@@ -303,28 +303,28 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
     if question.conditions:
-        value, others = _determined(question, found, budget)
+        value, others = _determined(question, found)
     else:
-        value, others = _general(question, found, budget)
+        value, others = _general(question, found)
     return written(question, value), notices + others
 
 
-def _general(question: Question, found: DecidedBasis, budget: Budget) -> tuple[Expr, list[str]]:
+def _general(question: Question, found: DecidedBasis) -> tuple[Expr, list[str]]:
     """C1 y1 + C2 y2 + y0, checked, and what is to be said beside."""
     basis = found.basis
-    particular = particular_solution(basis, None, budget)
+    particular = particular_solution(basis, None)
     constants = free_constants(question, basis, particular)
     value = combination(question, basis, particular, constants)
     notices = _by_sign(question, found, particular, constants)
     return value, notices + check_answer(question, value, natural=found.natural)
 
 
-def _determined(question: Question, found: DecidedBasis, budget: Budget) -> tuple[Expr, list[str]]:
+def _determined(question: Question, found: DecidedBasis) -> tuple[Expr, list[str]]:
     """The same with the constants that the conditions determine.  Raises `InputError` where they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
     basis = real_basis_at(question, found.basis, found.solution, start)
-    particular = real_particular_at(question, basis, particular_solution(basis, start, budget), start)
+    particular = real_particular_at(question, basis, particular_solution(basis, start), start)
     names = free_constants(question, basis, particular)
     generic, others = constants_of(question, basis, particular, names, limits)
     exceptions = [_said(question, basis, particular, case) for case in others if can_be(case)]

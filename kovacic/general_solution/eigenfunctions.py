@@ -22,8 +22,6 @@ from kovacic.sturm_liouville.solve import Eigenproblem
 Expr = Any
 _PARAMETERS = ("lambda", "lamda", "λ", "mu", "μ")
 _NUMBERS = ("n", "k", "m", "j", "n_")
-_ROOTS = 3
-_DIGITS = 15
 
 
 def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
@@ -142,6 +140,6 @@ def _problem(x: Expr, coefficients: tuple[Expr, Expr, Expr], conditions: Any) ->
 def _first_roots(problem: Eigenproblem) -> str:
     """The first eigenvalues as proven numbers."""
     try:
-        return ", ".join(str(level.value) for level in problem.levels(_ROOTS, _DIGITS))
+        return ", ".join(str(level.value) for level in problem.levels(3, digits=15))
     except (InputError, LimitExceeded):
         return "?"

@@ -40,7 +40,6 @@ from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
 from kovacic.general_solution.variation import Basis
-from kovacic.limits import Budget
 from kovacic.reading.change_of_variable import in_x, slope_squared
 
 Expr = Any  # SymPy publishes no types
@@ -48,7 +47,7 @@ Expr = Any  # SymPy publishes no types
 _LARGEST_SUM = 30
 
 
-def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Expr:
+def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`."""
     right = _right_hand_side(basis.equation)
     if right == 0:

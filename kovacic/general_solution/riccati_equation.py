@@ -78,7 +78,7 @@ def solved_riccati(
     forms = [*_forms(found, solved_for)]
     if is_inverted:
         forms = [1 / w for w in forms]
-    forms += [*_over_one_denominator(forms[0], equation.x, found.constants)]
+    forms += [*_over_one_denominator(forms[0])]
     w = min(forms, key=size).xreplace(dict.fromkeys(found.constants, equation.constant()))
     unchecked = check_first_order(equation, w, conditions)
     return sympy.Eq(equation.function, w, evaluate=False), found.notices + unchecked
@@ -193,7 +193,7 @@ def _reduced(term: Expr, x: Expr) -> Expr:
     return sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*others)
 
 
-def _over_one_denominator(w: Expr, x: Expr, constants: Sequence[Expr]) -> Iterator[Expr]:
+def _over_one_denominator(w: Expr) -> Iterator[Expr]:
     """The quotient of two polynomials in x and in functions of x without a common divisor, unless these are too long."""
     if w.has(sympy.Integral) or size(w) > _LONGEST:
         return
