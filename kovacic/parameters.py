@@ -115,7 +115,7 @@ def conditions(
     parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Conditions:
-    """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
+    """The values of the parameters for which y'' = S(x) y has Liouvillian solutions: all of them where `complete` is True.
 
     Parameters
     ----------

@@ -78,6 +78,26 @@ def test_the_comparison_has_the_figures_of_its_file() -> None:
     assert [list(map(int, re.findall(r"\d+", row))) for row in table] == expected
 
 
+def test_the_times_of_the_engine_are_those_of_its_results() -> None:
+    """Times for 100 and 400 poles, the exponents, and the longest verification against its decision."""
+    results = (ROOT / "benchmarks" / "results" / "engine.md").read_text("utf-8")
+    page = " ".join((ROOT / "docs" / "comparison.md").read_text("utf-8").split())
+
+    def table(title: str) -> list[list[str]]:
+        lines = results.partition(f"\n## {title} (")[2].partition("\n## ")[0].splitlines()[4:]
+        return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+
+    poles = table("By poles")
+    seconds = {place: max(float(row[place].split()[0]) for row in poles) for place in (6, 8)}
+    assert f"poles take at most {seconds[6]:.1f} s, 400 at most {seconds[8]:.1f} s" in page
+    assert f"exponent is at most {max(float(row[-1]) for row in poles)} in these families" in page
+    (near,) = table("By poles, all rational and close together")
+    assert f"exponent is {near[-1]} from 100 to 1,600 poles, {float(near[-2].split()[0]):.0f} s for these" in page
+    times = [re.findall(r"[\d.]+", cell) for row in poles for cell in row[5:9]]
+    ratio = max(float(verification) / float(decision) for _, decision, verification, _ in times)
+    assert 7.5 < ratio < 8.5, "up to eight times, says docs/decisions/two-kernels.md"
+
+
 TABLES = runpy.run_path(str(ROOT / "docs" / "tables.py"))
 
 
