@@ -15,8 +15,8 @@ so the state V_m = (b_(m-r), ..., b_(m-1)) and the sums Y = sum_(k<m) b_k and Y'
 
 with matrices C, R of polynomials in m.  A run of steps has the same form: two of them in succession give (C2 C1,
 R2 C1 + D2 R1, D2 D1).  The shortest runs are formed once, with polynomials in m as entries; longer ones by a balanced tree
-of products with integers of equal length at each level, which costs a bounded number of multiplications of long integers at each
-level: near-linear in the digits, where term by term is quadratic.  A run whose integers are about as long as the working
+of products with integers of equal length at each level, which costs a bounded number of multiplications of long integers at
+each level: near-linear in the digits, where term by term is quadratic.  A run whose integers are about as long as the working
 precision is a block; blocks act on the state V (the last r coefficients of two solutions, in balls) one after the other,
 because beyond that length exact integers would only grow.  As V falls, the blocks get shorter.
 
