@@ -780,6 +780,8 @@ class _Translation:
         r"""y^{\prime\prime}, y^{(2)}."""
         if not self.found or self.found[-1][0] not in ("NAME", "PRIMED"):
             return False
+        if self.kind_at(self.k + 1) != "PRIMES" and self.text_at(self.k + 1) not in OPENING:
+            return False
         for pattern in _RAISED_PRIMES[not self.latex :]:
             found = self.match(pattern, self.k)
             if found is not None:
