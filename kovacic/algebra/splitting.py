@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, lru_cache
 from itertools import count, islice
+from threading import RLock
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
@@ -136,11 +137,13 @@ class _Remembered:
         self._field = base, modulus
         self._found: list[tuple[ExtensionHomomorphism, ...]] = []
         self._search: Iterator[tuple[ExtensionHomomorphism, ...]] | None = None
+        self._lock = RLock()  # a generator can't be advanced by two threads at once
 
     def __iter__(self) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
         for k in count():
-            while len(self._found) <= k:
-                self._found.append(self._next())
+            with self._lock:
+                while len(self._found) <= k:
+                    self._found.append(self._next())
             yield self._found[k]
 
     def _next(self) -> tuple[ExtensionHomomorphism, ...]:

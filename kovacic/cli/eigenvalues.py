@@ -38,9 +38,8 @@ def eigenvalues(
     what it has found.
 
     \b
-    kovacic eigenvalues "y'' + lambda*y = 0" --conditions "y(0)=0, y(1)=0" --count 5
+    kovacic eigenvalues "y'' + lambda*y = 0" --conditions "y(0)=0, y(1)=0"
     kovacic eigenvalues "-y'' + x^4*y = E*y" --parameter E --digits 30
-    kovacic eigenvalues "y'' + (a - 10*cos(2*x))*y = 0" --parameter a --conditions "y(0)=y(pi), y'(0)=y'(pi)"
     """
     from kovacic.boundary_problems import read_eigenproblem
     from kovacic.limits import Budget
