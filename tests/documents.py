@@ -44,7 +44,7 @@ def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str])
     with warnings.catch_warnings(record=True, action="always") as noticed:
         status = run(arguments)
     shown = capsys.readouterr()
-    found = shown.out + "".join(f"kovacic: {warning.message}\n" for warning in noticed) + shown.err
+    found = shown.out + "".join(f"kovacic: {warning.message}\n".replace("**", "^") for warning in noticed) + shown.err
     if command.endswith(STATUS):
         found += f"status {status}\n"
     assert found == output, f"{command}\nprints\n{found}"

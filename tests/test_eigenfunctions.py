@@ -1,5 +1,7 @@
 """Boundary problems with a parameter in `dsolve`: all its values with a solution other than 0, as textbooks print them."""
 
+import subprocess
+import sys
 import warnings
 
 import pytest
@@ -81,3 +83,9 @@ def test_the_same_condition_at_both_ends_keeps_the_exponential_solution():
 def test_there_is_no_family_on_an_interval_with_a_singular_point(conditions):
     with pytest.raises((NotImplementedError, kovacic.InputError)):
         kovacic.dsolve("x^2*y''+x*y'+lambda*y=0", ics=conditions)
+
+
+def test_the_command_writes_powers_in_notices_as_in_solutions() -> None:
+    command = [sys.executable, "-m", "kovacic", "dsolve", "y'' + lambda*y = 0", "--ics", "y(0)=0, y(L)=0"]
+    said = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stderr
+    assert "lambda = pi^2*n^2/L^2" in said

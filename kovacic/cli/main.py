@@ -95,7 +95,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
         sys.exit(shell_complete(cli, {}, "kovacic", "_KOVACIC_COMPLETE", instruction))
     _open_closed_streams()
-    warnings.formatwarning = lambda message, *_, **__: f"kovacic: {message}\n"
+    # Formulas have ^ in whatever the command prints.
+    warnings.formatwarning = lambda message, *_, **__: f"kovacic: {message}\n".replace("**", "^")
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # files and pipes are UTF-8 on every system
             encoding = None if stream.isatty() else "utf-8"
