@@ -44,7 +44,7 @@ def test_a_guide_starts_with_something_that_runs(page: Path) -> None:
     first = re.search(r"^```(\S+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
     if page.parent.name == "decisions":
         return
-    if page.name not in ("gallery.md", "first-uses.md", "json.md", "batches.md", "which.md"):
+    if page.name not in ("gallery.md", "first-uses.md", "json.md", "batches.md"):
         assert first is not None
         assert first[1] in ("console", "python")
 
