@@ -165,7 +165,7 @@ class AlgebraicField(Field):
             unit = self.generator + shift
         even = self.base.poly([c for coefficient in mu for c in (coefficient, 0)][:-1])
         f = self.base.factor(even)[0][0]
-        if f.degree == even.degree:
+        if f.degree != self.dimension:  # else it is 2n, or K(c) no field: e divides zero, and f has no root to lift
             return None
         return self.element(_root_by_primes(element, f, self.modulus)) / unit
 
