@@ -36,7 +36,7 @@ class Limits:
     bits : int
         Input: the predicted size of a coefficient in bits; 4,000,000.
     terms : int
-        Input: the predicted number of terms of a polynomial in the variable and the parameters; 25,000.
+        Input: the predicted number of terms of a polynomial in the variable and the parameters; 20,000.
     constants : int
         Input: the degree of the field of algebraic constants over Q; 24.
     parameters : int
@@ -68,7 +68,7 @@ class Limits:
     exponent: int = 100_000
     degree: int = 20_000
     bits: int = 4_000_000
-    terms: int = 25_000
+    terms: int = 20_000
     constants: int = 24
     parameters: int = 8
     unknown_degree: int = 20_000

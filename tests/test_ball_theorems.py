@@ -88,7 +88,8 @@ class Chart:
             lambda z: z.is_Pow and z.base in self.roots and (2 * z.exp).is_Integer,
             lambda z: self.roots[z.base] ** (2 * z.exp),
         )
-        return not read_input(sp.sympify(plain.xreplace({X: self.x})), var="t_u").S.num
+        limits = kovacic.Limits(terms=10**6)
+        return not read_input(sp.sympify(plain.xreplace({X: self.x})), var="t_u", limits=limits).S.num
 
 
 t = sp.Symbol("t_u")

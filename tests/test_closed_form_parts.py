@@ -24,8 +24,6 @@ from kovacic.closed_form.form import ClosedForm, written
 from kovacic.closed_form.integrals import logarithms
 from kovacic.closed_form.klein import RATIOS, KleinForm
 from kovacic.closed_form.primitive import (
-    OpenPrimitive,
-    RationalPrimitive,
     integrate_inverse_square,
 )
 from kovacic.closed_form.product import product
@@ -208,26 +206,26 @@ def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
 
 
 @parametrize(
-    ("omega", "kind", "notes"),
+    "omega",
     [
         # The integrand has (x + 15)^-600639: written out it took all memory.
-        ("6*x^3 - 90*x^2 + 1335*x - 40041/2 + 600639/2/(x + 15)", OpenPrimitive, 1),
-        ("200/(x + 15) + x", OpenPrimitive, 1),
-        ("200/(x + 15) - 201/(x - 3)", RationalPrimitive, 0),
-        ("401/2/(x + 15) + 1/3/x", ExponentialPrimitive, 0),
-        ("-300*x/(x^2 + 1) + x", ExponentialPrimitive, 0),
-        ("3000/(x + 15)+ 2/(x - 1)", OpenPrimitive, 1),
+        "6*x^3 - 90*x^2 + 1335*x - 40041/2 + 600639/2/(x + 15)",
+        "200/(x + 15) + x",
+        "200/(x + 15) - 201/(x - 3)",
+        "401/2/(x + 15) + 1/3/x",
+        "-300*x/(x^2 + 1) + x",
+        "3000/(x + 15)+ 2/(x - 1)",
     ],
     ordinary=1,
     long=3,
 )
-def test_large_powers(omega: str, kind: type, notes: int) -> None:
+def test_large_powers(omega: str) -> None:
+    """Neither partial fractions of a high order nor their sum is written out where a short form is known."""
     w = read_input(omega).S
     form = closed_form_of(kovacic.solve((w.derivative() + w * w).to_str()))
     assert isinstance(form.structure, Triangular)
-    assert type(form.structure.primitive) is kind
     assert form.checked == "exact"
-    assert len(form.notes) == notes
+    assert len(f"{form.y1}{form.y2}") < 1000
 
 
 # ----------------------------------------------------------------------- int r exp(E) dx with Ei and error functions

@@ -145,7 +145,7 @@ def test_answers_are_sequences_that_can_be_pickled():
 
 @pytest.mark.long
 def test_close_pairs_of_a_double_well_are_told_apart():
-    found = schroedinger("x^4 - 20*x^2", count=2)
+    found = schroedinger("x^4 - 20*x^2", count=2, digits=20)
     assert all(level.alone for level in found)
     assert not found[0].value.overlaps(found[1].value)
     assert 0 < float(found[1].value - found[0].value) < 2e-16
