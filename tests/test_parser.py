@@ -276,6 +276,7 @@ def test_what_isnt_an_expression(text: str, position: int, words: str) -> None:
 @given(expressions())
 @example(Expression(" 2e-3**x' -\u2003(y″ (x) + .5x⁻²) = é ", "", lambda x: x, 0))
 @settings(max_examples=100)
+@pytest.mark.slow
 def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
     text = expression.text
     tokens = tokenize(text)

@@ -131,6 +131,7 @@ NAMES = {"ω_0": "omega_0", "omega0": "omega_0", "α": "alpha"}
 
 
 @parametrize("name", NOTATIONS, ordinary=0, long=8)
+@pytest.mark.slow
 def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
     for parts in EQUATIONS:
         text = NOTATIONS[name](parts)

@@ -440,6 +440,7 @@ def test_assumptions_that_exclude_each_other() -> None:
     ],
     ordinary=1,
 )
+@pytest.mark.slow
 def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> None:
     """DLMF 19.4.8 (K), 19.4.9 (E), 14.2.1; substituted by mpmath's numbers."""
     found = kovacic.solve(text, var="x").special

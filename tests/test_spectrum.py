@@ -144,6 +144,7 @@ def test_values_that_are_refused() -> None:
 
 
 @pytest.mark.long
+@pytest.mark.slow
 def test_levels_by_degree_with_parameters() -> None:
     """Razavy's and Turbiner's determinants; an exponent that isn't square integrable at the end is no level."""
     M, z, E, a, m, l = sympy.symbols("M z E a m l")  # noqa: E741
@@ -254,6 +255,7 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
 
 
 @parametrize("V", ["1/(a^2 + 1 + cos(x))", "x^2 + 1/(x^2 + 5)", "x^4 + 2*x"], ordinary=2)
+@pytest.mark.slow
 def test_what_is_not_covered_is_undecided(V: str) -> None:
     """The last one has a Liouvillian solution for E = 0, which isn't square integrable."""
     found = kovacic.spectrum(V, max_degree=0)
@@ -346,6 +348,7 @@ def test_names_of_parameters_and_variables_are_free() -> None:
 
 
 @pytest.mark.long
+@pytest.mark.slow
 def test_a_sympy_expression_and_values() -> None:
     b = sympy.Symbol("b", positive=True)
     found = kovacic.spectrum(sympy.exp(-2 * x) - 2 * b * sympy.exp(-x))
@@ -487,6 +490,7 @@ def test_hints_speak_the_language_of_the_door(capsys: pytest.CaptureFixture[str]
 
 
 @pytest.mark.long
+@pytest.mark.slow
 def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
     found = kovacic.spectrum("x^6 - 11*x^2")
     assert found.hint.endswith("a polynomial of degree 4: max_degree=4")

@@ -145,6 +145,7 @@ def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
 
 
 @parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(2, 5), Fraction(7, 4)], ordinary=0, long=2)
+@pytest.mark.slow
 def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fraction) -> None:
     answer = kovacic.conditions(hypergeometric(("l", "m", str(third))), var="x")
     rows = [row for region in answer.regions for part in schwarz_parts(region.statement) for row in part.resolved()[1]]
@@ -237,6 +238,7 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
     ordinary=0,
     long=2,
 )
+@pytest.mark.slow
 def test_printed_weights_leave_a_polynomial_of_the_printed_degree(name: str, values: dict[str, Any]) -> None:
     """For theta = y'/y with P = 1, theta' + theta^2 - S has its poles with no more orders, and x^d fits at infinity."""
     right = parsed(FAMILIES[name], values)
@@ -270,6 +272,7 @@ def test_polynomials_are_printed_in_factors() -> None:
 
 
 @parametrize("name", FAMILIES, ordinary=1, long=6)
+@pytest.mark.slow
 def test_words_and_formulas_are_kept_apart(name: str) -> None:
     """No formula stands among the words, where LaTeX would print it raw."""
     for block in blocks(conditions(name)):
@@ -346,6 +349,7 @@ def test_the_command_prints_the_theorem(capsys: pytest.CaptureFixture[str]) -> N
     ],
     ordinary=3,
 )
+@pytest.mark.slow
 def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> None:
     text = kovacic.conditions(S, var="x").theorem()
     assert sentence in text

@@ -43,6 +43,7 @@ def vanishes(expression: sympy.Expr) -> bool:
 
 @pytest.mark.long
 @pytest.mark.parametrize("equations", [CASES[::4], [text for text, _ in EQUATIONS]], ids=["published", "textbooks"])
+@pytest.mark.slow
 def test_the_text_is_that_of_the_closed_form(equations: list[str]) -> None:
     seen = 0
     for equation in equations:

@@ -104,4 +104,4 @@ def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, 
 
 
 def _expression(value: Any) -> Any:
-    return read_expression(value) if isinstance(value, str) else sympy.sympify(value)
+    return value if isinstance(value, sympy.Basic) else read_expression(str(value))

@@ -113,7 +113,7 @@ class PolynomialSolution:
 
     def at(self, values: Mapping[Any, Any]) -> Any:
         """y at values of the parameters, by symbol; None where it isn't one of the solutions there, or vanishes identically."""
-        degree = sympy.sympify(self.degree).xreplace(values)
+        degree = sympy.Integer(self.degree) if isinstance(self.degree, int) else self.degree.xreplace(values)
         is_natural = degree.is_Integer and degree >= 0
         if not is_natural or any(condition.xreplace(values) != 0 for condition in self.conditions):
             return None
