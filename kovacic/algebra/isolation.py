@@ -34,8 +34,8 @@ Zeros = tuple[tuple[Any, int], ...]
 def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     """The zeros, at the working precision in force; raises `LimitExceeded` where there isn't the time.
 
-    >>> complex_zeros(fmpz_poly([1, 2, 1]))
-    ((-1.00000000000000, 2),)
+    >>> [(complex(root), multiplicity) for root, multiplicity in complex_zeros(fmpz_poly([1, 2, 1]))]
+    [((-1+0j), 2)]
     """
     degree = polynomial.degree()
     if degree < 1:
