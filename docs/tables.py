@@ -1,15 +1,23 @@
-"""The tables that a page takes from the results of a benchmark, by `<!-- table: NAME -->` on a line of its own."""
+"""Tables made when the pages are built, from the results of a benchmark or by the program itself.
+
+A page takes one by `<!-- table: NAME -->` on a line of its own.
+"""
 
 from __future__ import annotations
 
 import json
 import re
+import runpy
+import shlex
 from collections.abc import Callable
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+import kovacic
+
 RESULTS = Path(__file__).parent.parent / "benchmarks" / "results"
+POTENTIALS = Path(__file__).parent.parent / "tests" / "potentials.py"
 SYSTEMS = ("kovacic.dsolve", "sympy.dsolve")
 
 
@@ -45,7 +53,30 @@ def _code(text: str) -> str:
     return "`" + text.replace("|", "\\|") + "`"
 
 
-TABLES: dict[str, Callable[[], str]] = {"sympy_tests": sympy_tests}
+def potentials() -> str:
+    """A section for each solvable potential that the tests know: its source, the command, and the printed spectrum."""
+    lines: list[str] = []
+    known = runpy.run_path(str(POTENTIALS))
+    for row in known["TABLE"] + known["MORE"]:
+        spectrum = kovacic.spectrum(row.V, domain=row.domain, assume=row.assume)
+        name = row.name[0].upper() + row.name[1:]
+        lines += [f"## {name}", "", f"{row.source}.", "", "```console", f"$ {_command(row)}", str(spectrum), "```", ""]
+    return "\n".join(lines)
+
+
+def _command(row: Any) -> str:
+    left, right = row.domain
+    command = f"kovacic spectrum {shlex.quote(row.V)}"
+    if left != "-oo":
+        command += f" --from {shlex.quote(str(left))}"
+    if right != "oo":
+        command += f" --to {shlex.quote(str(right))}"
+    for name, known in row.assume.items():
+        command += " --assume " + shlex.quote(f"{name}{known}" if known.startswith(">") else f"{name}={known}")
+    return command
+
+
+TABLES: dict[str, Callable[[], str]] = {"sympy_tests": sympy_tests, "potentials": potentials}
 
 
 def filled(page: str) -> str:

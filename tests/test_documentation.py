@@ -8,6 +8,7 @@ import runpy
 from collections import Counter
 from pathlib import Path
 
+import potentials
 import pytest
 from build import parametrize
 from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
@@ -99,6 +100,16 @@ def test_the_times_of_the_engine_are_those_of_its_results() -> None:
 
 
 TABLES = runpy.run_path(str(ROOT / "docs" / "tables.py"))
+
+
+@pytest.mark.long
+def test_each_solvable_potential_has_a_section_with_its_levels() -> None:
+    sections = TABLES["filled"]((ROOT / "docs" / "howto" / "potentials.md").read_text("utf-8")).split("\n## ")[1:]
+    assert len(sections) == len(potentials.TABLE + potentials.MORE)
+    for row, section in zip(potentials.TABLE + potentials.MORE, sections, strict=True):
+        assert row.source in section
+        assert "  E_n = " in section
+        assert "proven to be all eigenvalues" in section
 
 
 def verdicts(results: str, system: str) -> Counter[str]:
