@@ -6,6 +6,8 @@ import json
 import re
 import runpy
 from collections import Counter
+from collections.abc import Iterator
+from math import ceil
 from pathlib import Path
 
 import potentials
@@ -97,6 +99,66 @@ def test_the_times_of_the_engine_are_those_of_its_results() -> None:
     times = [re.findall(r"[\d.]+", cell) for row in poles for cell in row[5:9]]
     ratio = max(float(verification) / float(decision) for _, decision, verification, _ in times)
     assert 7.5 < ratio < 8.5, "up to eight times, says docs/decisions/two-kernels.md"
+
+
+def cells(results: str, row: str) -> list[str]:
+    """The cells of the row with this title in a file of results; the title is its first cell, or several."""
+    text = (ROOT / "benchmarks" / "results" / results).read_text("utf-8")
+    (line,) = [line for line in text.splitlines() if line.startswith(f"| {row} |")]
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def sentences_with_figures() -> Iterator[tuple[str, str]]:
+    """A page, and the words that it must have for the results beside it."""
+    block = cells("precision.md", "a block with another precision")[1]
+    product = cells("precision.md", "z z, 100 bits")[1]
+    yield "decisions/precision.md", f"takes {block} µs, a multiplication of balls of 100 bits {product}"
+    values = (ROOT / "benchmarks" / "results" / "precision.md").read_text("utf-8").partition("part of the blocks |")[2]
+    found = re.findall(r"\| (\d+) \| [\d.]+ \| ([\d.]+) % \|", values)
+    blocks, parts = [int(b) for b, _ in found], [float(part) for _, part in found]
+    yield "decisions/precision.md", f"{min(blocks)} to {max(blocks)} blocks, together {max(parts)} % of its time"
+    hermite = cells("doubles_speed.md", "Hermite 50")
+    ours, sympys = hermite[2].split(" / ")[0], hermite[9].split(" / ")[0]
+    yield "decisions/tables-and-products.md", f"by {sympys} units in the last place (median), the product by {ours}"
+    table = cells("doubles_stability.md", "large degree | N = 2 R/R1 = 200 | TabulatedFunction")
+    yield "decisions/tables-and-products.md", f"a table is wrong by {table[3].split(' / ')[0]} units"
+    arb = (ROOT / "benchmarks" / "results" / "enclosure_work_precision.md").read_text("utf-8")
+    ratios = re.findall(r"\| (\d+) \| [^|]+ \| [^|]+ \| [^|]+ \| ([\d.]+) \|$", arb.partition("## The ball's")[0], re.M)
+    few, thousand, most = (
+        ceil(max(float(ratio) for digits, ratio in ratios if digits in chosen))
+        for chosen in (("15", "50"), ("1000",), ("10000",))
+    )
+    assert (thousand, most) == (3, 2)
+    yield (
+        "comparison.md",
+        f"takes at most {few} times the processor time of Arb's own functions at 15 and 50 digits, 3 times",
+    )
+    peers = cells("peers.md", "giac kovacicsols: one solution in closed form")
+    verdicts = cells("peers.md", "giac kovacicsols: the verdict")
+    yield "comparison.md", f"on {peers[5]} of the {peers[1]} equations for which it returns one solution"
+    yield "comparison.md", f"than the verdict on {verdicts[5]} of {verdicts[1]}"
+    yield "comparison.md", f"The median over 176 published equations is {cells('engine.md', 'solve, verified')[1]} ms"
+    for name, row in {
+        "Maxima": "Maxima kovacicODE: the verdict",
+        "FriCAS": "FriCAS solve: the verdict",
+        "giac": "giac kovacicsols: the verdict",
+        "SymPy `dsolve`": "SymPy dsolve: the verdict",
+        "SymPy `solve_riccati`": "SymPy solve_riccati: the verdict",
+    }.items():
+        yield "comparison.md", "| " + " | ".join([name, *cells("peers.md", row)[1:4]]) + " |"
+    poles = (ROOT / "benchmarks" / "results" / "engine.md").read_text("utf-8").partition("## By poles (")[2]
+    rows = [line.split(" | ") for line in poles.partition("\n## ")[0].splitlines()[4:] if line.startswith("|")]
+    hundred, two_hundred = ([float(row[place].split()[0]) for row in rows] for place in (6, 7))
+    page = "decisions/invariants-not-families.md"
+    yield page, f"100 poles take {min(hundred):.2f} to {max(hundred):.1f} s, 200 poles {min(two_hundred):.2f} to"
+    faults = (ROOT / "benchmarks" / "results" / "wrong_answers.md").read_text("utf-8")
+    apart = re.findall(r"^\| (?:algebra/, not imported by the kernel|engine/|galois/) \|.*\| (\d+) \|$", faults, re.M)
+    yield "decisions/two-kernels.md", f"of 120 in the rooms that the kernel doesn't import {sum(map(int, apart))} gave"
+
+
+def test_figures_are_those_of_the_results() -> None:
+    for page, words in sentences_with_figures():
+        assert words in " ".join((ROOT / "docs" / page).read_text("utf-8").split())
 
 
 TABLES = runpy.run_path(str(ROOT / "docs" / "tables.py"))
