@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
+from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
-from kovacic.parametric.parametric_answer import ParametricAnswer
+from kovacic.parametric.check import CheckReport, compare
+from kovacic.parametric.parametric_answer import ParametricAnswer, Values
 from kovacic.reading.read import declared
 from kovacic.solution import Solution
 
@@ -39,7 +41,7 @@ class Conditions(ParametricAnswer):
         """
         return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
 
-    def solve_at(self, values: Mapping[Any, Any]) -> Solution:
+    def solve_at(self, values: Values) -> Solution:
         """The verified answer at a point.
 
         Parameters
@@ -64,6 +66,33 @@ class Conditions(ParametricAnswer):
         1
         """
         return Solution.of(self.answer_at(values))
+
+    def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
+        """Solve the equation at exact points inside and outside of the regions, and compare with what is printed.
+
+        The printed conditions themselves are evaluated: a parameter as a function of an integer, a sum of square roots; and
+        formulas are put into the equation.  One point in each region is compared whenever conditions are found.
+
+        Parameters
+        ----------
+        samples : int
+            The number of points: 200 by default, fewer if the time is over.
+        seed : int
+            The same points for the same seed, 1 by default.
+
+        Returns
+        -------
+        CheckReport
+            True when every sample agrees.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> report = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").check(20)
+        >>> bool(report), report.inside + report.outside
+        (True, 20)
+        """
+        return compare(self, whole(samples, "samples"), whole(seed, "seed", least=None))
 
     def theorem(self, *, format: str = "text") -> str:
         r"""The conditions as the theorem that a paper prints: hypothesis, cases with groups and solutions, proof, references.

@@ -46,7 +46,7 @@ def points_in(
     found, points = 0, sampler.points([region.statement])
     for attempt in range(6 * number):
         point = next(points)
-        if attempt % 2 or point is None or answer.region_of(point) is not region:
+        if attempt % 2 or point is None or answer.region_at(point) is not region:
             continue
         found += 1
         yield point

@@ -125,7 +125,7 @@ def wrong_formulas(answer: Conditions, equation: tuple[Any, Any, Any], number: i
     tried, wrong = 0, list[str]()
     for values in lattice(answer.parameters, number):
         point = answer.point(values)
-        region = answer.region_of(point)
+        region = answer.region_at(point)
         symbols = as_sympy(point)
         if region is None or region.case != 1 or symbols is None:
             continue

@@ -7,11 +7,13 @@ before conditions leave, more by `check`.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from itertools import chain, count
+from itertools import chain, count, islice
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import sympy
 from flint import acb, fmpq
@@ -26,7 +28,8 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.derived import group
 from kovacic.equation import Equation
-from kovacic.errors import VerificationFailed
+from kovacic.errors import LimitExceeded, VerificationFailed
+from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
@@ -46,20 +49,12 @@ from kovacic.parametric.functions import (
     irreducible_factors,
     over_parameters,
 )
+from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at, normal_form
 from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
-
-
-@dataclass(frozen=True)
-class Disagreement:
-    """A point at which a region and the engine differ."""
-
-    point: str
-    predicted: int | None
-    found: int | None
 
 
 @dataclass(frozen=True)
@@ -72,14 +67,14 @@ class CheckReport:
         The number of points that were solved in a special region, and in the generic one.
     open : int
         The number of points for which the regions claim nothing.
-    disagreements : tuple of Disagreement
-        The points at which the regions and the engine differ.
+    disagreements : tuple of str
+        What is printed falsely, a sentence each that begins with the point.
     """
 
     inside: int
     outside: int
     open: int
-    disagreements: tuple[Disagreement, ...]
+    disagreements: tuple[str, ...]
 
     def __bool__(self) -> bool:
         return not self.disagreements
@@ -92,20 +87,36 @@ _PRECISION = 192
 #: Degrees of P up to which formulas are compared whose coefficients depend on the parameters.
 _LARGEST = 1
 
-if TYPE_CHECKING:
-    from kovacic.parametric.parametric_answer import ParametricAnswer
-
 
 def check_each_region(found: ParametricAnswer) -> None:
     """Compare what is printed at a point in each region, on each stratum and outside: `VerificationFailed` if it is false."""
     sampler = Sampler(found.constant, found.names, found.assumptions, Random(1))
-    points = [_point_in(found, sampler, region) for region in (*found.regions, None)]
+    points = [sampler.point_in(found, region) for region in (*found.regions, None)]
     strata = chain.from_iterable(_strata(region.statement.claim) for region in found.regions)
     points += [sampler.point(Vanishes(zero)) for zero in dict.fromkeys(strata)]
     for point in filter(None, points):
         wrong = next(contradictions(found, point), None)
         if wrong is not None:
             raise VerificationFailed(f"conditions failed their own check at {point}: {wrong}; please report it")
+
+
+def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
+    """What is printed against engine and kernel at so many points, fewer if the time is over."""
+    sampler = Sampler(found.constant, found.names, found.assumptions, Random(seed))
+    points = islice(sampler.points([region.statement for region in found.regions]), 20 * samples)
+    counts = Counter[str](inside=0, outside=0, open=0)
+    wrong = list[str]()
+    with Budget(found.limits).watched(), suppress(LimitExceeded):
+        for point in filter(None, points):
+            predicted = found.predicted(point)
+            if predicted is None:
+                continue
+            inside = "outside" if found.region_at(point) is None else "inside"
+            counts[inside if predicted.known else "open"] += 1
+            wrong += [f"{point}: {sentence}" for sentence in contradictions(found, point)]
+            if counts.total() == samples:
+                break
+    return CheckReport(**counts, disagreements=tuple(wrong))
 
 
 def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
@@ -125,20 +136,6 @@ def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
         yield from (factor for factor in irreducible_factors(below) if not factor.degree)
 
 
-def _point_in(found: ParametricAnswer, sampler: Sampler, region: ParameterRegion | None) -> ParameterPoint | None:
-    """One that belongs to no region before; None if a few attempts find none."""
-    for _ in range(_ATTEMPTS):
-        point = sampler.point(None if region is None else region.statement)
-        if point is not None and first_region(found.regions, point) is region:
-            return point
-    return None
-
-
-def first_region(regions: Sequence[ParameterRegion], point: ParameterPoint) -> ParameterRegion | None:
-    """The first whose statement holds at the point."""
-    return next((region for region in regions if region.statement.holds(point)), None)
-
-
 def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:
     """What is printed falsely at a point, in a sentence each."""
     for region in found.regions:
@@ -150,11 +147,11 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
     predicted = found.predicted(point)
     if predicted is None or not predicted.known:
         return
-    answer = found.answer_of(point)
+    answer = found.answer_at(point)
     if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
         yield f"{predicted} is printed, {RegionVerdict.of(answer.decision)} is found"
     yield from _false_groups(predicted, answer)
-    inside = first_region(found.regions, point)
+    inside = found.region_at(point)
     if inside is not None and inside.case == 1:
         yield from _false_formulas(found, inside, point, answer.S)
 
@@ -194,7 +191,7 @@ def _solutions_at(
     """The formulas that are meant at these values, the others not even translated to the equation that was given."""
     formulas = region.formulas
     if isinstance(formulas, GivenSolutions):
-        meant = [solution for solution in formulas.origin(number) if solution.at(values) is not None]
+        meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
         yield from formulas.of(meant)
 
 
@@ -233,6 +230,14 @@ class Sampler:
             if statements and attempt % 2:
                 chosen = statements[attempt // 2 % len(statements)]
             yield self.point(chosen)
+
+    def point_in(self, found: ParametricAnswer, region: ParameterRegion | None) -> ParameterPoint | None:
+        """One that belongs to no region before, None: to no region; None if a few attempts find none."""
+        for _ in range(_ATTEMPTS):
+            point = self.point(None if region is None else region.statement)
+            if point is not None and found.region_at(point) is region:
+                return point
+        return None
 
     def point(self, statement: Statement | None) -> ParameterPoint | None:
         """An admitted one at which the statement holds, if there is one; None where an attempt failed."""

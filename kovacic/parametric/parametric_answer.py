@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from itertools import islice
-from random import Random
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
@@ -24,7 +20,6 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
-from kovacic.parametric.check import CheckReport, Disagreement, Sampler, first_region
 from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.letters import Letters, letters_from, values_of_letters
@@ -41,6 +36,8 @@ from kovacic.reading.substitution import number_text
 from kovacic.shown import json_line, visible
 from kovacic.writing.formula import Formulas, Math
 
+#: A number for each parameter by name or symbol, or the point that they make up.
+Values = Mapping[Any, Any] | ParameterPoint
 #: Regions that are written unless all are asked for.
 _SCREEN = 24
 
@@ -116,13 +113,13 @@ class ParametricAnswer:
         """Was everything examined, without reaching a limit of time?"""
         return self.complete is True or not str(self.complete).startswith("only as far")
 
-    def region_at(self, values: Mapping[Any, Any]) -> ParameterRegion | None:
+    def region_at(self, values: Values) -> ParameterRegion | None:
         """The region that contains a point; None for the generic one.
 
         Parameters
         ----------
         values : mapping
-            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+            A number for each parameter, as for `point`.
 
         Returns
         -------
@@ -141,29 +138,8 @@ class ParametricAnswer:
         >>> print(bessel.region_at({"n": "3/2"}), bessel.region_at({"n": "1/3"}))
         n - 1/2 in Z: case 1 None
         """
-        return self.region_of(self.point(values))
-
-    def region_of(self, point: ParameterPoint) -> ParameterRegion | None:
-        """The same for a point of `self.point`.
-
-        Parameters
-        ----------
-        point : ParameterPoint
-            What `point` returned.
-
-        Returns
-        -------
-        ParameterRegion or None
-            The first region whose statement holds there.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> print(bessel.region_of(bessel.point({"n": "3/2"})))
-        n - 1/2 in Z: case 1
-        """
-        return first_region(self.regions, point)
+        point = self.point(values)
+        return next((region for region in self.regions if region.statement.holds(point)), None)
 
     def determinant(self, number: int) -> tuple[Determinant, ...]:
         """Delta_d of the conditions with a natural number d, for one d and each way in which the exponents give it.
@@ -205,13 +181,13 @@ class ParametricAnswer:
         return tuple(found)
 
     @limited
-    def case_at(self, values: Mapping[Any, Any]) -> int | None:
+    def case_at(self, values: Values) -> int | None:
         """The case at a point; where the regions claim nothing (see `complete`), the equation is decided there.
 
         Parameters
         ----------
         values : mapping
-            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+            A number for each parameter, as for `point`.
 
         Returns
         -------
@@ -244,13 +220,13 @@ class ParametricAnswer:
         return decision.case
 
     @limited
-    def answer_at(self, values: Mapping[Any, Any]) -> Answer:
+    def answer_at(self, values: Values) -> Answer:
         """The verified answer at a point, as data: `solve_at` returns it with its methods.
 
         Parameters
         ----------
         values : mapping
-            A number for each parameter, rational or algebraic: {"n": Fraction(3, 2)}, {n: sqrt(2)}, {"n": "sqrt(2)"}.
+            A number for each parameter, as for `point`.
 
         Returns
         -------
@@ -269,21 +245,7 @@ class ParametricAnswer:
         >>> bessel.answer_at({"n": "1/2"}).case
         1
         """
-        return self.answer_of(self.point(values))
-
-    def answer_of(self, point: ParameterPoint) -> Answer:
-        """The same for a point of `self.point`.
-
-        Parameters
-        ----------
-        point : ParameterPoint
-            What `point` returned.
-
-        Returns
-        -------
-        Answer
-            Its `verified` is True, unless it is undecided.
-        """
+        point = self.point(values)
         try:
             S = point.restricted(self.S)
         except ZeroDivisionError:
@@ -294,13 +256,13 @@ class ParametricAnswer:
             raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
         return replace(answer, verified=verified)
 
-    def predicted(self, point: ParameterPoint) -> RegionVerdict | None:
-        """What the regions claim; None where S isn't defined.
+    def predicted(self, values: Values) -> RegionVerdict | None:
+        """What the regions claim at a point; None where S isn't defined.
 
         Parameters
         ----------
-        point : ParameterPoint
-            What `point` returned.
+        values : mapping
+            A number for each parameter, as for `point`.
 
         Returns
         -------
@@ -310,26 +272,23 @@ class ParametricAnswer:
         Examples
         --------
         >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> print(bessel.predicted(bessel.point({"n": "3/2"})))
+        >>> print(kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").predicted({"n": "3/2"}))
         case 1
         """
-        return self._verdict_in(self.region_of(point), point)
-
-    def _verdict_in(self, region: ParameterRegion | None, point: ParameterPoint) -> RegionVerdict | None:
-        """What is claimed in a region, None for no region, at a point; None where S isn't defined."""
+        point = self.point(values)
         try:
             point.restricted(self.S)
         except ZeroDivisionError:
             return None
+        region = self.region_at(point)
         if region is not None:
             return region.verdict if region.defined else None
         if self.complete is True:
             return self.generic
         return RegionVerdict(self.generic.structure, known=False)
 
-    def point(self, values: Mapping[Any, Any]) -> ParameterPoint:
-        """The values of the parameters as constants of one field.
+    def point(self, values: Values) -> ParameterPoint:
+        """The values of the parameters as constants of one field; a point is taken as it is, here and wherever values are.
 
         Parameters
         ----------
@@ -339,7 +298,7 @@ class ParametricAnswer:
         Returns
         -------
         ParameterPoint
-            For `region_of` and `predicted`.
+            What `region_at`, `case_at`, `answer_at` and `predicted` take, too.
 
         Raises
         ------
@@ -353,6 +312,8 @@ class ParametricAnswer:
         >>> print(bessel.point({"n": "3/2"}))
         n = 3/2
         """
+        if isinstance(values, ParameterPoint):
+            return values
         given = {str(name): value for name, value in values.items()}
         _check_names(given, self.parameters)
         given |= values_of_letters(given, self.letters)
@@ -361,64 +322,6 @@ class ParametricAnswer:
             if not self.assumptions.of(name).admits(value):
                 raise InputError(f"{name} = {value.to_str()} contradicts the assumption: {self.assumptions}")
         return point
-
-    def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
-        """Solve the equation at exact points inside and outside of the regions, and compare with what is printed.
-
-        The printed conditions themselves are evaluated: a parameter as a function of an integer, a sum of square roots.  One
-        point in each region, with its formulas, is compared whenever conditions are found.
-
-        Parameters
-        ----------
-        samples : int
-            The number of points: 200 by default, fewer if the time is over.
-        seed : int
-            The same points for the same seed, 1 by default.
-
-        Returns
-        -------
-        CheckReport
-            True when every sample agrees.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> report = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").check(20)
-        >>> bool(report), report.inside + report.outside
-        (True, 20)
-        """
-        samples = whole(samples, "samples")
-        seed = whole(seed, "seed", least=None)
-        budget = Budget(self.limits)
-        counts = Counter[str](inside=0, outside=0, open=0)
-        disagreements = list[Disagreement]()
-        with budget.watched(), suppress(LimitExceeded):
-            for point in self._sampled(20 * samples, Random(seed)):
-                region = next((region for region in self.regions if region.statement.claim.holds(point)), None)
-                predicted = self._verdict_in(region, point)
-                if predicted is None:
-                    continue
-                inside = "outside" if region is None else "inside"
-                counts[inside if predicted.known else "open"] += 1
-                if predicted.known:
-                    disagreements += self._disagreements(point, predicted, budget)
-                if counts.total() == samples:
-                    break
-        return CheckReport(**counts, disagreements=tuple(disagreements))
-
-    def _sampled(self, attempts: int, random: Random) -> Iterator[ParameterPoint]:
-        """The points that so many attempts give."""
-        sampler = Sampler(self.constant, self.names, self.assumptions, random)
-        for point in islice(sampler.points([region.statement for region in self.regions]), attempts):
-            if point is not None:
-                yield point
-
-    def _disagreements(self, point: ParameterPoint, predicted: RegionVerdict, budget: Budget) -> list[Disagreement]:
-        """None where the engine finds the case that is predicted, or can't decide."""
-        decision = decide(point.restricted(self.S), budget, certify=False)
-        if decision.status is Status.UNDECIDED or decision.case == predicted.case:
-            return []
-        return [Disagreement(str(point), predicted.case, decision.case)]
 
     def to_json(self) -> str:
         """One line of JSON: parameters, generic, regions.

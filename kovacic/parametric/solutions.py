@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import lru_cache, reduce
 from itertools import chain, count, product
 from typing import Any, NamedTuple
 
@@ -199,7 +199,11 @@ class GivenSolutions:
     letters: Letters = ()
 
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        return tuple(self.of(self.origin(number)))
+        return tuple(self.of(self.found(number)))
+
+    def found(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        """Those of the normal form."""
+        return _found(self.origin, number)
 
     def of(self, solutions: Iterable[PolynomialSolution]) -> Iterator[PolynomialSolution]:
         """Solutions of the normal form, on each piece."""
@@ -225,6 +229,13 @@ class GivenSolutions:
         return replace(solution, y=y, degree=degree, conditions=tuple(conditions), jacobi=jacobi)
 
 
+@lru_cache(maxsize=64)
+def _found(origin: Origin, number: int | None) -> tuple[PolynomialSolution, ...]:
+    """Asked once for the check and for each view."""
+    return origin(number)
+
+
+@lru_cache(maxsize=256)
 def _given(solution: PolynomialSolution, equation: Equation, zeros: tuple[FunctionPoly, ...]) -> PolynomialSolution:
     """The solution with its degree and its conditions: where t = x^m, the roots in them are those of the translated y."""
     y = translated(solution.y, equation)
