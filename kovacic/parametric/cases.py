@@ -6,25 +6,22 @@ be said where the two exclude one another, or meet in values of an earlier case.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, groupby
+from itertools import groupby
+from typing import Any
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.limits import check_time
-from kovacic.parametric.assumptions import NOTHING_ASSUMED
+from kovacic.parametric.charts import covered, everything, field_of, holds_on, within
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
-from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, holds_on
-from kovacic.parametric.restriction import hypersurface, over_all
-from kovacic.parametric.riemann import Schwarz
+from kovacic.parametric.record import statement_data
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict
+from kovacic.parametric.restriction import over_all
 from kovacic.parametric.statements import (
     ALWAYS,
     Both,
-    Either,
     Statement,
     Vanishes,
     all_of,
@@ -51,6 +48,11 @@ class Case:
     def verdict(self) -> RegionVerdict:
         return self.regions[0].verdict
 
+    @property
+    def region(self) -> ParameterRegion:
+        """All of it as one region: they say the same."""
+        return replace(self.regions[0], statement=self.statement)
+
     def holds(self, point: ParameterPoint) -> bool:
         """Is the point one of this case, if it is none of an earlier one?"""
         return self.statement.holds(point) and not any(statement.holds(point) for statement in self.without)
@@ -76,22 +78,44 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
             found.append(Case(region.statement, (region,)))
         else:
             before = [case.statement for case in found if not case.without]
-            charts = _within(region.statement, _everything(regions))
-            without = _exceptions(region.statement, unsolvable, before, charts)
-            found.append(Case(region.statement, (region,), without))
-    return _joined(_mirrored(found))
+            found.append(Case(region.statement, (region,), _exceptions(region.statement, unsolvable, before)))
+    return grouped(found, _is_same)
+
+
+def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
+    """The regions as they are listed: those in a row in which the same case holds are one."""
+    cases = [Case(region.statement, (region,)) for region in regions]
+    return [case.region for case in grouped(cases, lambda first, second: first.case == second.case)]
 
 
 def _exceptions(
-    statement: Statement, unsolvable: Iterable[Statement], before: Sequence[Statement], charts: list[ParameterPoint]
+    statement: Statement, unsolvable: Iterable[Statement], before: Sequence[Statement]
 ) -> tuple[Statement, ...]:
-    """The unsolvable ones that a statement, which is about the charts, meets outside of the cases before."""
-    left = []
+    """The unsolvable ones that a statement meets outside of the cases before, without what it says itself; each once."""
+    charts = within(statement, everything(statement))
+    left: dict[Statement, set[Statement]] = {}
     for other in unsolvable:
-        common = _within(statement, _within(other, charts))
-        if not _covered(common, before):
-            left.append(_left_to_say(other, charts))
-    return _shortest(left)
+        if not covered(within(statement, within(other, charts)), before):
+            said = _left_to_say(other, charts)
+            left[said] = {*both(said).parts}
+    return tuple(said for said, own in left.items() if not any(parts < own for parts in left.values()))
+
+
+def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
+    """The regions without those that earlier ones cover, for example because they say the same and more."""
+    kept: list[ParameterRegion] = []
+    seen: list[set[Any]] = []
+    for region in regions:
+        check_time()
+        said = {str(statement_data(part)) for part in both(region.statement).parts}
+        if any(known <= said for known in seen):
+            continue
+        charts = within(region.statement, everything(region.statement))
+        if covered(charts, [other.statement for other in kept]):
+            continue
+        seen.append(said)
+        kept.append(region)
+    return kept
 
 
 def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> list[ParameterRegion]:
@@ -123,54 +147,32 @@ def _is_redundant(
     """
     if not _is_known(region) or region.complete is not True:
         return False
-    is_generic = generic is not None and _is_same(generic, region.verdict)
-    if not is_generic and not _is_variety(region.statement):
+    is_generic = generic is not None and _is_alike(generic, region.verdict)
+    is_variety = all(isinstance(part, Vanishes) for part in both(region.statement).parts)
+    if not is_generic and not is_variety:
         return False
-    everything = _everything([region])
-    if not everything:
+    charts = within(region.statement, everything(region.statement))
+    if not charts:
         return False
-    charts = _within(region.statement, everything)
     known = [one.statement for one in before]
-    said = (_is_said_by(other, region, charts, known) for other in after)
-    return next((answer for answer in said if answer is not None), is_generic)
+    for other in after:
+        says_the_same = other.defined and other.complete is True and _is_same(other, region)
+        if says_the_same and covered(charts, [other.statement]):
+            return True
+        # Has the other one a solution at all of its values, where this one has none?
+        is_apart = region.case is None and _proves_a_solution(other)
+        if says_the_same or is_apart:
+            continue
+        if not all(_is_said(known, other.statement, chart) for chart in within(other.statement, charts)):
+            return False
+    return is_generic
 
 
-def _is_said_by(
-    other: ParameterRegion, region: ParameterRegion, charts: list[ParameterPoint], known: Sequence[Statement]
-) -> bool | None:
-    """True where another region says the same of all charts of a region, False where it says another thing of some value.
-
-    None where it says nothing of them, but for values at which a known statement holds, or only something of some.
-    """
-    if _says_the_same(other, region):
-        is_whole = _covered(charts, [other.statement])
-        return True if is_whole else None
-    if _is_apart(other, region) or _is_said_within(known, other.statement, charts):
-        return None
-    return False
+def _is_same(first: ParameterRegion, second: ParameterRegion) -> bool:
+    return _is_alike(first.verdict, second.verdict)
 
 
-def _is_variety(statement: Statement) -> bool:
-    """Is it that functions vanish, and nothing else?"""
-    return all(isinstance(part, Vanishes) for part in both(statement).parts)
-
-
-def _is_apart(other: ParameterRegion, region: ParameterRegion) -> bool:
-    """Has the other region a solution at all of its values, where this one has none?"""
-    return region.case is None and _proves_a_solution(other)
-
-
-def _is_said_within(known: Sequence[Statement], statement: Statement, charts: list[ParameterPoint]) -> bool:
-    """Does one of the known statements hold at all values of each chart at which this one does?"""
-    return all(_is_said(known, statement, chart) for chart in _within(statement, charts))
-
-
-def _says_the_same(other: ParameterRegion, region: ParameterRegion) -> bool:
-    is_complete = other.defined and other.complete is True
-    return is_complete and _is_same(other.verdict, region.verdict)
-
-
-def _is_same(first: RegionVerdict, second: RegionVerdict) -> bool:
+def _is_alike(first: RegionVerdict, second: RegionVerdict) -> bool:
     return first == second and first.group == second.group
 
 
@@ -182,187 +184,27 @@ def _proves_a_solution(region: ParameterRegion) -> bool:
     return region.case is not None and any(isinstance(part, Natural) for part in both(region.statement).parts)
 
 
-def _everything(regions: Sequence[ParameterRegion]) -> list[ParameterPoint]:
-    """All values of the parameters, none where no region says which they are."""
-    for region in regions:
-        field = _field(region.statement)
-        if field is not None:
-            return [ParameterPoint.generic(field)]
-    return []
-
-
-def _field(statement: Statement) -> FunctionField | None:
-    """That of the functions in a statement."""
-    found: list[FunctionField] = []
-
-    def noted(function: FunctionPoly) -> FunctionPoly:
-        found.append(function.field)
-        return function
-
-    statement.rewritten(noted)
-    return next(iter(found), None)
-
-
 def _left_to_say(other: Statement, charts: list[ParameterPoint]) -> Statement:
-    """What the other statement says of the values of a single chart: its parts that don't hold there anyway."""
-    field = _field(other)
+    """What the other statement says of the values of a single chart: its parts that don't hold there anyway, or nowhere."""
+    field = field_of(other)
     if len(charts) != 1 or field is None:
         return other
-    (chart,) = charts
     left: list[Statement] = []
     for part in both(other).parts:
-        left += _left_of_part(part, chart, field)
-    if not left:
-        return other
-    return all_of(left)
-
-
-def _left_of_part(part: Statement, chart: ParameterPoint, field: FunctionField) -> list[Statement]:
-    """One statement about all parameters; none where the part holds at all values of the chart, or at none."""
-    if not isinstance(part, Vanishes):
-        return [part]
-    value = chart.at(part.function)
-    if not value:
-        return []
-    if not isinstance(value, FunctionPoly):
-        return [part]
-    factors = irreducible_factors(value)
-    if not factors:
-        return []
-    return [over_all(either(*map(Vanishes, factors)), field)]
-
-
-def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
-    """Each once, and none that another one follows from."""
-    parts = {statement: {*both(statement).parts} for statement in statements}
-    found = []
-    for statement, own in parts.items():
-        if not any(others < own for others in parts.values()):
-            found.append(statement)
-    return tuple(found)
-
-
-@dataclass
-class _CaseBlock:
-    """Cases in a row that begin with one of the `firsts`, which exclude one another; `cases` are without this beginning."""
-
-    firsts: list[Vanishes]
-    cases: list[Case]
-
-    def takes(self, first: Vanishes, cases: list[Case]) -> bool:
-        """Can another block be added: does it say the same, of no value of this one?"""
-        return _exclude_each_other(first, self.firsts[-1]) and _say_the_same(self.cases, cases)
-
-    def add(self, first: Vanishes, cases: list[Case]) -> None:
-        self.firsts.append(first)
-        pairs = zip(self.cases, cases, strict=True)
-        self.cases = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
-
-    def complete(self) -> list[Case]:
-        """The cases with their beginning."""
-        beginning = either(*self.firsts)
-        return [replace(case, statement=both(beginning, case.statement)) for case in self.cases]
-
-
-def _mirrored(cases: Iterable[Case]) -> list[Case]:
-    """The cases, those of l = 0 and of l = -1 in one where the same is said in them but for the solutions.
-
-    Cases in a row that begin with the same vanishing function are a block.  Two blocks in a row that say the same are one:
-    no value belongs to both, because their functions differ by a number.
-    """
-    found: list[Case] = []
-    blocks: list[_CaseBlock] = []
-    for first, group in groupby(cases, key=_first_part):
-        members = [*group]
-        if not isinstance(first, Vanishes) or not all(map(_has_more, members)):
-            found += [*_completed(blocks), *members]
-            blocks = []
-            continue
-        inner = _mirrored(map(_without_first, members))
-        if blocks and blocks[-1].takes(first, inner):
-            blocks[-1].add(first, inner)
-        else:
-            blocks.append(_CaseBlock([first], inner))
-    return [*found, *_completed(blocks)]
-
-
-def _completed(blocks: Iterable[_CaseBlock]) -> list[Case]:
-    """All of their cases, with the beginnings."""
-    return list(chain.from_iterable(block.complete() for block in blocks))
-
-
-def _first_part(case: Case) -> Statement:
-    return next(iter(both(case.statement).parts), ALWAYS)
-
-
-def _has_more(case: Case) -> bool:
-    """Than a first part?"""
-    return len(both(case.statement).parts) > 1
-
-
-def _without_first(case: Case) -> Case:
-    return replace(case, statement=Both(both(case.statement).parts[1:]))
-
-
-def _exclude_each_other(first: Vanishes, second: Vanishes) -> bool:
-    difference = first.function - second.function
-    return first.function.field.rational_value(difference) not in (None, 0)
-
-
-def _say_the_same(first: Sequence[Case], second: Sequence[Case]) -> bool:
-    return len(first) == len(second) and all(map(_says_as_much, first, second))
-
-
-def _says_as_much(case: Case, other: Case) -> bool:
-    """Do they say the same, of the same values?"""
-    if case.statement != other.statement or case.without != other.without:
-        return False
-    return _is_same(case.verdict, other.verdict)
-
-
-def _joined(cases: Iterable[Case]) -> list[Case]:
-    """The cases, with those in a row that can be said in one sentence in one."""
-    joined: list[Case] = []
-    for case in cases:
-        if joined and _can_be_joined(joined[-1], case):
-            joined[-1] = _as_one(joined[-1], case)
-        else:
-            joined.append(case)
-    return joined
-
-
-def _as_one(last: Case, case: Case) -> Case:
-    return Case(either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
-
-
-def _can_be_joined(last: Case, case: Case) -> bool:
-    is_single = both(case.statement).parts == both(case.regions[0].statement).parts
-    if not is_single or last.without != case.without:
-        return False
-    return _are_one(last.regions[-1], case.regions[0])
-
-
-def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:
-    """Can the two be said in one sentence?  Both have simple statements of the same kind, and the same group."""
-    if not first.plain or not second.plain:
-        return False
-    statements = [*alternatives_of(first.statement), *alternatives_of(second.statement)]
-    kinds = {type(statement) for statement in statements}
-    is_of_one_kind = len(kinds) <= 1 and kinds <= {Vanishes, Congruence}
-    return is_of_one_kind and _is_same(first.verdict, second.verdict)
-
-
-def _covered(charts: list[ParameterPoint], statements: Sequence[Statement]) -> bool:
-    """Does one of the statements provably hold at each of the values?"""
-    return all(any(_covers(known, chart) for known in statements) for chart in charts)
+        value = charts[0].at(part.function) if isinstance(part, Vanishes) else None
+        if not isinstance(value, FunctionPoly):
+            left += [part] * (value is None or bool(value))
+        elif factors := irreducible_factors(value):
+            left.append(over_all(either(*map(Vanishes, factors)), field))
+    return all_of(left) if left else other
 
 
 def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterPoint) -> bool:
     """Does one of the known statements hold at all values of the chart at which this one does?"""
-    known = _possible(known, chart)
-    if not known:
-        return False
-    if _covered([chart], known):
+    first: Callable[[Statement], Statement | None] = lambda one: next(iter(both(one).parts), None)  # noqa: E731
+    # One that begins with a function that vanishes at some values of the chart at most says nothing of all.
+    known = [one for one in known if not isinstance(first(one), Vanishes) or holds_on(first(one) or ALWAYS, chart)]
+    if covered([chart], known):
         return True
     try:
         said = {*_parts_on(statement, chart)}
@@ -371,7 +213,7 @@ def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterP
     return any(_is_among(said, one, chart) for one in known)
 
 
-def _is_among(said: Collection[Statement], statement: Statement, chart: ParameterPoint) -> bool:
+def _is_among(said: set[Statement], statement: Statement, chart: ParameterPoint) -> bool:
     """Is all that a statement says on the chart said?"""
     try:
         return all(part in said for part in _parts_on(statement, chart))
@@ -379,113 +221,97 @@ def _is_among(said: Collection[Statement], statement: Statement, chart: Paramete
         return False
 
 
-def _possible(statements: Sequence[Statement], chart: ParameterPoint) -> list[Statement]:
-    """Those that don't begin with a function that vanishes at some values of the chart at most."""
-    holds: dict[Statement, bool] = {}
-    found = []
-    for statement in statements:
-        first = next(iter(both(statement).parts), None)
-        if not isinstance(first, Vanishes):
-            found.append(statement)
-            continue
-        if first not in holds:
-            holds[first] = holds_on(first, chart, NOTHING_ASSUMED)
-        if holds[first]:
-            found.append(statement)
-    return found
-
-
 def _parts_on(statement: Statement, chart: ParameterPoint) -> Iterator[Statement]:
     """What it says on the chart: all of these statements.  Raises `_NOT_ON_CHART`."""
     for part in both(statement).parts:
         on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
-        if not _is_true(on_chart):
+        is_true = isinstance(on_chart, Vanishes) and not on_chart.function
+        if not is_true:
             yield on_chart
 
 
-def _is_true(statement: Statement) -> bool:
-    return isinstance(statement, Vanishes) and not statement.function
+# ------------------------------------------------------------------------------- what is said in one sentence
+
+#: Is the same said in two regions, of other values?
+Likeness = Callable[[ParameterRegion, ParameterRegion], bool]
 
 
-def _covers(statement: Statement, chart: ParameterPoint) -> bool:
-    """Does it provably hold at all values of the chart?"""
-    is_point = chart.field.ground == QQ
-    if is_point:
-        return statement.holds(chart)
-    return holds_on(statement, chart, NOTHING_ASSUMED)
-
-
-def _within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:
-    """Parts of the charts that contain all values at which the statement holds."""
-    if isinstance(statement, Both):
-        for part in statement.parts:
-            charts = _within(part, charts)
-        return charts
-    found: list[ParameterPoint] = []
-    for chart in charts:
-        if isinstance(statement, Either):
-            found += _union((_within(part, [chart]) for part in statement.parts), chart)
+def grouped(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
+    """The cases, those in a row in one of which the same is said, of values of one kind."""
+    joined: list[Case] = []
+    for case in _mirrored(cases, is_same):
+        together = _together(joined[-1], case, is_same) if joined else None
+        if together is None:
+            joined.append(case)
         else:
-            found += _on_chart(statement, chart)
-    return found
+            joined[-1] = together
+    return joined
 
 
-def _on_chart(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
-    """The same for a statement that isn't made of others; the chart where nothing is known."""
-    try:
-        return _where_possible(statement, chart)
-    except ZeroDivisionError:  # a statement doesn't hold where it isn't defined
-        return []
-    except (TypeError, ValueError):  # no function of parameters
-        return [chart]
+def _together(last: Case, case: Case, is_same: Likeness) -> Case | None:
+    """Two cases in one, where nothing but the verdict is said in them, and their statements are of one kind."""
+    own = either(*(all_of(both(region.statement).parts) for region in case.regions))
+    are_plain = last.regions[-1].plain and case.regions[0].plain
+    if case.statement != own or not are_plain or last.without != case.without:
+        return None
+    if not is_same(last.regions[-1], case.regions[0]):
+        return None
+    statement = last.statement.merged(case.statement)
+    kinds = {type(part) for one in (last, case) for part in alternatives_of(one.statement)}
+    if statement is None and (len(kinds) > 1 or kinds == {Both}):
+        return None
+    return Case(statement or either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
 
 
-def _where_possible(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
-    if isinstance(statement, Vanishes):
-        return _where_zero(chart.at(statement.function), chart)
-    if isinstance(statement, Congruence):
-        return _where_congruent(statement, chart)
-    if isinstance(statement, Schwarz):
-        chart.at(statement.cubic)  # is it defined there?
-    if isinstance(statement, Natural) and statement.factors is not None:
-        return _union((_without_unknown(chart.at(factor), chart) for factor in statement.factors), chart)
-    return [chart]
+@dataclass
+class _Block:
+    """Cases in a row that begin with one of the `firsts`, which exclude one another; `cases` are without this beginning."""
+
+    firsts: list[Statement]
+    cases: list[Case]
+
+    def takes(self, first: Statement, cases: list[Case], is_same: Likeness) -> bool:
+        """Can another block be added: does it say the same, of no value of this one?  The functions differ by a number."""
+        last = self.firsts[-1]
+        if not isinstance(first, Vanishes) or not isinstance(last, Vanishes) or len(cases) != len(self.cases):
+            return False
+        difference = first.function.field.rational_value(first.function - last.function)
+        return bool(difference) and all(_says_as_much(*pair, is_same) for pair in zip(self.cases, cases, strict=True))
+
+    def add(self, first: Statement, cases: list[Case]) -> None:
+        self.firsts.append(first)
+        pairs = zip(self.cases, cases, strict=True)
+        self.cases = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
+
+    def complete(self) -> Iterator[Case]:
+        """The cases with their beginning."""
+        beginning = either(*self.firsts)
+        for case in self.cases:
+            yield replace(case, statement=all_of((beginning, *both(case.statement).parts)))
 
 
-def _where_congruent(statement: Congruence, chart: ParameterPoint) -> list[ParameterPoint]:
-    equation = chart.at(statement.equation)
-    if statement.holds_for(equation) is False:
-        return []
-    return _without_unknown(equation, chart)
+def _says_as_much(case: Case, other: Case, is_same: Likeness) -> bool:
+    """Do they say the same, of the same values?"""
+    if case.statement != other.statement or case.without != other.without:
+        return False
+    first, second = case.regions[0], other.regions[0]
+    is_alike = replace(first, statement=ALWAYS, verdict=second.verdict) == replace(second, statement=ALWAYS)
+    return is_alike and is_same(first, second)
 
 
-def _union(parts: Iterable[list[ParameterPoint]], chart: ParameterPoint) -> list[ParameterPoint]:
-    """All of the parts of a chart; the chart alone where one of them is all of it."""
-    found: list[ParameterPoint] = []
-    for part in parts:
-        if any(zeros is chart for zeros in part):
-            return [chart]
-        found += part
-    return found
+def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
+    """The cases, those of l = 0 and of l = -1 in one where the same is said in them but for the solutions.
 
-
-def _without_unknown(equation: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
-    """Where an equation for a number can have a root: everywhere, if the number occurs in it on the chart."""
-    if equation.degree > 0 or not equation:
-        return [chart]
-    return _where_zero(equation[0], chart)
-
-
-def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
-    if not value:
-        return [chart]
-    if not isinstance(value, FunctionPoly):
-        return []
-    found: list[ParameterPoint] = []
-    for factor in irreducible_factors(value):
-        surface = hypersurface(factor)
-        if surface.missed or surface.curve:
-            return [chart]
-        values = tuple(surface.at(over_parameters(value)) for value in chart.values)
-        found.append(ParameterPoint(chart.names, values, surface.field))
-    return found
+    Cases in a row that begin with the same vanishing function are a block.  Two blocks in a row that say the same are one:
+    no value belongs to both, because their functions differ by a number.
+    """
+    blocks: list[_Block] = []
+    for first, group in groupby(cases, key=lambda case: next(iter(both(case.statement).parts), ALWAYS)):
+        inner = [replace(case, statement=Both(both(case.statement).parts[1:])) for case in group]
+        if any(both(case.statement).parts for case in inner):
+            inner = _mirrored(inner, is_same)
+        if blocks and blocks[-1].takes(first, inner, is_same):
+            blocks[-1].add(first, inner)
+        else:
+            blocks.append(_Block([first], inner))
+    return [case for block in blocks for case in block.complete()]

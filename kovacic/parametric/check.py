@@ -32,6 +32,7 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.charts import equation_at, normal_form
 from kovacic.parametric.claims import (
     AllOf,
     Alternatives,
@@ -51,7 +52,7 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, equation_at, normal_form
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable

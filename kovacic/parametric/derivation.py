@@ -13,21 +13,14 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, bounded_work
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.cases import without_redundant
+from kovacic.parametric.cases import without_empty, without_redundant
+from kovacic.parametric.charts import equations_on, normal_form, without_implied
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.letters import Letters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
-from kovacic.parametric.regions import (
-    ParameterRegion,
-    RegionVerdict,
-    equations_on,
-    normal_form,
-    settled,
-    without_empty,
-    without_implied,
-)
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, settled
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement

@@ -20,13 +20,14 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
+from kovacic.parametric.cases import in_lines
 from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.letters import Letters, letters_from, values_of_letters
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line, said_of, settled
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, said_of, settled
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
@@ -446,7 +447,7 @@ class ParametricAnswer:
         >>> print(bessel.latex().partition("cases} ")[2])
         \text{case 1} & n - \frac{1}{2} \in \mathbb{Z} \\ \text{no Liouvillian solution} & \text{otherwise} \end{cases}
         """
-        rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_one_line(self.regions) if r.defined]
+        rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_lines(self.regions) if r.defined]
         rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
         return rf"y'' = {self.right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
@@ -570,7 +571,7 @@ class ParametricAnswer:
 
     def _region_lines(self, *, is_whole: bool) -> list[str]:
         """The regions, those in a row with the same case in one line; a screen of them, or all."""
-        regions = in_one_line(self.regions)
+        regions = in_lines(self.regions)
         shown = regions
         if not is_whole and len(regions) > _SCREEN + 1:
             shown = regions[:_SCREEN]

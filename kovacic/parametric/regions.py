@@ -1,46 +1,31 @@
-"""Regions of parameter space, and which of them say nothing new, because every one of their points lies in an earlier one.
-
-The test is sufficient and exact: a region's points are given as functions of fewer parameters, or of an integer k, and what
-earlier regions state is decided for these functions.
-"""
+"""Regions of parameter space: a statement, what holds where it does and no earlier one, and solutions there."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
-from itertools import count, groupby
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import Any
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.decision import Decision, Status, Structure
-from kovacic.equation import PI, Equation
+from kovacic.equation import PI
 from kovacic.errors import LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
-from kovacic.parametric.claims import Classes
-from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
-from kovacic.parametric.integers import Congruence
+from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.record import statement_data
-from kovacic.parametric.restriction import hypersurface, with_free_constant
 from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
-from kovacic.parametric.solving import SolvedCondition, all_solved, possible
 from kovacic.parametric.statements import (
-    ALWAYS,
-    Both,
-    Either,
     Setting,
     Statement,
     Vanishes,
     all_of,
     alternatives_of,
     both,
-    either,
 )
 
 #: Characters up to which statements share a line.
@@ -396,8 +381,9 @@ def settled(
         setting = Setting((variable, *names), fixed, tuple(covered))
         found.append(replace(region, statement=region.statement.avoiding(setting)))
         for one in alternatives_of(all_of(both(region.statement).parts)):
-            zeros = _vanishing(both(one).parts)
-            if len(zeros) == len(both(one).parts):
+            parts = both(one).parts
+            zeros = [part.function for part in parts if isinstance(part, Vanishes)]
+            if len(zeros) == len(parts):
                 covered.append(frozenset(zeros))
     return found
 
@@ -409,283 +395,3 @@ class Theorem:
     name: str
     exceptions: list[FunctionPoly]
     regions: Iterable[ParameterRegion]
-
-
-def _mirrored(regions: Sequence[ParameterRegion]) -> Iterator[ParameterRegion]:
-    """The regions, with those of n = 0 and n = -1 in one where what is said in all of them is the same.
-
-    Regions in a row that begin with the same vanishing function are a block.  Two blocks in a row that differ in that function
-    alone mean the same as one of either: at a point of both, the first of their common conditions that holds decides.
-    """
-    blocks: list[_RegionBlock] = []
-    for first, group in groupby(regions, key=_first_part):
-        inner = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
-        if blocks and blocks[-1].takes(first, inner):
-            blocks[-1].firsts.append(first)
-        else:
-            blocks.append(_RegionBlock([first], inner))
-    for block in blocks:
-        yield from block.complete()
-
-
-@dataclass
-class _RegionBlock:
-    """Regions in a row that begin with one of the `firsts`; `regions` are without this beginning."""
-
-    firsts: list[Statement]
-    regions: list[ParameterRegion]
-
-    def takes(self, first: Statement, regions: list[ParameterRegion]) -> bool:
-        """Can another block be added: do both begin with functions that vanish, and say the same otherwise?"""
-        are_functions = isinstance(first, Vanishes) and isinstance(self.firsts[-1], Vanishes)
-        return are_functions and self.regions == regions
-
-    def complete(self) -> Iterator[ParameterRegion]:
-        """The regions with their beginning."""
-        regions: Iterable[ParameterRegion] = self.regions
-        if any(both(region.statement).parts for region in self.regions):
-            regions = _mirrored(self.regions)
-        for region in regions:
-            parts = (either(*self.firsts), *both(region.statement).parts)
-            statement = Both(parts) if len(parts) > 1 else parts[0]
-            yield replace(region, statement=statement)
-
-
-def _first_part(region: ParameterRegion) -> Statement:
-    """ALWAYS for a region of which nothing is said beside what its block has in common."""
-    return next(iter(both(region.statement).parts), ALWAYS)
-
-
-def in_one_line(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
-    """The regions, with those in a row that have the same case in one, where that is short."""
-    found: list[ParameterRegion] = []
-    for region in _mirrored(regions):
-        joined = _joined(found[-1], region) if found else None
-        if joined is None:
-            found.append(region)
-        else:
-            found[-1] = joined
-    return found
-
-
-def _joined(last: ParameterRegion, region: ParameterRegion) -> ParameterRegion | None:
-    """Two regions in one, where nothing but the same case is said in them."""
-    if not last.plain or not region.plain or last.case != region.case:
-        return None
-    statement = _together(last.statement, region.statement)
-    return None if statement is None else replace(last, statement=statement)
-
-
-def _together(first: Statement, second: Statement) -> Statement | None:
-    """That one of the two holds, where they merge or are of one kind and short; else None."""
-    merged = first.merged(second)
-    if merged is not None:
-        return merged
-    parts = [*alternatives_of(first), *alternatives_of(second)]
-    kinds = {type(part) for part in parts}
-    if len(kinds) > 1 or kinds == {Both}:
-        return None
-    together = either(*parts)
-    return together if len(together.text()) <= _LINE else None
-
-
-def without_implied(statement: Statement) -> Statement:
-    """The statement without an equation that follows from the others: g2 = g3 = 0 implies g2^3 = 27 g3^2."""
-    if not isinstance(statement, Both):
-        return statement
-    parts = [*statement.parts]
-    for part in statement.parts:
-        if isinstance(part, Vanishes) and _follows(part, [other for other in parts if other is not part]):
-            parts.remove(part)
-    return Both(tuple(parts))
-
-
-def _follows(statement: Vanishes, others: Iterable[Statement]) -> bool:
-    """Does the function provably vanish where those of the others do, two or more?"""
-    functions = _vanishing(others)
-    if len(functions) < 2:
-        return False
-    chart = _common_zeros(functions)
-    return chart is not None and holds_on(statement, chart, NOTHING_ASSUMED)
-
-
-def _vanishing(statements: Iterable[Statement]) -> tuple[FunctionPoly, ...]:
-    """The functions of those that say that one vanishes."""
-    return tuple(statement.function for statement in statements if isinstance(statement, Vanishes))
-
-
-def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
-    """The regions without those that earlier ones cover, for example because they say the same and more."""
-    kept: list[ParameterRegion] = []
-    seen: list[set[Any]] = []
-    for region in regions:
-        check_time()
-        said = {str(statement_data(part)) for part in both(region.statement).parts}
-        says_more = any(known <= said for known in seen)
-        if says_more or _is_covered(region, kept):
-            continue
-        seen.append(said)
-        kept.append(region)
-    return kept
-
-
-def _is_covered(region: ParameterRegion, earlier: Sequence[ParameterRegion]) -> bool:
-    """Are its values known, and does at all values of a chart one of the earlier regions' statements hold?"""
-    charts = _charts(region.statement)
-    if not charts:
-        return False
-    return all(any(holds_on(other.statement, *chart) for other in earlier) for chart in charts)
-
-
-class _Chart(NamedTuple):
-    """Values of the parameters as functions of others, and what is known of these."""
-
-    values: ParameterPoint
-    known: Assumptions
-
-
-def _charts(statement: Statement) -> list[_Chart]:
-    """Values that are all of those at which the statement holds, and maybe more.
-
-    They are functions of fewer parameters, or of one more, an integer k.  [] where none are known.
-    """
-    functions = _vanishing(both(statement).parts)
-    if len(functions) > 1:
-        chart = _common_zeros(functions)
-        return [] if chart is None else [_Chart(chart, NOTHING_ASSUMED)]
-    charts: list[_Chart] = []
-    for part in alternatives_of(statement):
-        solved = _spectrum(part) if isinstance(part, Congruence) else None
-        if not isinstance(part, Congruence) or solved is None:
-            return []
-        charts += _of_integers(part, solved)
-    return charts
-
-
-def _spectrum(statement: Congruence) -> SolvedCondition | None:
-    """An equation for an integer, not a form, solved for a parameter that is nowhere free; None for any other."""
-    if statement.form is not None:
-        return None
-    numbers = Classes(statement.residues, statement.modulus)
-    for solved in all_solved(statement.equation):
-        if not solved.strata and not possible(solved.poles, numbers):
-            return solved
-    return None
-
-
-def _of_integers(statement: Congruence, solved: SolvedCondition) -> list[_Chart]:
-    """One parameter as a function of an integer k, which is a new parameter, for each of the classes."""
-    f = solved.value
-    names = statement.equation.field.names
-    letter = next(name for name in map("k{}".format, count()) if name not in names)
-    field = FunctionField((*names, letter))
-    k = field.generator(letter)
-    values = {name: field.generator(name) for name in names}
-    in_all = ParameterPoint(names, tuple(values.values()), field)
-    above = in_all.at(over_parameters(f.num))
-    below = in_all.at(over_parameters(f.den))
-    known = Assumptions(((letter, Known(("integer",))),))
-    charts = []
-    for residue in statement.residues:
-        N = k * statement.modulus + residue
-        on_class = {**values, solved.parameter: above(N) / below(N)}
-        charts.append(_Chart(ParameterPoint(names, tuple(on_class.values()), field), known))
-    return charts
-
-
-@lru_cache(maxsize=256)
-def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
-    """Where the functions vanish; None where that isn't one piece."""
-    *others, last = functions
-    before: ParameterPoint | None = ParameterPoint.generic(last.field)
-    if others:
-        before = _common_zeros(tuple(others))
-    if before is None:
-        return None
-    try:
-        return _zeros_on(before, last)
-    except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
-        return None
-
-
-def _zeros_on(chart: ParameterPoint, function: FunctionPoly) -> ParameterPoint | None:
-    """Where a function vanishes on a chart; None where that isn't one piece."""
-    factors = irreducible_factors(chart.at(function))
-    if len(factors) != 1:
-        return None
-    surface = hypersurface(factors[0])
-    values = tuple(surface.at(over_parameters(value)) for value in chart.values)
-    return ParameterPoint(chart.names, values, surface.field)
-
-
-@dataclass(frozen=True)
-class EquationThere:
-    """The equation that was given, on one piece of a region; `zeros` vanish there and not on every piece."""
-
-    equation: Equation
-    zeros: tuple[FunctionPoly, ...] = ()
-
-
-def equations_on(statement: Statement, equation: Equation) -> list[EquationThere]:
-    """The equation y'' + p y' + q y = 0 restricted to the pieces of a region, whose formulas have their gauge from it.
-
-    At the zeros that make up a region, poles of b/a can merge or go to infinity, and the gauge for generic values, specialised,
-    is another function.  Pieces that aren't given by functions of fewer parameters are left out.
-    """
-    pieces: list[tuple[FunctionPoly, ...]] = [()]
-    for part in both(statement).parts:
-        zeros = _vanishing(alternatives_of(part))
-        if zeros and len(zeros) == len(alternatives_of(part)):
-            pieces = [(*piece, zero) for piece in pieces for zero in zeros]
-    found = []
-    for piece in pieces:
-        there = _restricted(equation, piece)
-        if there is not None:
-            found.append(EquationThere(there, piece if len(pieces) > 1 else ()))
-    return found
-
-
-def _restricted(equation: Equation, zeros: tuple[FunctionPoly, ...]) -> Equation | None:
-    if not zeros:
-        return equation
-    chart = _common_zeros(zeros)
-    return None if chart is None else equation_at(equation, chart)
-
-
-def normal_form(S: RatFunc, variable: str) -> Equation:
-    """y'' - S y = 0."""
-    return Equation(a=S * 0 + 1, b=S * 0, c=-S, f=S * 0, variable=variable)
-
-
-def equation_at(equation: Equation, point: ParameterPoint) -> Equation | None:
-    """y'' + p y' + q y = 0 with these values of the parameters; None where p or q isn't defined."""
-    try:
-        p, q = (point.restricted(with_free_constant(part / equation.a).S) for part in (equation.b, equation.c))
-    except ZeroDivisionError:
-        return None
-    return replace(equation, a=q * 0 + 1, b=p, c=q, f=q * 0, h=None)
-
-
-def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:
-    """Is it provably true at all of these values?"""
-    if isinstance(statement, Both):
-        return all(holds_on(part, chart, known) for part in statement.parts)
-    if isinstance(statement, Either):
-        return any(holds_on(part, chart, known) for part in statement.parts)
-    try:
-        if isinstance(statement, Vanishes):
-            return not chart.at(statement.function)
-        if isinstance(statement, Congruence):
-            return _congruence_holds_on(statement, chart, known)
-    except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
-        pass
-    return False
-
-
-def _congruence_holds_on(statement: Congruence, chart: ParameterPoint, known: Assumptions) -> bool:
-    equation = chart.at(statement.equation)
-    for_numbers = statement.holds_for(equation)
-    if for_numbers is not None or not known:
-        return for_numbers is True
-    on_chart = Congruence.make(over_parameters(equation), statement.residues, statement.modulus)
-    return on_chart.decided(known) is True
