@@ -100,7 +100,7 @@ def test_what_earlier_regions_cover() -> None:
         return [regions.index(region) for region in without_empty(regions)]
 
     squares = root(N**2 - q)
-    assert kept(squares, root(N**2 - 4 * q), root(N**2 / 4 + N + 1 - q / 4)) == [0, 1]
+    assert kept(squares, root(N**2 - 4 * q), squares) == [0, 1]
     # On the curve p^2 = q^3, q is the square of p/q, which needn't be an integer.
     assert kept(squares, both(Vanishes(p**2 - q**3), Vanishes(r))) == [0, 1]
     assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 2 * q))) == [0]
