@@ -290,3 +290,30 @@ def test_macaulays_brackets(n: int) -> None:
         for load in (sympy.SingularityFunction(x, A, n), same)
     )
     assert with_brackets == with_steps
+
+
+@pytest.mark.parametrize(
+    ("text", "pieces"),
+    [
+        ("Piecewise((1, t < 5), (0, True))", [(1, x < 5), (0, True)]),
+        ("Piecewise((t, 0 <= t < 1), (2 - t, 1 <= t < 2), (0, otherwise))", [(x, x < 1), (2 - x, x < 2), (0, True)]),
+        ("Piecewise((0, t ≤ 2), (exp(-t), t > 2))", [(0, x <= 2), (sympy.exp(-x), True)]),
+    ],
+)
+@pytest.mark.parametrize("order", [1, 2])
+def test_pieces_in_a_text_are_those_of_sympy(order: int, text: str, pieces: Any) -> None:
+    primes = "''"
+    values = ", ".join(f"y{primes[:k]}(0) = {k}" for k in range(order))
+    given = kovacic.dsolve(f"y{primes[:order]} + y = {text}, {values}").rhs
+    equation = sympy.Eq(y(x).diff(x, order) + y(x), Piecewise(*pieces))
+    same = kovacic.dsolve(equation, ics={y(x).diff(x, k).subs(x, 0): k for k in range(order)}).rhs
+    points = [sympy.Rational(k, 3) for k in (1, 4, 8, 17)]
+    agree(given.subs(sympy.Symbol("t"), x), same, points)
+
+
+@pytest.mark.parametrize(
+    "text", ["x < 5", "Piecewise((x < 5, 1))", "Piecewise((1, x < 5), (0, x))", "max((1, 2), 3)", "True"]
+)
+def test_other_comparisons_are_refused(text: str) -> None:
+    with pytest.raises(kovacic.errors.InputError):
+        kovacic.dsolve(f"y'' + y = {text}")

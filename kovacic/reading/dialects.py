@@ -31,9 +31,12 @@ _KINDS = {
     **dict.fromkeys(")]}", "RPAR"),
     ",": "COMMA",
     **dict.fromkeys(("=", "=="), "EQUAL"),
+    **dict.fromkeys(("<", ">", "<=", ">=", "≤", "≥"), "COMPARISON"),
 }
 OPENING = frozenset("([{")
 CLOSING = frozenset(")]}")
+#: The condition of the last of several pieces.
+_OTHERWISE = ("True", "otherwise")
 _POWERS = ("^", "**")
 _SUPERSCRIPT_DIGITS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 _AS_PARENTHESES = str.maketrans("[]{}", "()()")
@@ -658,7 +661,8 @@ class _Translation:
             self.k += 1
             self.write("PRIMED", token.text + "'" * _count(primes), Token("", "", token.start, primes.end))
         else:
-            self.write("NAME", token.text, token)
+            kind = "OTHERWISE" if token.text in _OTHERWISE else "NAME"
+            self.write(kind, token.text, token)
         return True
 
     def is_quote_of_maxima(self) -> bool:

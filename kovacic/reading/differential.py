@@ -217,7 +217,7 @@ class EquationReader(RationalReader):
                 import sympy
 
                 return sympy.Function(head)(sympy.Symbol(self.variable))
-            if head in SEVERAL_ARGUMENTS and not any(isinstance(argument, tuple) for argument in arguments):
+            if head in SEVERAL_ARGUMENTS:
                 return self.arithmetic.of_several(head, arguments)
             if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
                 raise

@@ -49,7 +49,7 @@ _TOKEN = re.compile(
   | (?P<PRIMES> ['"`]+ )
   | (?P<SUPERSCRIPT> [⁺⁻]? [⁰¹²³⁴⁵⁶⁷⁸⁹]+ )
   | (?P<NEWLINE> \n )
-  | (?P<SIGN> \*\* | := | == | @@ | \.[*/^] | \S )
+  | (?P<SIGN> \*\* | := | == | @@ | <= | >= | \.[*/^] | \S )
     """,
     re.VERBOSE | re.DOTALL,
 )

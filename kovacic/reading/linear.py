@@ -20,6 +20,7 @@ from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic, Monomial
 from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS, SEVERAL_ARGUMENTS
+from kovacic.reading.parser import Comparison
 
 #: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
 _LARGEST_BITS = 14_000
@@ -31,6 +32,9 @@ _HIGHEST_POWER = 10
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
 _RATIONAL = (Monomial, Poly, RatFunc)
+
+_ARGUMENTS_HINT = "for example max(x, 0), Piecewise((1, 0 <= x < 5), (0, True))"
+_SIGNS = {"≤": "<=", "≥": ">="}
 
 #: The key of the part r of a linear form.
 REST = -1
@@ -169,10 +173,25 @@ class LinearArithmetic(Arithmetic):
         return self.sum(terms)
 
     def of_several(self, head: str, arguments: Sequence[Any]) -> Any:
-        """One of the functions of `SEVERAL_ARGUMENTS`, by SymPy."""
+        """One of the functions of `SEVERAL_ARGUMENTS`, by SymPy; the arguments of Piecewise are pairs."""
         import sympy
 
-        return self._checked(getattr(sympy, SEVERAL_ARGUMENTS[head])(*map(self.expression, arguments)))
+        function = getattr(sympy, SEVERAL_ARGUMENTS[head])
+        if function is not sympy.Piecewise and not any(isinstance(argument, tuple) for argument in arguments):
+            return self._checked(function(*map(self.expression, arguments)))
+        if function is not sympy.Piecewise or not all(isinstance(argument, tuple) for argument in arguments):
+            raise NotRational(f"{head} doesn't have such arguments", hint=_ARGUMENTS_HINT)
+        return self._checked(function(*((self.expression(value), self._condition(case)) for value, case in arguments)))
+
+    def _condition(self, case: Any) -> Any:
+        """The condition of a piece."""
+        import sympy
+
+        if not isinstance(case, Comparison):
+            raise NotRational("a condition is missing behind a piece", hint=_ARGUMENTS_HINT)
+        values = [self.expression(value) for value in case.values]
+        relations = zip(values, values[1:], case.signs, strict=False)
+        return sympy.And(*(sympy.Rel(left, right, _SIGNS.get(sign, sign)) for left, right, sign in relations))
 
     def _coefficient_of(self, factor: Any) -> Any:
         """What has no unknown function, as a factor of it."""

@@ -44,6 +44,7 @@ SEVERAL_ARGUMENTS = {
     "min": "Min",
     "Min": "Min",
     "SingularityFunction": "SingularityFunction",
+    "Piecewise": "Piecewise",
 }
 #: Calls that other systems write about numbers.
 NUMBER_CALLS = frozenset({"Rational", "Integer", "S"})

@@ -6,7 +6,8 @@ recursion, so that 10^5 nested parentheses are nothing special, and the time is 
 Precedence, from weak to strong: = ; + - ; * / ; unary + - ; implicit product ; power (to the right: 2^3^2 = 2^9).
 -x^2 is -(x^2), x^-2 is 1/x^2, 2*-x is allowed.  An implicit product as a divisor (1/2x) has two readings and is refused.
 A power or a superscript belongs to a number, a name, a parenthesis or a call: x²^3 is refused.  A call f(a, (b, c)) has
-expressions and pairs of expressions as its arguments.  An equation has one equals sign, outside all parentheses.
+expressions and pairs of expressions as its arguments; the second of a pair may be a comparison, 0 <= x < 1.  An equation
+has one equals sign, outside all parentheses.
 
 What the numbers, names and calls mean is a reader's affair: a rational function, an equation, a SymPy expression.
 """
@@ -17,7 +18,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, unexpected
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
@@ -83,6 +84,13 @@ def evaluate(tokens: Tokens, reader: Any) -> Any:
         raise LimitExceeded(f"{site.text()} is nested too deeply for SymPy", limit="text_length") from None
 
 
+class Comparison(NamedTuple):
+    """values[0] signs[0] values[1] ...; without signs, what is always true."""
+
+    signs: tuple[str, ...]
+    values: tuple[Any, ...] = ()
+
+
 class _Operand:
     """A value that was read, and its first token."""
 
@@ -98,13 +106,15 @@ class _Operand:
 class _Group:
     """What a parenthesis encloses, and the operands in it before a comma; or the whole text, and what is left of its =."""
 
-    __slots__ = ("arguments", "is_call", "is_pair", "opened")
+    __slots__ = ("arguments", "is_call", "is_pair", "opened", "signs")
 
     def __init__(self, opened: int, *, is_call: bool = False) -> None:
         #: The token of the parenthesis, or of the name before it; -1 for the whole text.
         self.opened = opened
         self.is_call = is_call
         self.is_pair = False
+        #: Those of the comparison in a pair.
+        self.signs: list[str] = []
         self.arguments: list[_Operand] = []
 
 
@@ -257,6 +267,8 @@ class _Parser:
         if group.is_call or group.is_pair:
             self.argument_lists -= 1
             values = [*(argument.value for argument in group.arguments), enclosed.value]
+        if group.signs:
+            values[1:] = [Comparison(tuple(group.signs), tuple(values[1:]))]
         if group.is_call:
             self.at(group.opened, k, k + 1)
             enclosed.value = self.reader.call(self.pieces[group.opened], values, self.site)
@@ -276,6 +288,23 @@ class _Parser:
             self.argument_lists += 1
         group.arguments.append(self.operands.pop())
         return True
+
+    def comparison(self, k: int) -> bool:
+        """In the second of a pair."""
+        self.complete(k)
+        group = self.groups[-1]
+        if not group.is_pair:
+            text = self.tokens.text
+            raise unexpected(text, Token("SIGN", self.pieces[k], self.tokens.starts[k], self.tokens.ends[k]))
+        group.signs.append(self.pieces[k])
+        group.arguments.append(self.operands.pop())
+        return True
+
+    def otherwise(self, k: int) -> bool:
+        if not self.groups[-1].is_pair or self.kinds[k - 1] != "COMMA":
+            raise self.syntax_error(k)
+        self.operands.append(_Operand(Comparison(()), k))
+        return False
 
     def begins_an_argument(self, group: _Group) -> bool:
         """Is the innermost group a parenthesis with which an argument of a call begins?"""
@@ -376,6 +405,7 @@ _PREFIX = {
     "LPAR": _Parser.parenthesis,
     "PLUS": _Parser.sign,
     "MINUS": _Parser.sign,
+    "OTHERWISE": _Parser.otherwise,
 }
 #: What a token does after an operand.
 _INFIX = {
@@ -385,6 +415,7 @@ _INFIX = {
     **dict.fromkeys(_OPERANDS, _Parser.implicit_product),
     "RPAR": _Parser.close,
     "COMMA": _Parser.comma,
+    "COMPARISON": _Parser.comparison,
     "EQUAL": _Parser.equals,
     "$END": _Parser.end,
 }

@@ -16,7 +16,7 @@ are what stands around an equation; values follow it, or are arguments of the co
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -41,7 +41,7 @@ _DECLARATIONS = frozenset("from import syms with restart clear clc depends assum
 _MAKERS = frozenset("symbols Symbol Function function var symfun".split())  # noqa: SIM905
 _OPERATORS = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
 _EQUALS = ("=", "==")
-_INEQUALITIES = frozenset("<>≤≥≠")
+_INEQUALITIES = frozenset({*"<>≤≥≠", "<=", ">="})
 _ENVIRONMENTS = ("\\begin", "\\end", "\\label", "\\tag", "\\ref")
 _TEXTS = ("\\text", "\\textrm", "\\mbox", "\\textnormal")
 #: With what else than a command comments and layout begin.
@@ -309,7 +309,7 @@ class _Apart:
             self.found.append(PastedPiece("declaration", tuple(scan)))
         elif self.command(scan):
             return
-        elif any(token.text in _INEQUALITIES for token in scan) and not is_alone:
+        elif not is_alone and _has_sign(scan, _INEQUALITIES):
             self.notes.append(f"not used: {self.written(scan)}")
             self.found.append(PastedPiece("remark", tuple(scan)))
         elif name:
@@ -565,12 +565,18 @@ def _is_decimal_comma(scan: Scan, k: int) -> bool:
 
 def _has_equals(scan: Scan, depth: int = 0) -> bool:
     """True if an equals sign stands outside all brackets, or as deep as is said."""
+    if _has_sign(scan, (*_EQUALS, ":="), depth):
+        return True
+    return bool(scan) and scan[0].text in ("Eq", "Equality", "sympy", "sp", "sm") and depth == 0
+
+
+def _has_sign(scan: Scan, signs: Collection[str], depth: int = 0) -> bool:
     level = 0
     for token in scan:
         level += (token.text in OPENING) - (token.text in CLOSING)
-        if token.text in (*_EQUALS, ":=") and level <= depth:
+        if token.text in signs and level <= depth:
             return True
-    return bool(scan) and scan[0].text in ("Eq", "Equality", "sympy", "sp", "sm") and depth == 0
+    return False
 
 
 def _without_assignment(scan: list[Token]) -> tuple[str, list[Token]]:

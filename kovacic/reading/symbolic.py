@@ -248,7 +248,7 @@ class SymbolicReader(RationalReader):
             return self.values.at(self.arithmetic.expression(arguments[0]), len(head) - len(function))
         if head == "root" and len(arguments) == 2:
             return self.power(arguments[0], self.arithmetic.divide(Monomial(1, 0), arguments[1]), site)
-        if head in SEVERAL_ARGUMENTS and not any(isinstance(argument, tuple) for argument in arguments):
+        if head in SEVERAL_ARGUMENTS:
             return self.arithmetic.of_several(head, arguments)
         if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
