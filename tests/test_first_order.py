@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Any
 
+import jsonschema
 import mpmath
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, run
 from sympy import Heaviside, Rational, atan, cos, exp, log, pi, sin, sqrt, tan
 
 import kovacic
@@ -199,6 +202,39 @@ def test_values_at_two_points() -> None:
         kovacic.dsolve(equations, ics={u(0): 1, u(pi): 3})
 
 
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("v + {}", "-u"),
+        ("v", "-u + {}"),
+        ("u + v + {}", "t*Heaviside(t - 2) - u"),
+        ("-u + {}", "u - 2*v"),
+        ("{} - v", "u - v"),
+    ],
+)
+@pytest.mark.parametrize("jump", ["Heaviside(t - 1)", "Piecewise((1, t < 1), (0, True))", "abs(t - 1)"])
+def test_the_unknowns_of_a_system_are_continuous_at_jumps(first: str, second: str, jump: str) -> None:
+    found = kovacic.dsolve(f"u' = {first.format(jump)}, v' = {second.format(jump)}, u(0) = 1, v(0) = 0")
+    solution = {e.lhs: e.rhs for e in found}
+    near = Rational(1, 10**9)
+    for e in solution.values():
+        assert not e.has(sympy.DiracDelta)
+        assert all(abs(number(e, a - near, t) - number(e, a + near, t)) < 1e-7 for a in (1, 2))
+    names = {"u": u(t), "v": v(t), "t": t}
+    for f, right in ((u(t), first), (v(t), second)):
+        wanted = sympy.sympify(right.format(jump.replace("abs", "Abs")), locals=names).xreplace(solution)
+        for point in (0.5, 1.5, 2.5):
+            assert abs(number(solution[f].diff(t) - wanted, point, t)) < 1e-12
+
+
+def test_given_functions_in_a_system() -> None:
+    g = sympy.Function("g")
+    found = {e.lhs: e.rhs for e in kovacic.dsolve("u' = v + g(t), v' = -u, u(0) = 0, v(0) = 0")}
+    solution = {f: e.xreplace({g(z): exp(z) for z in (t, sympy.Symbol("s"))}).doit() for f, e in found.items()}
+    assert sympy.simplify(solution[u(t)].diff(t) - solution[v(t)] - exp(t)) == 0
+    assert sympy.simplify(solution[v(t)].diff(t) + solution[u(t)]) == 0
+
+
 def test_what_is_no_such_system_is_refused() -> None:
     first = sympy.Eq(u(t).diff(t), v(t))
     with pytest.raises(kovacic.InputError, match="3 equations"):
@@ -209,3 +245,12 @@ def test_what_is_no_such_system_is_refused() -> None:
         kovacic.dsolve([sympy.Eq(u(t).diff(t, 2), v(t)), sympy.Eq(v(t).diff(t), u(t))])
     with pytest.raises(kovacic.InputError, match="don't determine both derivatives"):
         kovacic.dsolve([first, sympy.Eq(u(t).diff(t), v(t) + u(t))], [u(t), v(t)])
+
+
+@pytest.mark.parametrize("text", ["u' = v, v' = -u", "u' = v + g(t), v' = -u, u(0) = 0, v(0) = 1", "y' = -2*y + t"])
+@pytest.mark.filterwarnings("ignore:the answer could not be verified")
+def test_json_of_systems_and_of_first_order_follows_the_schema(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["dsolve", "--json", text]) == 0
+    data = json.loads(capsys.readouterr().out)
+    jsonschema.validate(data, json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text("utf-8")))
+    assert (data["unknown"] == ["u(t)", "v(t)"]) == ("v'" in text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -213,40 +213,23 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
         found = dsolve(equation, ics=ics, **given)
-        if isinstance(found, list):
-            return _system_in_json(equation, ics, found, noticed)
-        shorter = in_special_functions(found, equation, ics=ics, **given)
-        special = None if shorter is None else as_text(shorter.rhs)
-        data = {
-            "schema": 1,
-            "input": equation,
-            "ics": ics or None,
-            "status": "solved",
-            "unknown": str(found.lhs),
-            "solution": as_text(found.rhs),
-            "latex": as_latex(found),
-            "special": special,
-            "validity": str(validity(found)) or None,
-            "notices": [str(warning.message) for warning in noticed],
-        }
-    return json_line(data)
-
-
-def _system_in_json(text: str, ics: str, found: Sequence[Any], noticed: Sequence[Any]) -> str:
-    """The solutions of a system, as a line of JSON."""
-    from kovacic.numerals import as_latex, as_text
-
-    data = {
-        "schema": 1,
-        "input": text,
-        "ics": ics or None,
-        "status": "solved",
-        "unknown": [str(solution.lhs) for solution in found],
-        "solution": [as_text(solution.rhs) for solution in found],
-        "latex": [as_latex(solution) for solution in found],
-        "notices": [str(warning.message) for warning in noticed],
-    }
-    return json_line(data)
+        data: dict[str, Any] = {"schema": 1, "input": equation, "ics": ics or None, "status": "solved"}
+        if isinstance(found, list):  # a system
+            data |= {
+                "unknown": [str(solution.lhs) for solution in found],
+                "solution": [as_text(solution.rhs) for solution in found],
+                "latex": [as_latex(solution) for solution in found],
+            }
+        else:
+            shorter = in_special_functions(found, equation, ics=ics, **given)
+            data |= {
+                "unknown": str(found.lhs),
+                "solution": as_text(found.rhs),
+                "latex": as_latex(found),
+                "special": None if shorter is None else as_text(shorter.rhs),
+                "validity": str(validity(found)) or None,
+            }
+    return json_line(data | {"notices": [str(warning.message) for warning in noticed]})
 
 
 @options.equation_command()

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import sympy
 from flint import acb, arb, fmpq
+from sympy import DiracDelta
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.precision import working_digits
@@ -335,14 +336,20 @@ def _is_missed(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], 
 
 
 def _is_wrong(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr]) -> bool | None:
-    """True if the residual is seen not to vanish at a point; None if it can't be evaluated at any."""
+    """True if the residual is seen not to vanish at a point, or w to jump; None if nothing can be evaluated."""
     x = equation.x
     jumping = equation.p + equation.q
     if jumping.has(*JUMPING):
         breaks = sorted(point.xreplace(sample) for point in break_points(jumping, x))
         middles = [(a + b) / 2 for a, b in pairwise(breaks)]
         places = [breaks[0] - _ONE / 3, *middles, breaks[-1] + _ONE / 3] if breaks else []
-        found = [_is_wrong_near(equation, w, sample, sympy.Rational(place)) for place in places if place.is_Rational]
+        if any(not place.is_Rational for place in places):
+            return None
+        found = [_is_wrong_near(equation, w, sample, place) for place in places]
+        pieces = [on_piece(w.xreplace(sample), x, place) for place in places]
+        for (left, right), a in zip(pairwise(pieces), breaks, strict=True):
+            jump = None if jumping.has(DiracDelta) else ball((left - right).subs(x, a))
+            found.append(None if jump is None else bool(abs(jump) > _SMALL))
     else:
         found = [_is_wrong_at(equation, w.xreplace(sample), sample, point) for point in _POINTS]
     if True in found:

@@ -234,7 +234,9 @@ class Basis:
             if self._is_right(solution, right, coefficients):
                 return solution
         # The Wronskian may be on another branch.
-        return self._from_integrals([_open(e, x, start) for e in self._integrands(right, self._by_definition)])
+        return self._from_integrals(
+            [_open(e, x, start) for e in self._integrands(right, _with_single_waves(self._by_definition))]
+        )
 
     def _integrands(self, right: Expr, W: Expr) -> list[Expr]:
         """y2 f/(a W) and y1 f/(a W)."""

@@ -18,6 +18,7 @@ import sympy
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
+from kovacic.reading.names import is_function
 from kovacic.reading.naming import Vocabulary
 from kovacic.reading.parser import Site, evaluate
 from kovacic.reading.pieces import Paste, taken_apart
@@ -110,6 +111,9 @@ class _SystemReader(SymbolicReader):
             order = int(by[1]) if len(by) == 2 and by[1].is_Integer else 1
             return function.diff(self.x, order)
         name = head.rstrip(PRIMES)
-        if name in self.unknowns and len(arguments) == 1 and self.arithmetic.expression(arguments[0]) == self.x:
+        is_function_of_x = len(arguments) == 1 and arguments[0] == self.x
+        if is_function_of_x and name in self.unknowns:
             return self.name(head) if name == head else self.derivative(head)
+        if is_function_of_x and head.isidentifier() and not is_function(head):
+            return sympy.Function(head)(self.x)  # a given one, as it isn't differentiated
         return super().call(head, arguments, site)
