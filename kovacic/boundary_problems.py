@@ -13,6 +13,7 @@ from kovacic.errors import InputError
 from kovacic.exact import exact_text, whole
 from kovacic.general_solution.conditions import Condition, ConditionReader, Term, as_mapping
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.reading.names import words_among
 from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import is_sympy_equation, read_expression
@@ -151,7 +152,7 @@ def _with_values(condition: Condition, values: Mapping[str, Expr]) -> Condition:
 
 
 def _linear(equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits) -> _Linear:
-    expression, function = _expression(equation, var, limits)
+    expression, function = _expression(equation, var, words_among((parameter, *values)), limits)
     x = function.args[0]
     named = {s: values[s.name] for s in expression.free_symbols if s.name in values}
     expression = expression.xreplace(named)
@@ -188,10 +189,10 @@ def _linear(equation: Any, var: str | None, parameter: str, values: Mapping[str,
     return _Linear(function, (a, b, sympy.expand(c - symbol * c1), c1))
 
 
-def _expression(equation: Any, var: str | None, limits: Limits) -> tuple[Expr, Expr]:
+def _expression(equation: Any, var: str | None, names: Sequence[str], limits: Limits) -> tuple[Expr, Expr]:
     """What is zero, and y(x)."""
     if isinstance(equation, str):
-        source = source_of(equation, var, limits, equation=True)
+        source = source_of(equation, var, limits, equation=True, names=names)
         x = sympy.Symbol(source.variable)
         return expression_of(source, limits), sympy.Function(source.unknown)(x)
     if not isinstance(equation, sympy.Basic):

@@ -204,6 +204,20 @@ class Parsed:
         """The input in our own spelling."""
         return self.S.to_str(self.variable) if self.equation is None else self.equation.text(caret=False)
 
+    @property
+    def reading(self) -> str:
+        """What was read, in a line: m*x'' + c*x' + k*x = 0, x(t), parameters m, c, k; empty in another variable."""
+        equation = self.equation
+        if equation is None:
+            line = f"y'' = ({self.S.to_str(self.variable)})*y, y({self.variable})".replace("**", "^")
+        elif equation.change is None:
+            line = f"{equation}, {equation.unknown}({equation.variable})"
+        else:
+            return ""
+        names = parameters_of(self.S.field)
+        what = "parameter" if len(names) == 1 else "parameters"
+        return f"{line}, {what} {', '.join(names)}" if names else line
+
 
 def parameters_of(field: Field) -> tuple[str, ...]:
     """The names of the parameters of a coefficient field."""

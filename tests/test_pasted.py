@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import random
 import re
+import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -18,6 +19,8 @@ import sympy
 from build import parametrize, read_input
 
 import kovacic
+from kovacic.cli.main import run
+from kovacic.doubles.lambdify import lambdify
 from kovacic.general_solution.question import apart, read_question
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.source import source_of
@@ -562,6 +565,55 @@ def test_mutated_texts_are_read_or_refused(seed: int) -> None:
 def test_dsolve_warns_of_what_was_guessed(text: str, said: str) -> None:
     with pytest.warns(UserWarning, match=said):
         kovacic.dsolve(text)
+
+
+@pytest.mark.parametrize(
+    "door",
+    [
+        lambda text, values: kovacic.evaluate(text, 1, x0=0, y0=1, dy0=0, params=values),
+        lambda text, values: kovacic.tabulate(text, 0, 1, x0=0, y0=1, dy0=0, params=values)(1.0),
+        lambda text, values: lambdify(text, interval=(0, 1), x0=0, y0=1, dy0=0, params=values, check=False)(1.0),
+        lambda text, values: kovacic.connection_matrix(text, [0, 1], params=values)[0][0],
+        lambda text, values: kovacic.dsolve(text, ics="y(0)=1, y'(0)=0", assume={"mass": "positive"}).rhs.subs(x, 1),
+    ],
+)
+def test_a_name_with_a_value_is_declared(door: Callable[[str, dict[str, int]], Any]) -> None:
+    assert float(door("mass*y'' + mass*y = 0", {"mass": 2})) == pytest.approx(0.5403023058681398)
+
+
+def test_a_name_with_a_value_is_declared_in_eigenvalue_problems() -> None:
+    given = {"mass": 2, "width": 1}
+    (first,) = kovacic.eigenvalues(
+        "mass*y'' + rate*y = 0", "y(0)=0, y(width)=0", parameter="rate", params=given, count=1
+    )
+    assert float(first.value) == pytest.approx(19.739208802178716)
+
+
+def test_names_are_declared_for_a_batch_or_a_row() -> None:
+    rows = ["EI*w'' = -P*w", {"S": "rate/x^2", "names": ["rate"]}, {"S": "rate/x^2"}]
+    assert [record.label for record in kovacic.solve_many(rows, parameters=["EI"], jobs=1)] == [
+        "case 1", "case 1", "bad input",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["dsolve", "m x'' + c x' + k x = 0"], "m*x'' + c*x' + k*x = 0, x(t), parameters m, c, k"),
+        (["evaluate", "y'' + xy = 0", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], "y'' + x*y = 0, y(x)"),
+        (["evaluate", "k*x", "--param", "k=2", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], None),
+    ],
+)
+def test_the_command_says_what_was_read(
+    arguments: list[str], said: str | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        run(arguments)
+    lines = capsys.readouterr().err.splitlines()
+    assert [line for line in lines if "read as" in line and "was" not in line] == (
+        [f"kovacic: read as {said}"] if said else []
+    )
 
 
 def test_given_functions_are_read_where_the_unknown_one_is_named() -> None:

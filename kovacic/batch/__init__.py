@@ -10,7 +10,7 @@ Texts, or files of them, go in; a `Record` with a line of JSON for every one of 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from kovacic.batch.records import Item, Job, Record
@@ -22,6 +22,7 @@ def solve_many(
     equations: Iterable[Any],
     *,
     var: str | None = None,
+    parameters: Sequence[str] = (),
     jobs: int | None = None,
     timeout: float | None = None,
     memory: int | None = None,
@@ -36,10 +37,12 @@ def solve_many(
     Parameters
     ----------
     equations : iterable
-        Each is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id" and "var".  It may be a
+        Each is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id", "var" and "names".  It may be a
         generator without an end.
     var : str
         The name of the variable where an equation doesn't say.
+    parameters : sequence of str
+        Names of more than one letter that are parameters, in all equations: ["EI"]; "names" declares them for one.
     jobs : int
         The number of worker processes; one for each core by default.
     timeout : float
@@ -86,7 +89,7 @@ def solve_many(
         raise InputError("several equations are expected: a list, or any other iterable", hint='["x^2", "x"]')
     job = Job(
         timeout=timeout, memory=memory, group=group, limits=limits, jobs=jobs, ordered=ordered, backend=backend,
-        scheduler=scheduler,
+        scheduler=scheduler, parameters=parameters,
     )  # fmt: skip
     items = (item_from(number, value, var=var, limits=limits) for number, value in enumerate(equations, start=1))
     return run_items(items, job)

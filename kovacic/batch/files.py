@@ -31,7 +31,7 @@ from kovacic.shown import strict_json
 
 #: Names of the key or column with the expression; and all names that mean something.
 _EXPRESSION_KEYS = ("S", "input", "expression")
-_KEYS = (*_EXPRESSION_KEYS, "id", "var")
+_KEYS = (*_EXPRESSION_KEYS, "id", "var", "names")
 
 # Bytes of a line for each character that an expression may have: UTF-8, and escapes of JSON.
 _BYTES_PER_CHARACTER = 6
@@ -52,8 +52,10 @@ def read_items(
 ) -> Iterator[Item]:
     """The items of "lines", "jsonl" or "csv"; by default JSONL if the first item begins with `{` or `"`, else lines.
 
-    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), perhaps "id" and "var", and no other.
-    A CSV file has such columns and any others, which are carried along, or no header and the expressions in its first column.
+    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), perhaps "id", "var" and
+    "names", a list of declared parameters, and no other.
+    A CSV file has such columns (the names with spaces between them) and any others, which are
+    carried along, or no header and the expressions in its first column.
     `var` names the variable of all items that don't name one.  What begins like a gzip file is decompressed.  Raises
     `InputError` where that fails, after the items up to there.
     """
@@ -143,7 +145,12 @@ def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
     own = value.get("var") or var
     if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
         return Item(number, text, None, extra, InputError(f"the values of {key!r} and 'var' are strings"))
-    return Item(number, value[key], own, extra)
+    names = value.get("names") or ()
+    if isinstance(names, str):
+        names = names.split()
+    if not isinstance(names, list | tuple) or not all(isinstance(name, str) for name in names):
+        return Item(number, text, own, extra, InputError("the value of 'names' is a list of strings"))
+    return Item(number, value[key], own, extra, names=tuple(names))
 
 
 def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None:

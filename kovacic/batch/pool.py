@@ -336,7 +336,7 @@ class Pool(AbstractContextManager["Pool"]):
 
 def _packed(item: Item) -> bytes:
     """An item in the form in which it is sent to a process."""
-    return pickle.dumps((item.number, item.text, item.var, item.extra))
+    return pickle.dumps((item.number, item.text, item.var, item.extra, None, item.names))
 
 
 def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[Item | None]:

@@ -9,7 +9,7 @@ import json
 import os
 from array import array
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -51,6 +51,7 @@ _FAILURES = (ProcessLost.__name__, VerificationFailed.__name__)
 class Item:
     """One equation of a batch: `number` counts the lines of the input from 1, `text` is S.
 
+    `names` are declared parameters, whatever they look like.
     `extra` is copied to the record (an identifier, the values of parameters).  `error` says why the line isn't an equation;
     then `text` is the line as it was found.
     """
@@ -60,6 +61,7 @@ class Item:
     var: str | None = None
     extra: Mapping[str, Any] = field(default_factory=dict)
     error: InputError | LimitExceeded | None = None
+    names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +126,7 @@ class Job:
     `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
     are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,
     the record has the differential Galois group: its name, its order (null if infinite) and whether it is finite.
-    `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that the items may be long in coming.
+    `parameters` are names that are declared for all equations.  `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that the items may be long in coming.
     Raises `InputError` for impossible conditions.
     """
 
@@ -137,6 +139,7 @@ class Job:
     stream: bool = False
     backend: str | None = None
     scheduler: str | None = None
+    parameters: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         self._set(timeout=seconds_of(self.timeout, "timeout"))

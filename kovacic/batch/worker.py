@@ -46,7 +46,7 @@ def solve_item(item: Item, job: Job, limits: Limits) -> Record:
     start = time.perf_counter()
     budget = Budget(limits)
     try:
-        answer = kovacic.solve(item.text, var=item.var, limits=limits)
+        answer = kovacic.solve(item.text, var=item.var, parameters=(*job.parameters, *item.names), limits=limits)
         if answer.reason:
             return solved(item, answer, job)
         with budget.watched():

@@ -44,6 +44,7 @@ def eigenvalues(
     from kovacic.boundary_problems import read_eigenproblem
     from kovacic.limits import Budget
 
+    options.say_reading(equation, given["var"], (given["parameter"], *(given["params"] or ())))
     domain = None if start is None and stop is None else (start or "-oo", stop or "oo")
     budget = Budget(given["limits"])
     with budget.watched():

@@ -167,6 +167,7 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
             return DECIDED
         with options.waiting("solving"):
             lines = list(_solution_lines(equation, latex=form == "formula", ics=ics, **given))
+        options.say_reading(equation, given["var"], given["parameters"])
         for line in lines:
             print(fitted(line) if form == "text" else line)
         return DECIDED

@@ -29,6 +29,7 @@ _OPTIONS = [
         "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", help="For each equation."
     ),
     click.option("--memory", type=click.IntRange(min=1), metavar="MIB", help="For each equation."),
+    options.NAMES,
     options.LIMIT,
     click.option("--backend", type=click.Choice(["dask", "ray"]), help="Run on a cluster."),
     click.option("--scheduler", metavar="ADDRESS", help="The engine's address, for example tcp://host:8786."),
@@ -62,8 +63,8 @@ def batch(
 ) -> int:
     """Decide every equation of FILE; "-" is standard input.
 
-    FILE has an expression S a line, or JSON a line (a string, or an object with "S", perhaps "id" and "var"), or is a CSV
-    table with a column S; any of them may be compressed with gzip.  The answers are JSON, schema 1, a line for every
+    FILE has an expression S a line, or JSON a line (a string, or an object with "S", perhaps "id", "var" and "names"), or is
+    a CSV table with a column S; any of them may be compressed with gzip.  The answers are JSON, schema 1, a line for every
     equation, with "line", its place in FILE.  A bad line gets an answer that says what is wrong with it.
 
     \b

@@ -9,7 +9,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import fields, replace
 from functools import partial, wraps
 from itertools import islice, repeat
@@ -392,6 +392,18 @@ def answer_each(
                 refuse(text, error)
             outcomes.append(reported(error))
     return max(outcomes, key=(DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED).index)
+
+
+def say_reading(equation: str, var: str | None, names: Sequence[str] = ()) -> None:
+    """Print how an equation was read to the error stream, where something was guessed, or a parameter isn't among the names."""
+    from kovacic.equation import parameters_of
+    from kovacic.reading.pieces import taken_apart
+    from kovacic.reading.read import read_input
+
+    with suppress(KovacicError):  # the command says what is wrong
+        parsed = read_input(taken_apart(equation), var=var, names=names)
+        if parsed.reading and (parsed.guesses or not {*parameters_of(parsed.S.field)} <= {*names}):
+            click.echo(f"kovacic: read as {parsed.reading}", err=True)
 
 
 def _expressions(arguments: Sequence[str]) -> Iterator[str]:

@@ -44,6 +44,7 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
     from kovacic.enclosure.precision import AccuracyWarning
     from kovacic.reading.parser import listed
 
+    options.say_reading(equation, given["var"], [*(given["params"] or ())])
     places = [place for text in points for place in listed(text)]
     basis = None if frobenius is None else listed(frobenius)
     with (
@@ -94,6 +95,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     """
     from kovacic.errors import needs
 
+    options.say_reading(equation, given["var"], [*(given["params"] or ())])
     with needs("plot", "a picture"), options.waiting("drawing"):
         from kovacic.views.plot import plot
 

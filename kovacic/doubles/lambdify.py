@@ -179,7 +179,7 @@ def lambdify(
     """
     check_keywords("lambdify", given, LambdifyOptions.__annotations__)
     start, number = _question(which, x0, given)
-    chart = _chart(with_variable(solution, var, limits), start, params, limits)
+    chart = _chart(with_variable(solution, var, limits, params), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
     if not start:

@@ -347,7 +347,7 @@ def tabulate(
     -0.177596771314338
     """
     check_keywords("tabulate", given, StartOptions.__annotations__)
-    chart = chart_of(with_variable(equation, var, limits), {"x0": x0, **given}, params)
+    chart = chart_of(with_variable(equation, var, limits, params), {"x0": x0, **given}, params)
     return table_of(chart, (start, stop), careful, limits)
 
 

@@ -11,7 +11,7 @@ written in sin(u) and cos(u), since a pole of t alone is none of the equation.  
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -99,10 +99,10 @@ def _of_parsed(parsed: Any) -> Coefficients:
     return replace(found, changed=parsed)
 
 
-def as_written(equation: Any, var: Any, limits: Limits) -> Coefficients:
+def as_written(equation: Any, var: Any, limits: Limits, names: Collection[str] = ()) -> Coefficients:
     """What stands there, over the coefficient of y''."""
     name = None if var is None else str(var)
-    source = source_of(equation, name, limits)
+    source = source_of(equation, name, limits, names=names)
     (a, b, c, rest), _ = parts_of(source, limits)
     return Coefficients(sympy.Symbol(source.variable), b / a, c / a, -rest / a)
 

@@ -191,7 +191,7 @@ def connection_matrix(
     """
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
-    problem = as_problem(with_variable(equation, var, limits), params, constants=True)
+    problem = as_problem(with_variable(equation, var, limits, params), params, constants=True)
     way = _Way.of(problem, path)
     budget = Budget(limits)
     prec = start_bits(digits)
@@ -305,7 +305,7 @@ def monodromy(
     """
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
-    given = as_problem(with_variable(equation, var, limits), params, constants=True)
+    given = as_problem(with_variable(equation, var, limits, params), params, constants=True)
     constants = given.embedded and replace(given.embedded, gauge=None)
     problem = NumericProblem(given.system, embedded=constants)
     budget = Budget(limits)

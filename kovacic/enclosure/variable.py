@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from kovacic.answer import Answer
-from kovacic.errors import InputError, NotRational
+from kovacic.errors import InputError, NotRational, warn_user
 from kovacic.limits import Limits, limits_of
 from kovacic.reading.names import words_among
+from kovacic.reading.source import source_of
 
 
 def with_variable(
     equation: object, var: object, limits: Limits | None = None, params: Mapping[str, object] | None = None
 ) -> object:
-    """The equation, read with this name of its variable; as it was given where none is named."""
+    """The equation, read with this name of its variable; as it was given where none is named.  Warns of what is guessed."""
     declared = words_among(params or ())
+    if isinstance(equation, str):
+        for guess in source_of(equation, None if var is None else str(var), limits_of(limits), names=declared).guesses:
+            warn_user(guess)
     if var is None and not (declared and isinstance(equation, str)):
         return equation
     if isinstance(equation, Answer):
@@ -29,4 +33,4 @@ def with_variable(
     except NotRational:
         from kovacic.enclosure.functions import as_written  # imports SymPy
 
-        return as_written(equation, var, limits)
+        return as_written(equation, var, limits, declared)

@@ -99,7 +99,7 @@ def read_question(
         eq = _in_symbols(eq, renamed)
         func = _in_symbols(func, renamed)
         values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
-    read = _read_equation(eq, func, var, limits, declared(parameters))
+    read = _read_equation(eq, func, var, limits, declared(parameters, assume))
     if read.equation.variable in (PI, EULER):
         raise InputError(f"{read.equation.variable} is a number", hint="take another name for the variable")
     reader = ConditionReader(read.function, read.equation.unknown)

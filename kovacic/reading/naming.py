@@ -126,7 +126,7 @@ class Vocabulary:
         meant = unglued(name)
         bare = name.rstrip(_DIGITS)
         if {*name} == {"E", "I"}:
-            meant = "one letter for a stiffness, as B"
+            meant = "one letter for a stiffness, such as B"
         elif bare in (x, y):
             digits = name[len(bare) :]
             meant = f"{bare}^{digits} or {digits}*{bare}"
@@ -171,8 +171,8 @@ def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
     for k, other in pairwise(names):
         is_product = other == k + 1 or (other == k + 2 and tokens.kinds[k + 1] == "STAR")
         if is_product and {tokens.pieces[k], tokens.pieces[other]} == {"E", "I"}:
-            hint = "take one letter for a stiffness, as B; or declare I as a parameter: parameters=['I']"
-            shell = "take one letter for a stiffness, as B; or declare I as a parameter: --names I"
+            hint = "take one letter for a stiffness, such as B; or declare I as a parameter: parameters=['I']"
+            shell = "take one letter for a stiffness, such as B; or declare I as a parameter: --names I"
             said = "E I may be a stiffness, or an energy times the imaginary unit"
             raise tokens.error(ParseError, said, k, other + 1, hint=hint, shell=shell)
 

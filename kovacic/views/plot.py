@@ -39,6 +39,7 @@ from kovacic.errors import InputError, NotRational, check_keywords
 from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import Limits, limited, limits_of
 from kovacic.numerals import as_text, plain_text
+from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
 from kovacic.views.sentences import normal_form
@@ -122,7 +123,7 @@ def sample(
     a, b = _interval_of(start, stop)
     points = whole(points, "points", least=2)
     asked: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
-    equation = with_variable(equation, asked.pop("var", None), asked.get("limits"))
+    equation = with_variable(equation, asked.pop("var", None), asked.get("limits"), asked.get("params"))
     chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
@@ -261,7 +262,7 @@ def plot(
     check_keywords("plot", options, PlotOptions.__annotations__)
     given = equation
     if isinstance(equation, str) or options.get("var") is not None:
-        equation = _read_with_variable(equation, options.pop("var", None), options.get("limits"))
+        equation = _read_with_variable(equation, options.pop("var", None), options)
     if title is None:
         title = _title(equation, given, options.get("params"))
     from matplotlib.figure import Figure as NewFigure
@@ -327,14 +328,16 @@ def _title(equation: object, given: object, params: Mapping[str, object] | None)
     return ",   ".join([_typeset(latex, text), *(_typeset(latex_text(value), value) for value in values)])
 
 
-def _read_with_variable(equation: object, var: str | None, limits: Limits | None) -> object:
+def _read_with_variable(equation: object, var: str | None, options: Mapping[str, Any]) -> object:
     """The equation with the name of its variable, which the axis has."""
+    limits = options.get("limits")
+    params = options.get("params") or {}
     if not isinstance(equation, str) or var is not None:
-        return with_variable(equation, var, limits)
+        return with_variable(equation, var, limits, params)
     try:
-        return read_input(equation, limits=limits_of(limits), exponentials=True)
+        return read_input(equation, limits=limits_of(limits), exponentials=True, names=words_among(params))
     except NotRational:
-        return as_written(equation, None, limits_of(limits))
+        return as_written(equation, None, limits_of(limits), words_among(params))
 
 
 def _axis_names(equation: object) -> tuple[str, str]:
