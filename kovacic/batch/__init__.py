@@ -37,8 +37,8 @@ def solve_many(
     Parameters
     ----------
     equations : iterable
-        Each is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id", "var" and "names".  It may be a
-        generator without an end.
+        Each is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id", "var" and "names".  It
+        may be a generator without an end.
     var : str
         The name of the variable where an equation doesn't say.
     parameters : sequence of str

@@ -126,7 +126,8 @@ class Job:
     `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
     are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,
     the record has the differential Galois group: its name, its order (null if infinite) and whether it is finite.
-    `parameters` are names that are declared for all equations.  `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that the items may be long in coming.
+    `parameters` are names that are declared for all equations.
+    `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that the items may be long in coming.
     Raises `InputError` for impossible conditions.
     """
 

@@ -37,7 +37,7 @@ from kovacic.enclosure.variable import with_variable
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
 from kovacic.exact import has_long_numbers, whole
-from kovacic.limits import Limits, limited, limits_of
+from kovacic.limits import limited, limits_of
 from kovacic.numerals import as_text, plain_text
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
