@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections import deque
 from typing import Any
 
 import click
@@ -49,20 +49,16 @@ def eigenvalues(
     budget = Budget(given["limits"])
     with budget.watched():
         problem = read_eigenproblem(equation, domain=domain, **given)
+        # `problem.answer` has the levels that were found so far: also after an interruption, or where a limit was reached.
+        levels = problem.levels(count, digits)
         try:
-            for _ in _with_a_bar(problem.levels(count, digits), count):
-                pass
-        finally:  # also where it was interrupted, or a limit was reached
+            if sys.stderr.isatty() and os.environ.get("TERM") != "dumb":
+                with click.progressbar(levels, count, label="levels", show_pos=True, file=sys.stderr) as bar:
+                    deque(bar, maxlen=0)
+            else:
+                deque(levels, maxlen=0)
+        finally:
             found = problem.answer()
             if found or problem.search.complete:
                 print(json_line({"schema": 1, "input": equation, **found.to_dict()}) if as_json else found)
     return DECIDED if len(found) == count or found.complete else UNDECIDED
-
-
-def _with_a_bar(levels: Iterator[Any], count: int) -> Iterator[Any]:
-    """The levels, with a bar in a terminal that shows how many are known."""
-    if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
-        yield from levels
-        return
-    with click.progressbar(levels, count, label="levels", show_pos=True, file=sys.stderr) as bar:
-        yield from bar

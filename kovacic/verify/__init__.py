@@ -132,23 +132,19 @@ def verify(
 def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]:
     """Every structure before that of the answer is excluded, each once, in this order; all are where there is no solution."""
     claimed = [exclusion.structure for exclusion in decision.exclusions]
+    required = [*Structure]
+    if decision.status is not Status.NONE_EXISTS:
+        # Those before the structure that was found; before a limit was reached, as many as there are.
+        found = decision.status is Status.LIOUVILLIAN and decision.structure
+        required = required[: required.index(found) if found else len(claimed)]
     checks = []
-    if claimed != _required_exclusions(decision, len(claimed)):
+    if claimed != required:
         checks.append(Check("the structures before the answer's are excluded, each once", False))
     for exclusion in decision.exclusions:
         structure = exclusion.structure
         passed = inspector.excludes(structure, exclusion.evidence)
         checks.append(Check(f"the Galois group isn't {structure.value} (case {structure.case})", passed))
     return checks
-
-
-def _required_exclusions(decision: Decision, claimed: int) -> list[Structure]:
-    structures = [*Structure]
-    if decision.status is Status.NONE_EXISTS:
-        return structures
-    if decision.status is Status.LIOUVILLIAN and decision.structure is not None:
-        return structures[: structures.index(decision.structure)]
-    return structures[:claimed]
 
 
 # ------------------------------------------------------------------------------------------- the solution
@@ -170,23 +166,21 @@ def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:
         irreducible = [Check(f"the polynomial of {field.name} is irreducible", is_a_field(field))]
         if not irreducible[0].passed:
             return irreducible
-    rational = _invariant_holds(inspector, decision, structure, form, riccati)
-    checks = [*irreducible, *_omega_holds(inspector.S, form, riccati, _OMEGA_DEGREE[structure])]
-    return [*checks, Check("the invariant is a rational form", rational)]
-
-
-def _omega_holds(S: RatFunc, form: SemiInvariant, riccati: RiccatiPolynomial, degree: int) -> list[Check]:
-    """By the identities of `identity`, for a form of the structure's degree whose linear factors are the solutions."""
+    # The identities of `identity`, for a form of the structure's degree whose linear factors are the solutions.
+    degree = _OMEGA_DEGREE[structure]
     P = riccati.P
     numerators = None
     if form.degree == riccati.degree == degree and form.P == P:
-        numerators = form_numerators(S, form, riccati.D)
+        numerators = form_numerators(inspector.S, form, riccati.D)
     same_sum = numerators is not None and numerators[1] == riccati.numerators[1]
+    ordinary = P.degree == 0 or P.gcd(inspector.S.den.over(P.field)).degree == 0
     return [
+        *irreducible,
         Check(f"omega satisfies a polynomial of degree {degree}", riccati.degree == degree),
         Check("the roots of the polynomial solve omega' + omega^2 = S", numerators == [*riccati.numerators]),
         Check("the sum of the roots is the logarithmic derivative of the semi-invariant", same_sum),
-        Check("P has its zeros at ordinary points", P.degree == 0 or P.gcd(S.den.over(P.field)).degree == 0),
+        Check("P has its zeros at ordinary points", ordinary),
+        Check("the invariant is a rational form", _invariant_holds(inspector, decision, structure, form, riccati)),
     ]
 
 

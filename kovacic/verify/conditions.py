@@ -8,8 +8,6 @@ monodromy has an order from a short list, the denominator of Delta.  [Kovacic 19
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from kovacic.decision import NecessaryCondition, Rule, Structure
 from kovacic.verify.local import Point
 from kovacic.verify.zeros import is_proven_irrational
@@ -19,57 +17,39 @@ _ORDERS = {Structure.TETRAHEDRAL: {1, 2, 3}, Structure.OCTAHEDRAL: {1, 2, 3, 4},
 
 
 def condition_fails(item: NecessaryCondition, structure: Structure, points: list[Point]) -> bool:
-    """Is the condition one that this structure implies, and does it fail at each of the places that are named?"""
+    """True if the structure implies the condition, and the condition fails at each of the places that are named."""
     named = [point for point in points if point.name in item.places]
     if len(named) < len(item.places):  # a name is that of no point, or occurs twice
         return False
     if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
-        # these are the places at which the square root of an invariant of degree 4 can branch: fewer than two points
+        # The square root of an invariant of degree 4 can branch at these places alone, and they are fewer than two points.
         are_all = named == [point for point in points if point.can_branch]
         return structure is Structure.IMPRIMITIVE and are_all and sum(point.factor.degree for point in named) < 2
-    concerns, fails = _RULES[item.rule]
-    return concerns(structure) and bool(named) and all(fails(point, structure) for point in named)
+    return (
+        structure in _IMPLIED_BY[item.rule] and bool(named) and all(_fails_at(p, item.rule, structure) for p in named)
+    )
 
 
-def _is_ramified(point: Point, structure: Structure) -> bool:
-    return point.order > 2 and point.order % 2 == 1
+def _fails_at(point: Point, rule: Rule, structure: Structure) -> bool:
+    """True if the condition of a rule fails at the point."""
+    k = point.order
+    if rule is Rule.RAMIFIED:
+        return k > 2 and k % 2 == 1
+    if rule is Rule.NOT_A_SQUARE:
+        return k > 0 and k % 2 == 0 and is_proven_irrational(point)
+    if rule is Rule.LOGARITHM:
+        return point.logarithm
+    if rule is Rule.IRREGULAR:
+        return k > 2
+    # EXPONENTS, which speaks of regular points only
+    return k <= 2 and (point.difference is None or point.difference.denominator not in _ORDERS[structure])
 
 
-def _is_not_a_square(point: Point, structure: Structure) -> bool:
-    return point.order > 0 and point.order % 2 == 0 and is_proven_irrational(point)
-
-
-def _has_a_logarithm(point: Point, structure: Structure) -> bool:
-    return point.logarithm
-
-
-def _is_irregular(point: Point, structure: Structure) -> bool:
-    return point.order > 2
-
-
-def _has_other_exponents(point: Point, structure: Structure) -> bool:
-    if point.order > 2:
-        return False
-    return point.difference is None or point.difference.denominator not in _ORDERS[structure]
-
-
-def _is_reducible(structure: Structure) -> bool:
-    return structure is Structure.REDUCIBLE
-
-
-def _is_irreducible(structure: Structure) -> bool:
-    return structure is not Structure.REDUCIBLE
-
-
-def _is_primitive(structure: Structure) -> bool:
-    return structure in _ORDERS
-
-
-#: For each rule, which structures imply the condition, and whether it fails at a point.
-_RULES: dict[Rule, tuple[Callable[[Structure], bool], Callable[[Point, Structure], bool]]] = {
-    Rule.RAMIFIED: (_is_reducible, _is_ramified),
-    Rule.NOT_A_SQUARE: (_is_reducible, _is_not_a_square),
-    Rule.LOGARITHM: (_is_irreducible, _has_a_logarithm),
-    Rule.IRREGULAR: (_is_primitive, _is_irregular),
-    Rule.EXPONENTS: (_is_primitive, _has_other_exponents),
+#: The structures that imply the condition of each rule.
+_IMPLIED_BY = {
+    Rule.RAMIFIED: {Structure.REDUCIBLE},
+    Rule.NOT_A_SQUARE: {Structure.REDUCIBLE},
+    Rule.LOGARITHM: {Structure.IMPRIMITIVE, *_ORDERS},
+    Rule.IRREGULAR: {*_ORDERS},
+    Rule.EXPONENTS: {*_ORDERS},
 }

@@ -25,7 +25,7 @@ from typing import Any
 
 from flint import fmpz
 
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction
 from kovacic.errors import LimitExceeded
@@ -33,7 +33,7 @@ from kovacic.verify.factors import factors_of
 from kovacic.verify.primes import homomorphisms_modulo
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 
-#: Primes are taken upwards from here, so many of them, with so many points on the curve modulo each.
+#: Primes are taken upwards from `_SMALLEST`, at most `_PRIMES` of them, and `_POINTS` values of x modulo each.
 _SMALLEST = 1 << 40
 _PRIMES = 100
 _POINTS = 40
@@ -42,24 +42,22 @@ _LARGEST_FACTOR = 1 << 50
 
 
 def is_least_power(H: RatFunc, f: CurveFunction, n: int) -> bool:
-    """Is u^n a function on the curve, and no smaller power?"""
+    """True if u^n is a function on the curve, and no smaller power of u is."""
     if n < 1 or f.multiple != n:
         return False
     if f.rest or not _is_its_logarithm(H, f):
         return False
     G = _root_of_odd_norms(f)
-    return G is not None and all(_is_no_power(f, G, q) for q in _prime_factors(n))
-
-
-def _prime_factors(n: int) -> list[int]:
+    if G is None:
+        return False
     primes = [int(q) for q, _ in fmpz(n).factor()]
     if any(q > _LARGEST_FACTOR for q in primes):
         raise LimitExceeded("the order has a prime factor of more than 15 digits", limit="bits")
-    return primes
+    return all(_is_no_power(f, G, q) for q in primes)
 
 
 def has_holomorphic_rest(H: RatFunc, f: CurveFunction) -> bool:
-    """Is a multiple of log u that of a function and an integral of the first kind that isn't constant?"""
+    """True if a multiple of log u is the logarithm of a function plus a non-constant integral of the first kind."""
     if f.multiple < 1 or not f.rest or f.h.field != H.field:
         return False
     squarefree = f.h.degree >= 3 and f.h.gcd(f.h.derivative()).degree == 0
@@ -68,7 +66,7 @@ def has_holomorphic_rest(H: RatFunc, f: CurveFunction) -> bool:
 
 
 def _is_its_logarithm(H: RatFunc, f: CurveFunction) -> bool:
-    """Equation (1)."""
+    """True if equation (1) holds, n being `f.multiple`."""
     h = f.h
     polynomials = [h, f.rest, *(q for piece in f.pieces for q in (piece.a, piece.b))]
     if any(q.field != H.field for q in polynomials):
@@ -101,8 +99,10 @@ def _root_of_odd_norms(f: CurveFunction) -> Poly | None:
 
 
 def _is_no_power(f: CurveFunction, G: Poly, l: int) -> bool:  # noqa: E741 - as in the module's text
-    """Do two values of f modulo a prime lie in different classes modulo l-th powers?"""
-    for h in islice(_homomorphisms(f.h.field, l), _PRIMES):
+    """True if two values of f modulo a prime lie in different classes modulo l-th powers."""
+    # Primes p = k l + 1: F_p contains the l-th roots of unity.
+    primes = (p for p in count(_SMALLEST // l * l + l + 1, l) if fmpz(p).is_prime())
+    for h in islice((h for p in primes for h in homomorphisms_modulo(f.h.field, p)), _PRIMES):
         try:
             classes = {pow(value, (h.p - 1) // l, h.p) for value in _values(f, G, h)}
         except BadPrimeError:
@@ -110,14 +110,6 @@ def _is_no_power(f: CurveFunction, G: Poly, l: int) -> bool:  # noqa: E741 - as 
         if len(classes) > 1:
             return True
     return False
-
-
-def _homomorphisms(field: Field, l: int) -> Iterator[Homomorphism]:  # noqa: E741
-    """To prime fields that contain the l-th roots of unity."""
-    for k in count(_SMALLEST // l + 1):
-        p = k * l + 1
-        if fmpz(p).is_prime():
-            yield from homomorphisms_modulo(field, p)
 
 
 def _values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
@@ -139,7 +131,7 @@ def _values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
 
 
 def _value_at(pieces: list[tuple[Any, Any, int]], x: int, y: int, p: int) -> int:
-    """Of the product of the pieces over the powers of their norms, at (x, y); 0 where a piece or its conjugate vanishes."""
+    """prod a_i^(e_i)/N_i^(e_i // 2), a_i = a + b y, at (x, y) modulo p; 0 where a piece or its conjugate vanishes."""
     result = 1
     for a, b, exponent in pieces:
         above = (int(a(x)) + int(b(x)) * y) % p

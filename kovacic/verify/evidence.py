@@ -48,7 +48,7 @@ class Inspector:
         return [point.factor for point in self.points[:-1]]
 
     def excludes(self, structure: Structure, evidence: tuple[Evidence, ...]) -> bool:
-        """Does the evidence, recomputed, prove that the group doesn't have this structure?
+        """True if the evidence, recomputed, proves that the group doesn't have this structure.
 
         A necessary condition that fails does, or the absence of the invariant; but a reducible group has one only where
         omega isn't unique, so that for it the absence of a unique omega is needed as well.
@@ -65,7 +65,7 @@ class Inspector:
         return no_invariant and (no_unique_omega or structure is not Structure.REDUCIBLE)
 
     def holds(self, item: Evidence, structure: Structure) -> bool:
-        """Is what one item says so, and does it say something about this structure?"""
+        """True if one item of evidence is right, and concerns this structure."""
         self.budget.check()
         if isinstance(item, NecessaryCondition):
             return condition_fails(item, structure, self.points)
@@ -76,7 +76,7 @@ class Inspector:
     # ------------------------------------------------------------------------------------------- invariants
 
     def _no_invariant(self, item: NoInvariant) -> bool:
-        """No rational form of degree m: no room for one, or dimension 0 modulo the prime that is named."""
+        """True if there is no rational form of degree m: no room for one, or dimension 0 modulo the prime that is named."""
         m = item.invariant_degree
         if m not in INVARIANT_DEGREE.values():
             return False
@@ -91,7 +91,7 @@ class Inspector:
         return item.degree == degree and _under_some(self._at(item.prime), is_zero)
 
     def dimension_is_at_most(self, bound: int, m: int) -> bool:
-        """Have the rational forms of degree m at most this dimension, as that modulo one of the first primes proves?"""
+        """True if the rational forms of degree m have at most this dimension, as one of the first primes proves."""
         bounds = room(self.points, m)
         if bounds is None:
             return True
@@ -112,7 +112,11 @@ class Inspector:
     # ------------------------------------------------------------------------------------------- omega
 
     def _no_rational_omega(self, item: NoRationalOmega) -> bool:
-        """No unique rational omega: no number of zeros is possible, or no expansion at the place is one, modulo the prime."""
+        """True if there is no unique rational omega.
+
+        Either no number of zeros is possible, or modulo the prime no expansion of omega at the place is that of a rational
+        function.
+        """
         counts = self.zero_counts
         if counts is None or counts.largest < 0:
             return item == NoRationalOmega(-1)
@@ -121,16 +125,14 @@ class Inspector:
         telling = [point for point in self.points if point.name == item.place and point.tells_solutions_apart]
 
         def has_none(h: Homomorphism) -> bool:
-            return any(self._no_omega_at(place, h, counts) for place in telling)
+            for place in telling:
+                self.budget.check()
+                for root in roots_modulo(place.factor, h)[:1]:  # the least one, if there is any
+                    if no_expansion_is_rational(chart(place, self.points, h, root), counts):
+                        return True
+            return False
 
         return _under_some(self._at(item.prime), has_none)
-
-    def _no_omega_at(self, place: Point, h: Homomorphism, counts: ZeroCounts) -> bool:
-        """At the least root of the place under a homomorphism, if it has one."""
-        self.budget.check()
-        for root in roots_modulo(place.factor, h)[:1]:
-            return no_expansion_is_rational(chart(place, self.points, h, root), counts)
-        return False
 
     def _at(self, p: int) -> Iterator[Homomorphism]:
         """Homomorphisms of the field modulo a prime that a record names."""
@@ -138,7 +140,7 @@ class Inspector:
 
 
 def _under_some(homomorphisms: Iterator[Homomorphism], claim: Callable[[Homomorphism], bool]) -> bool:
-    """Does the claim hold under one of the homomorphisms?"""
+    """True if the claim holds under one of the homomorphisms; those at bad primes are passed over."""
     for h in homomorphisms:
         try:
             if claim(h):

@@ -29,7 +29,7 @@ def factors_of(polynomial: Poly) -> list[tuple[Poly, int]]:
 
 
 def product(factors: list[Poly]) -> Poly:
-    """In halves, so that the factors of a product have the same size."""
+    """The product of at least one polynomial, in halves: multiplication is fastest for factors of the same size."""
     if len(factors) == 1:
         return factors[0]
     half = len(factors) // 2
@@ -38,7 +38,7 @@ def product(factors: list[Poly]) -> Poly:
 
 @lru_cache(maxsize=64)
 def is_a_field(field: Field) -> bool:
-    """Is the polynomial of each constant irreducible over the field below?"""
+    """True if the polynomial of each constant is irreducible over the field below."""
     if not isinstance(field, AlgebraicField):
         return True
     if field.modulus.degree < 2 or not is_a_field(field.base):
@@ -47,13 +47,13 @@ def is_a_field(field: Field) -> bool:
 
 
 def is_irreducible(p: Poly) -> bool:
-    """Over a number field: by a multiple over the field below.  True over other fields for what is a factor there."""
+    """True if p is irreducible: over K(c) by its norm.  Over Q and Q(t), p must be a factor that FLINT has found."""
     field = p.field
     if p.degree <= 1 or not isinstance(field, AlgebraicField):
         return p.degree > 0
     x = field.poly([0, 1])
     roots = p.degree * field.dimension
-    for s in range(roots**2 + 1):  # at most so many shifts let two roots of the norm meet
+    for s in range(roots**2 + 1):  # roots^2 shifts at most let two roots of the norm meet: one of these is left
         check_time()
         shifted = p(x - field.generator * s)
         N = norm(shifted).monic()

@@ -1,4 +1,4 @@
-"""How many rational forms of degree m in the solutions there can be: at most so many as modulo a prime.
+"""An upper bound for the dimension of the rational forms of degree m in the solutions: the dimension modulo a prime.
 
 A rational form F of degree m in a fundamental system has, at each singular point, a valuation from a short list; so F is the
 product of the p^v, v the least of these, and of a polynomial of a bounded degree.  At an ordinary point, F is a combination of
@@ -17,7 +17,7 @@ from kovacic.verify.primes import translated
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
 
-#: Terms that are looked at beyond the number of unknowns.
+#: Equations beyond the number of unknowns.
 _MARGIN = 7
 
 

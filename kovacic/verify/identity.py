@@ -49,10 +49,16 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
         return None
     residues = []
     for p in _factors_of(theta.den, factors):
-        residue = _rational_residue(theta, p)
-        if residue is None:
+        # At the roots of p it is num/den', if these are simple poles.
+        num = theta.num % p
+        slope = theta.den.derivative() % p
+        if not slope:
             return None
-        residues.append((p, residue))
+        residue = quotient(num[slope.degree], slope.lc)
+        rational = p.field.rational_value(residue) if num == residue * slope else None
+        if rational is None:
+            return None
+        residues.append((p, rational))
     return residues
 
 
@@ -67,24 +73,14 @@ def _factors_of(den: Poly, known: Sequence[Poly]) -> list[Poly]:
     return found + [p for p, _ in factors_of(den)]
 
 
-def _rational_residue(theta: RatFunc, p: Poly) -> Fraction | None:
-    """The residue num/den' at the roots of p, if these are simple poles with the same rational residue."""
-    num = theta.num % p
-    slope = theta.den.derivative() % p
-    if not slope:
-        return None
-    residue = quotient(num[slope.degree], slope.lc)
-    return p.field.rational_value(residue) if num == residue * slope else None
-
-
 def is_rational(F: SemiInvariant, factors: Sequence[Poly] = ()) -> bool:
-    """Is exp(int theta) P a rational function?  Some `factors` of the denominator of theta may be known."""
+    """True if exp(int theta) P is a rational function.  Some `factors` of the denominator of theta may be known."""
     residues = rational_residues(F.theta, factors)
     return residues is not None and all(residue.denominator == 1 for _, residue in residues)
 
 
 def is_power(F: SemiInvariant, f: SemiInvariant) -> bool:
-    """Is F a power of f, up to a constant, as its theta, P and degree show?"""
+    """True if F is a power of f, up to a constant, by its theta, P and degree."""
     n, rest = divmod(F.degree, max(f.degree, 1))
     if rest or F.theta.den != f.theta.den:
         return False

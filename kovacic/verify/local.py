@@ -71,11 +71,15 @@ class Point:
         b = quotient(N[M.degree], M.lc)
         if b * M != N:
             return None
-        return _rational_square_root(b.field.rational_value(4 * b + 1))
+        square = b.field.rational_value(4 * b + 1)
+        if square is None or square < 0:
+            return None
+        root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+        return root if root * root == square else None
 
     @cached_property
     def logarithm(self) -> bool:
-        """Is there provably a logarithm?  For Delta = n > 0, up to the limit of degrees, by an obstruction modulo a prime.
+        """True if there provably is a logarithm: for Delta = n > 0, within the limit of degrees, by an obstruction mod a prime.
 
         For t^2 y'' = (M_0 + M_d t^d) y the series with the smaller exponent has u_k k (k - n) = M_d u_(k-d): without any limit,
         there is a logarithm exactly if n is a multiple of d.
@@ -93,7 +97,7 @@ class Point:
         return n <= self.budget.limits.unknown_degree and self._is_obstructed(n)
 
     def _is_obstructed(self, n: int) -> bool:
-        """At a root modulo the first prime that has one."""
+        """True if the series with the smaller exponent is obstructed, at a root modulo the first prime that has one."""
         for h in homomorphisms(self.factor.field):
             self.budget.check()
             for root in roots_modulo(self.factor, h):
@@ -105,14 +109,14 @@ class Point:
 
     @property
     def can_branch(self) -> bool:
-        """Can the square root of an invariant branch here?  At odd orders k > 2, and where Delta is half an odd number."""
+        """True if the square root of an invariant can branch here: for odd k > 2, and where Delta is half an odd number."""
         if self.order > 2:
             return self.order % 2 == 1
         return self.difference is not None and self.difference.denominator == 2
 
     @property
     def tells_solutions_apart(self) -> bool:
-        """Is a solution with a rational omega one of finitely many local ones?
+        """True if a solution with a rational omega is one of finitely many local ones.
 
         At an unramified irregular point it has one of two exponential parts; at a regular one it has one of two exponents
         unless these differ by a whole number and there is no logarithm.
@@ -145,20 +149,12 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     for p, order in factors:
         expansions = regular if order <= 2 else irregular
         found.append(Point(p, order, S.num, S.den, budget, expansions))
-    return [*found, _infinity(S, budget)]
-
-
-def _infinity(S: RatFunc, budget: Budget) -> Point:
-    """With S(1/z)/z^4 = N/(z^k M), N and M with the coefficients of num and den in the reversed order.
-
-    Here k = deg num - deg den + 4; a negative k gives N its power of z.
-    """
+    # S(1/z)/z^4 = N/(z^k M), k = deg num - deg den + 4, where N and M have the coefficients of num and den in the reversed
+    # order; a negative k gives N a power of z.
     k = S.num.degree - S.den.degree + 4 if S.num else 0
-    order = max(k, 0)
     num = S.num.reversed(max(-k, 0))
-    den = S.den.reversed(order)
-    z = S.field.poly([0, 1])
-    return Point(z, order, num, den, budget, at_infinity=True)
+    den = S.den.reversed(max(k, 0))
+    return [*found, Point(S.field.poly([0, 1]), max(k, 0), num, den, budget, at_infinity=True)]
 
 
 def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
@@ -241,7 +237,7 @@ def _power_modulo(base: Poly, exponent: int, modulus: Poly) -> Poly:
 
 
 def has_no_series(M: Any, E: Any, n: int) -> bool:
-    """Has t^2 E y'' = M y no solution t^e (1 + O(t)) with the smaller exponent e = (1-n)/2, so that there is a logarithm?
+    """True if t^2 E y'' = M y has no solution t^e (1 + O(t)) with the smaller exponent e = (1-n)/2: there is a logarithm.
 
     For y = t^e u the equation t u'' + 2 e u' + (e (e-1) - M/E)/t u = 0 determines u below t^n; the coefficient of t^(n-1)
     in it doesn't depend on u_n, and must vanish [Frobenius].
@@ -255,13 +251,6 @@ def has_no_series(M: Any, E: Any, n: int) -> bool:
     u = solution_at_singular_point(second, first, zeroth, n)
     rest = second * u.derivative().derivative() + first * u.derivative() + zeroth * u
     return bool(int(rest[n - 1]))
-
-
-def _rational_square_root(square: Fraction | None) -> Fraction | None:
-    if square is None or square < 0:
-        return None
-    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
-    return root if root * root == square else None
 
 
 def solution_with_exponential_part(M: Any, E: Any, start: Any, nu: int, count: int) -> Any:

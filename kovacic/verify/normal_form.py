@@ -1,4 +1,4 @@
-"""Does S belong to the equation?
+"""The check that y'' = S v is the normal form of the equation as given.
 
 y = v exp(int rho dx), rho = -b/(2a), turns a y'' + b y' + c y = 0 into v'' = S v with S = (b/a)'/2 + (b/a)^2/4 - c/a
 [Kovacic 1986, section 1.1].  With b/a = u/v and c/a = w/z that is an identity of polynomials,
@@ -12,7 +12,7 @@ from kovacic.algebra.ratfunc import RatFunc
 
 
 def is_normal_form(S: RatFunc, gauge: RatFunc, a: RatFunc, b: RatFunc, c: RatFunc) -> bool:
-    """Is y'' = S y the normal form of a y'' + b y' + c y = 0, with this gauge?"""
+    """True if y'' = S y is the normal form of a y'' + b y' + c y = 0, with this gauge rho."""
     u = b.num * a.den
     v = b.den * a.num
     w = c.num * a.den

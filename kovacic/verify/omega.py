@@ -42,7 +42,7 @@ class Chart:
         return max(self.place.order, 2) // 2
 
     def is_omega(self, A: Any, B: Any) -> bool:
-        """Does omega = A/B satisfy omega' + omega^2 = num/den?"""
+        """True if omega = A/B satisfies omega' + omega^2 = num/den."""
         return bool(self.den * (A.derivative() * B - A * B.derivative() + A * A) == self.num * B * B)
 
 
@@ -63,12 +63,17 @@ def chart(place: Point, points: list[Point], h: Homomorphism, root: int) -> Char
 
 
 def no_expansion_is_rational(at: Chart, counts: ZeroCounts) -> bool:
-    """Is none of the expansions that omega can have there that of a rational function with a possible number of zeros?
+    """True if no expansion that omega can have there is that of a rational function with a possible number of zeros.
 
     Raises `BadPrimeError` where the prime is too small for the series, or changes the equation.
     """
+    bounds = counts.by_exponent(at.place)
     for start in first_terms(at):
-        degree = _zeros_with(at, start, counts)
+        degree = counts.largest
+        if bounds is not None:  # the largest number of zeros of a solution with this exponent modulo the prime
+            exponent = int(start[at.nu - 1])
+            possible = [bound for e, bound in bounds if (exponent * e.denominator - e.numerator) % at.p == 0]
+            degree = max(possible, default=-1)
         if degree >= 0 and _is_rational(at, start, degree):
             return False
     return True
@@ -106,18 +111,8 @@ def _square_roots(value: int, p: int) -> list[int]:
     return [root, p - root]
 
 
-def _zeros_with(at: Chart, start: Any, counts: ZeroCounts) -> int:
-    """The largest number of zeros of a solution with this exponent modulo the prime; -1 if it can't have one."""
-    bounds = counts.by_exponent(at.place)
-    if bounds is None:
-        return counts.largest
-    exponent = int(start[at.nu - 1])
-    possible = [bound for e, bound in bounds if (exponent * e.denominator - e.numerator) % at.p == 0]
-    return max(possible, default=-1)
-
-
 def _is_rational(at: Chart, start: Any, degree: int) -> bool:
-    """Is there omega = A/(den P) with this expansion, deg P <= degree and deg A <= degree + growth?
+    """True if some omega = A/(den P) has this expansion, with deg P <= degree and deg A <= degree + growth.
 
     The only candidate with these terms, one more than there are unknowns, must solve the Riccati equation as well.
     """

@@ -21,7 +21,7 @@ from kovacic.verify.reduction import AtRoot, AtValues, BadPrimeError, Homomorphi
 
 #: The kernel's own primes are taken downwards from here; a record may name any prime below twice this.
 _LARGEST = 1 << 62
-#: So many values of the parameters are tried for one prime.
+#: Values of the parameters that are tried for one prime.
 _POINTS = 64
 
 
@@ -35,7 +35,7 @@ def prime(index: int) -> int:
 
 
 def is_usable_prime(p: int) -> bool:
-    """Is this an odd prime number that arithmetic in machine words can take as its modulus?"""
+    """True for an odd prime number that fits arithmetic in machine words as a modulus."""
     return 2 < p < 2 * _LARGEST and bool(fmpz(p).is_prime())
 
 

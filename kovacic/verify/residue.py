@@ -21,9 +21,18 @@ def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     """The residue of R/(q p^nu) at the class of x in K[x]/p: times the square root of N q it is that of sqrt(S)."""
     modulus = p**nu
     radicand = (N % modulus) * (q % modulus) % modulus
-    unit = radicand * _constant(inverse(radicand % p, p), p, nu) % modulus
-    R = unit * _inverse_square_root(unit, p, nu) % modulus
-    return residue(R * _inverse(q, p, nu) % modulus, p, nu)
+    # 1/(N q)(theta) as an element of K[x]/p^nu: its value at theta is the root of the same polynomial over K.
+    scale = inverse(radicand % p, p)
+    if scale.degree > 0:
+        scale = _at(scale, _root(p, nu), modulus)
+    unit = radicand * scale % modulus  # R^2, which is 1 modulo p
+    root = p.field.poly([1])  # R^-1, by Newton's iteration
+    over_q = inverse(q, p)
+    for step in _steps(p, nu):
+        root = (root + root * (1 - unit * root * root % step) / 2) % step
+        over_q = over_q * (2 - q * over_q % step) % step
+    R = unit * root % modulus
+    return residue(R * over_q % modulus, p, nu)
 
 
 def _steps(p: Poly, nu: int) -> Iterator[Poly]:
@@ -32,29 +41,6 @@ def _steps(p: Poly, nu: int) -> Iterator[Poly]:
     while k < nu:
         k = min(2 * k, nu)
         yield p**k
-
-
-def _inverse_square_root(unit: Poly, p: Poly, nu: int) -> Poly:
-    """unit^(-1/2) modulo p^nu, that is 1 modulo p, as the unit is."""
-    root = p.field.poly([1])
-    for modulus in _steps(p, nu):
-        root = (root + root * (1 - unit * root * root % modulus) / 2) % modulus
-    return root
-
-
-def _inverse(q: Poly, p: Poly, nu: int) -> Poly:
-    """1/q modulo p^nu."""
-    found = inverse(q, p)
-    for modulus in _steps(p, nu):
-        found = found * (2 - q * found % modulus) % modulus
-    return found
-
-
-def _constant(value: Poly, p: Poly, nu: int) -> Poly:
-    """The element of K[x]/p^nu that is a root of the same polynomial over K as an element of K[x]/p: its value at theta."""
-    if value.degree <= 0:
-        return value
-    return _at(value, _root(p, nu), p**nu)
 
 
 def _root(p: Poly, nu: int) -> Poly:

@@ -51,7 +51,10 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     Raises `BadPrimeError` where an indicial factor is 0 modulo the prime.
     """
     p = second.modulus()
-    of_second, of_first, of_zeroth = (_tail(f, start) for f, start in ((second, 2), (first, 1), (zeroth, 0)))
+    # The coefficients from t^2, t^1 and t^0 on, as many as a block needs: u_k gets those of t^(j - k) in equation number j.
+    of_second, of_first, of_zeroth = (
+        [int(c) for c in f.coeffs()[low : low + _BLOCK]] for f, low in ((second, 2), (first, 1), (zeroth, 0))
+    )
     second_1 = int(second[1])
     first_0 = int(first[0])
     u = nmod_poly([1], p)
@@ -76,11 +79,6 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
             twice.append(j * (j - 1) * value % p)
         u = u + nmod_poly(terms, p).left_shift(start)
     return u
-
-
-def _tail(polynomial: Any, start: int) -> list[int]:
-    """The coefficients from t^start on, as many as a block needs, as integers."""
-    return [int(c) for c in polynomial.coeffs()[start : start + _BLOCK]]
 
 
 def square_root(series: Any, root: int, count: int) -> Any:

@@ -20,7 +20,6 @@ for torsion under reduction.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
@@ -34,27 +33,21 @@ from kovacic.verify.reduction import BadPrimeError, Homomorphism
 
 
 def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int) -> bool:
-    """Is p a prime of good reduction, modulo which the class of D has the order k?"""
+    """True if p is a prime of good reduction, modulo which the class of D has the order k."""
     if k < 1 or not is_usable_prime(p):
         return False
-    return any(_has_order(curve, D, k) for curve, D in _reductions(H, residues, p))
-
-
-def _reductions(H: RatFunc, residues: set[Fraction], p: int) -> Iterator[tuple[Curve, Points]]:
-    """The curve and D under the homomorphisms to F_p, where the reduction is good."""
     for h in homomorphisms_modulo(H.field, p):
         try:
-            differential = _differential(H, h)
-            yield Curve(differential.h), _class_of_poles(differential, residues)
+            eta = _differential(H, h)
+            D = _class_of_poles(eta, residues)
         except BadPrimeError:
             continue
-
-
-def _has_order(curve: Curve, D: Points, k: int) -> bool:
-    """Is k D principal, and no k/q D for a prime q?"""
-    if not curve.multiple(k, D).is_zero:
-        return False
-    return not any(curve.multiple(k // int(q), D).is_zero for q, _ in fmpz(k).factor())
+        # k D is principal, and k/q D is for no prime q that divides k.
+        curve = Curve(eta.h)
+        smaller = [k // int(q) for q, _ in fmpz(k).factor()]
+        if curve.multiple(k, D).is_zero and not any(curve.multiple(m, D).is_zero for m in smaller):
+            return True
+    return False
 
 
 # ------------------------------------------------------------------------------------------- the differential
@@ -71,9 +64,19 @@ class Differential(NamedTuple):
 def _differential(H: RatFunc, homomorphism: Homomorphism) -> Differential:
     """eta modulo p; raises `BadPrimeError` where zeros or poles meet."""
     num, den = (homomorphism.keeping_degree(f) for f in (H.num, H.den))
-    N, M = _moved(num, den, _no_square_at(num, den))
+    p = num.modulus()
+    r = next((r for r in range(p) if fmpz(int(num(r)) * int(den(r))).jacobi(p) == -1), None)  # where H is no square
+    if r is None:
+        raise BadPrimeError("all values are squares")
+    # num/den dx^2 = N/M dt^2 for x = r + 1/t, dx = -dt/t^2; num and den don't vanish at r.
+    shift = den.degree() - num.degree() - 4
+    N = translated(num, r).reverse().left_shift(max(shift, 0))
+    M = translated(den, r).reverse().left_shift(max(-shift, 0))
     leading, factors = (N * M).factor()
-    if sum(q.degree() for q, _ in factors) < _size_of_support(H):
+    # The number of zeros and poles of H dx^2, infinity counted, must not change modulo p.
+    support = sum(f.degree - f.gcd(f.derivative()).degree for f in (H.num, H.den))
+    support += H.den.degree != H.num.degree + 4
+    if sum(q.degree() for q, _ in factors) < support:
         raise BadPrimeError("zeros or poles meet")
     h = N**0 * int(leading)
     T = N**0
@@ -82,31 +85,6 @@ def _differential(H: RatFunc, homomorphism: Homomorphism) -> Differential:
         if multiplicity % 2:
             h *= q
     return Differential(h, T, M)
-
-
-def _no_square_at(num: Any, den: Any) -> int:
-    """The least r at which num/den isn't a square modulo p, nor zero or infinite."""
-    p = num.modulus()
-    for r in range(p):
-        if fmpz(int(num(r)) * int(den(r))).jacobi(p) == -1:
-            return r
-    raise BadPrimeError("all values are squares")
-
-
-def _moved(num: Any, den: Any, r: int) -> tuple[Any, Any]:
-    """N and M with num/den dx^2 = N/M dt^2, x = r + 1/t; num and den don't vanish at r."""
-    N = translated(num, r).reverse()
-    M = translated(den, r).reverse()
-    shift = den.degree() - num.degree() - 4  # dx = -dt/t^2
-    return N.left_shift(max(shift, 0)), M.left_shift(max(-shift, 0))
-
-
-def _size_of_support(H: RatFunc) -> int:
-    """The number of zeros and poles of H dx^2, infinity counted."""
-    size = 0
-    for f in (H.num, H.den):
-        size += f.degree - f.gcd(f.derivative()).degree
-    return size + (H.den.degree != H.num.degree + 4)
 
 
 def _class_of_poles(eta: Differential, residues: set[Fraction]) -> Points:
@@ -195,11 +173,8 @@ class Curve:
         d, c, c3 = common.xgcd(v1 + v2)
         u = u1 * u2 // (d * d)
         v = (c * e1 * u1 * v2 + c * e2 * u2 * v1 + c3 * (v1 * v2 + self.h)) // d
-        return self._reduced(Points(u, v % u))
-
-    def _reduced(self, E: Points) -> Points:
-        """A divisor of the class, of degree g + 1 at most: the conjugates of the other zeros of y - v, as often as needed."""
-        u, v = E
+        v = v % u
+        # Reduced to the degree g + 1 at most: the conjugates of the other zeros of y - v have the same class.
         while 2 * u.degree() > self.h.degree():
             others = (v * v - self.h) // u
             u = others * pow(int(others.leading_coefficient()), -1, u.modulus())

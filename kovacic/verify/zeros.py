@@ -37,11 +37,11 @@ from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.residue import residue_over_leading_root
 
-#: An element that isn't a square is one modulo so many primes with a probability of 2^-40.
+#: Values that are tested: one that isn't a square is one modulo all of the primes with a probability of 2^-40.
 _TESTS = 40
 #: Norms come first, which cost less than a hundredth of the roots at degree 60; two of them tell as a rule.
 _NORMS = 8
-#: So many sums with different fractional parts are told apart.
+#: Sums with different fractional parts that are told apart, at most.
 _FRACTIONAL_PARTS = 4096
 
 
@@ -90,9 +90,8 @@ def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
         half = _half_difference(point)
         if half is None:
             return None
-        if (
-            point.logarithm
-        ):  # omega belongs to the solution without one, which has the larger exponent; Delta is natural
+        # At a logarithm omega belongs to the solution without one, which has the larger exponent; Delta is natural.
+        if point.logarithm:
             twice -= int(2 * half)
         else:
             choices.append((point, half))
@@ -100,7 +99,7 @@ def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
 
 
 def is_proven_irrational(point: Point) -> bool:
-    """Are the exponents at the point, of an even order, provably not rational over the field K[x]/p of its roots?"""
+    """True if the exponents at the point, of an even order, are provably not rational over the field K[x]/p of its roots."""
     return point.difference is None and is_no_square(_radicand(point), point.factor)
 
 
@@ -120,7 +119,12 @@ def _half_difference(point: Point) -> Fraction | None:
     radicand = _radicand(point)
     if is_no_square(radicand, p):
         return None
-    difference = _square_root(radicand, p) * _over_square_root(point) % p
+    # The factor beside the square root: 1/M for Delta; at an irregular point twice the residue of sqrt(S) over sqrt(N q).
+    if point.order == 2:
+        scale = inverse(point.at_double_pole[1], p)
+    else:
+        scale = 2 * residue_over_leading_root(*point.near, p, point.order // 2)
+    difference = _square_root(radicand, p) * scale % p
     trace = _trace(difference, p)
     # The first coordinate over Q is a linear map that leaves rational numbers alone.  Exponents and zeros add up to 1 in K;
     # applied to all of them, it makes this a relation of rational numbers, with the same number of zeros.
@@ -128,7 +132,7 @@ def _half_difference(point: Point) -> Fraction | None:
 
 
 def _radicand(point: Point) -> Poly:
-    """The difference is its square root times `_over_square_root`: Delta^2 = 1 + 4 N/M, or S = N/(p^k q), both in K[x]/p."""
+    """The square root of which the difference is a multiple: Delta^2 = 1 + 4 N/M, or S = N/(p^k q), both in K[x]/p."""
     if point.order == 2:
         N, M = point.at_double_pole
         return M * (M + 4 * N) % point.factor
@@ -136,16 +140,8 @@ def _radicand(point: Point) -> Poly:
     return N * q % point.factor
 
 
-def _over_square_root(point: Point) -> Poly:
-    """1/M for Delta; at an irregular point twice the residue of sqrt(S) over sqrt(N q)."""
-    p = point.factor
-    if point.order == 2:
-        return inverse(point.at_double_pole[1], p)
-    return 2 * residue_over_leading_root(*point.near, p, point.order // 2)
-
-
 def is_no_square(element: Poly, p: Poly) -> bool:
-    """Is an element of K[x]/p provably no square, as its norm or its value at a simple root of p isn't one modulo a prime?
+    """True if an element of K[x]/p is no square, because its norm or its value at a simple root of p isn't one mod a prime.
 
     The norm costs least, but that of a rational number, for instance, is a square for every even degree of p.  Roots are
     looked for among so many primes that one is there as a rule; where none is found, or an element happens to be a square

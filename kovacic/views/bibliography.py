@@ -48,7 +48,9 @@ def references(answer: Answer) -> tuple[Reference, ...]:
         used.append("SU93")
         if was_computed(derived.closed_form, answer):
             used.append("HW05")
-    if _has_group_on_a_curve(answer):
+    # Citing computes nothing: a group that nobody asked for isn't part of what the answer rests on.
+    group = derived.group(answer) if was_computed(derived.group, answer) else None
+    if group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST"):
         used += ["Dav81", "Can87"]
     return tuple(literature()[key] for key in used)
 
@@ -68,14 +70,6 @@ def _for_the_decision(decision: Decision) -> list[str]:
     elif has_omega:
         used.append("HvdP95")
     return used
-
-
-def _has_group_on_a_curve(answer: Answer) -> bool:
-    """Was the group asked for, and found from a function on an algebraic curve?"""
-    if not was_computed(derived.group, answer):
-        return False
-    group = derived.group(answer)
-    return group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST")
 
 
 def citation(answer: Answer, *, style: str = "text") -> str:

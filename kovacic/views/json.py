@@ -27,7 +27,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
 from kovacic.decision import (
-    CurveFunction,
     Decision,
     Evidence,
     Exclusion,
@@ -105,6 +104,13 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         from kovacic.parametric.restriction import generic_conditions
 
         conditions = {key: [*map(str, functions)] for key, functions in vars(generic_conditions(answer)).items()}
+    riccati = None
+    if decision.riccati is not None:
+        coefficients = [names.python(coefficient) for coefficient in decision.riccati.coefficients]
+        riccati = {"variable": names.unknown, "degree": decision.riccati.degree, "coefficients": coefficients}
+    constants = None
+    if answer.constants is not None:
+        constants = {"symbol": names.symbol, "minimal_polynomial": answer.constants.to_str(names.symbol)}
     data: dict[str, Any] = {
         "schema": SCHEMA,
         "input": answer.text,
@@ -112,8 +118,8 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "S": names.python(answer.S),
         "status": decision.status.value,
         "case": decision.case,
-        "riccati": _omega(decision.riccati, names),
-        "constants": _constant_of_omega(answer.constants, names.symbol),
+        "riccati": riccati,
+        "constants": constants,
         "field": _field_dict(answer.S.field),
         "generic_conditions": conditions,
         "verified": answer.verified,
@@ -129,21 +135,6 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         with suppress(LimitExceeded):
             data["solutions"] = [as_text(y) for y in derived.solutions(answer)] or None
     return data
-
-
-def _omega(riccati: RiccatiPolynomial | None, names: Formulas) -> dict[str, Any] | None:
-    """The polynomial of omega."""
-    if riccati is None:
-        return None
-    coefficients = [names.python(coefficient) for coefficient in riccati.coefficients]
-    return {"variable": names.unknown, "degree": riccati.degree, "coefficients": coefficients}
-
-
-def _constant_of_omega(modulus: Poly | None, symbol: str) -> dict[str, Any] | None:
-    """The constant that the polynomial of omega has."""
-    if modulus is None:
-        return None
-    return {"symbol": symbol, "minimal_polynomial": modulus.to_str(symbol)}
 
 
 def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
@@ -181,8 +172,18 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
         "family": group.kind.value,
         "n": _integer(group.n),
     }
-    if group.function is not None:
-        data["function"] = _function(group.function, Formulas(answer.variable, answer.S.field))
+    f = group.function
+    if f is not None:
+        names = Formulas(answer.variable, answer.S.field)
+        data["function"] = {
+            "multiple": for_json(f.multiple),
+            "h": names.python(f.h),
+            "pieces": [
+                {"exponent": for_json(piece.exponent), "a": names.python(piece.a), "b": names.python(piece.b)}
+                for piece in f.pieces
+            ],
+            "rest": names.python(f.rest),
+        }
     if group.orders:
         data["orders"] = [{"prime": p, "order": for_json(k)} for p, k in group.orders]
     return data
@@ -460,14 +461,6 @@ def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> Ricc
             raise ValueError("D isn't a denominator of the polynomial of omega")
         numerators.append(product.num)
     return RiccatiPolynomial(P, D, tuple(numerators))
-
-
-def _function(f: CurveFunction, names: Formulas) -> dict[str, Any]:
-    pieces = [
-        {"exponent": for_json(piece.exponent), "a": names.python(piece.a), "b": names.python(piece.b)}
-        for piece in f.pieces
-    ]
-    return {"multiple": for_json(f.multiple), "h": names.python(f.h), "pieces": pieces, "rest": names.python(f.rest)}
 
 
 def _form_dict(form: SemiInvariant, names: Formulas) -> dict[str, Any]:

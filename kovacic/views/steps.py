@@ -1,4 +1,7 @@
-"""The paper's own steps, written out: the poles, the necessary conditions, and steps 1 to 3 case by case (`families`)."""
+"""The paper's own steps, written out: the poles, the necessary conditions, and steps 1 to 3 case by case.
+
+`kovacic.engine.paper` carries them out.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +45,7 @@ _CONDITIONS = {
     2: "some pole has order 2 or an odd order > 2",
     3: "no pole has an order > 2, at infinity the order is >= 2; every Delta is rational",
 }
-#: So many families are shown.
+#: Families shown in a table, and trials of step 3.
 _MOST_SHOWN = 24
 _KINDS = {
     Kind.ORDINARY: "ordinary",
@@ -143,7 +146,7 @@ class Steps:
             domain = "exponents that are square roots, constants of low degree, and poles of low order"
             yield say(f"The steps are written out for {domain} only.")
             return
-        yield self._sets(found, case)
+        yield self._singular_parts(found) if case == 1 else self._exponents(found)
         yield self._counted(found, case)
         if found.families is None:
             they = "They are too many to be listed; the engine finds omega, or proves that there is none"
@@ -152,16 +155,13 @@ class Steps:
         yield from self._families(found, found.families)
         yield from self._trials(found, found.families, case)
 
-    def _sets(self, search: Search, case: int) -> Table:
-        """Step 1."""
-        return self._singular_parts(search) if case == 1 else self._exponents(search)
-
     def _singular_parts(self, search: Search) -> Table:
-        """Of case 1: the singular part of sqrt(S) at each point, and the two exponents."""
+        """Step 1 of case 1: the singular part of sqrt(S) at each point, and the two exponents alpha+, alpha-."""
         rows: list[list[Sentence]] = []
         for point, choices in zip(search.points, search.choices, strict=True):
             t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
             singular = Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular))
+            # alpha+ comes first; where both are equal there is a single choice.
             plus = self._shown(choices[0].value)
             minus = self._shown(choices[-1].value)
             rows.append([self._point(point), self._shown(singular), plus, minus])
@@ -169,7 +169,7 @@ class Steps:
         return Table(head, rows)
 
     def _exponents(self, search: Search) -> Table:
-        """Of the other cases: the set E of exponents at each point."""
+        """Step 1 of the other cases: the set E of exponents at each point."""
         rows: list[list[Sentence]] = []
         for point, choices in zip(search.points, search.choices, strict=True):
             inside = ", ".join(self._shown(choice.value).text for choice in choices)
@@ -238,7 +238,9 @@ class Steps:
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)
         yield Formula(Math("theta", r"\theta").equals(self._shown(family.theta)))
-        impossible = _impossible(family)
+        # A coefficient without unknowns is a number, and not 0: it excludes P at once.
+        unknowns = set(family.unknowns)
+        impossible = next((value for value in family.conditions if not unknowns & value.free_symbols), None)
         conditions = [self._shown(condition) for condition in family.conditions[:6]]
         if family.P is not None:
             yield say(f"d = {d}: ", Math("P", "P").equals(self._shown(family.P)), " is a solution.")
@@ -247,45 +249,20 @@ class Steps:
         elif conditions:
             noun = "coefficients" if d > 1 else "coefficient"
             names = f"{noun} {', '.join(map(str, family.unknowns))}"
-            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", _all_zero(conditions), ".")
+            text = ", ".join(f"{value.text} = 0" for value in conditions)
+            latex = r",\; ".join(f"{value.latex} = 0" for value in conditions)
+            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", Math(text, latex), ".")
         else:
             yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
 
 
-def _impossible(family: Family) -> Any:
-    """The first condition without unknowns, a coefficient that isn't 0; None where there is none."""
-    unknowns = set(family.unknowns)
-    for condition in family.conditions:
-        if not unknowns & condition.free_symbols:
-            return condition
-    return None
-
-
-def _all_zero(values: Sequence[Math]) -> Math:
-    """That each of them is 0."""
-    text = ", ".join(f"{value.text} = 0" for value in values)
-    latex = r",\; ".join(f"{value.latex} = 0" for value in values)
-    return Math(text, latex)
-
-
 def _allowed(case: int, places: Sequence[Place]) -> bool:
-    """The necessary conditions; that of case 2 has to hold at some pole only."""
+    """The necessary conditions, `_CONDITIONS`; that of case 2 has to hold at some pole only."""
     if case == 1:
         return all(place.kind is not Kind.RAMIFIED for place in places)
     if case == 2:
-        return any(map(_admits_case_2, places))
-    return all(map(_admits_case_3, places))
-
-
-def _admits_case_2(place: Place) -> bool:
-    """Is it a pole of order 2, or of an odd order > 2?"""
-    if place.at_infinity:
-        return False
-    return place.order == 2 or place.kind is Kind.RAMIFIED
-
-
-def _admits_case_3(place: Place) -> bool:
-    """Is it no pole of an order > 2, and Delta rational?  At infinity, the order of S is at least 2."""
-    if place.order == 0:
-        return True
-    return place.order <= 2 and place.delta is not None
+        poles = [place for place in places if not place.at_infinity]
+        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in poles)
+    # S has the order 4 - k at infinity, k the order of the place: k <= 2 says that it is at least 2.
+    singular = [place for place in places if place.order > 0]
+    return all(place.order <= 2 and place.delta is not None for place in singular)

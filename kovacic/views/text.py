@@ -67,7 +67,8 @@ def render(
         yield style(f"  note: {visible(notice)}", "faint")
     is_gauged = answer.equation is not None and not answer.equation.is_normal_form
     if is_gauged:
-        yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{_over_field(answer)}"
+        over = "" if answer.change is None else f", over {answer.change.field}"
+        yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{over}"
     said, more = verdict_of(answer)
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     if solutions is not None:
@@ -78,13 +79,16 @@ def render(
         of_what = ", a solution of the normal form" if is_gauged else ""
         yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
     yield from _indented(_exclusions(answer))
-    yield from _indented(_for_generic_parameters(answer))
-    yield from _indented(_check_of(answer, style))
+    is_open = answer.status is Status.UNDECIDED
+    if parameters_of(answer.S.field) and not is_open and not answer.assumed:
+        from kovacic.parametric.restriction import generic_conditions
 
-
-def _over_field(answer: Answer) -> str:
-    """Over which field case and omega are those, where that isn't C(x)."""
-    return "" if answer.change is None else f", over {answer.change.field}"
+        yield f"  for generic parameters: {generic_conditions(answer)}"
+        yield "  (kovacic conditions tells for which values more is solvable)"
+    if answer.verified:
+        yield f"  {style('verified', 'good')}: {_how_verified(answer)}"
+    elif not is_open:  # an undecided equation may leave nothing to check
+        yield f"  {style('not verified', 'bad')}"
 
 
 def _indented(lines: Iterable[str]) -> Iterator[str]:
@@ -93,27 +97,8 @@ def _indented(lines: Iterable[str]) -> Iterator[str]:
         yield f"  {line}"
 
 
-def _for_generic_parameters(answer: Answer) -> Iterator[str]:
-    """Which parameters the answer is for, where there are some: all but finitely many, or but some curves of them."""
-    if answer.status is Status.UNDECIDED or answer.assumed:
-        return
-    if parameters_of(answer.S.field):
-        from kovacic.parametric.restriction import generic_conditions
-
-        yield f"for generic parameters: {generic_conditions(answer)}"
-        yield "(kovacic conditions tells for which values more is solvable)"
-
-
-def _check_of(answer: Answer, style: Style) -> Iterator[str]:
-    """Whether the answer passed its check; of an undecided one there may be nothing to check."""
-    if answer.verified:
-        yield f"{style('verified', 'good')}: {_how_verified(answer)}"
-    elif answer.status is not Status.UNDECIDED:
-        yield style("not verified", "bad")
-
-
 def _how_verified(answer: Answer) -> str:
-    """What was computed once more."""
+    """What the kernel recomputed."""
     if answer.status is Status.NONE_EXISTS:
         return "every exclusion was recomputed by independent code"
     if answer.status is Status.UNDECIDED:
@@ -182,14 +167,8 @@ def _exclusions(answer: Answer) -> list[str]:
 
 
 def _as_text(sentence: Iterable[str | Math]) -> str:
-    """With the formulas as text."""
-    found = ""
-    for part in sentence:
-        if isinstance(part, Math):
-            found += part.text
-        else:
-            found += part
-    return found
+    """The sentence with its formulas as text."""
+    return "".join(part.text if isinstance(part, Math) else part for part in sentence)
 
 
 def latex_view(answer: Answer) -> str:
@@ -209,7 +188,12 @@ def html_view(answer: Answer) -> str:
     rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(answer))]
     if answer.equation is not None and not answer.equation.is_normal_form:
         rows.append(("normal form", normal_form(answer)))
-    rows.append(("status", _status(answer)))
+    found, more = verdict_of(answer)
+    if found == UNDECIDED:
+        found = f"undecided: {more}"
+    elif answer.assumed:  # the reason says what is assumed
+        found = more
+    rows.append(("status", found))
     if answer.case is not None:
         rows.append(("case", str(answer.case)))
     group = derived.group(answer)
@@ -220,15 +204,6 @@ def html_view(answer: Answer) -> str:
     rows.append(("verified", verified))
     rows += [("note", notice) for notice in answer.notices]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
-
-
-def _status(answer: Answer) -> str:
-    """The verdict; of an undecided equation the reason."""
-    if answer.status is Status.LIOUVILLIAN:
-        return "Liouvillian solutions exist"
-    if answer.status is Status.NONE_EXISTS:
-        return "no Liouvillian solution exists"
-    return f"{answer.reason}" if answer.assumed else f"undecided: {answer.reason}"
 
 
 def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:

@@ -106,9 +106,9 @@ class _LineBreaker:
         while k < len(nodes):
             end = _end(nodes, k)
             construct = nodes[k:end]
-            if written.endswith("e") and self._is_wide_power(construct):
-                exponent = self.written(_argument(construct, 1))
-                written = rf"{written[:-1]}\exp\bigl({exponent}\bigr)"
+            exponent = _argument(construct, 1) if construct[0] == "^" and len(construct) > 1 else []
+            if written.endswith("e") and _width(exponent) > self.most:
+                written = rf"{written[:-1]}\exp\bigl({self.written(exponent)}\bigr)"
             else:
                 written += self._construct(construct)
             k = end
@@ -123,21 +123,14 @@ class _LineBreaker:
             return self._root(nodes)
         if first == r"\left":
             return self._parentheses(nodes)
-        if first in _FRACTIONS:
-            return self._fraction(nodes)
-        if first in _WITH_ARGUMENT:
-            return _verbatim(nodes)
-        return self._token(first)
-
-    def _is_wide_power(self, nodes: list[Node]) -> bool:
-        """Is it ^{...}, with an exponent that has to be broken?"""
-        if nodes[0] != "^" or len(nodes) < 2:
-            return False
-        exponent = nodes[1]
-        return isinstance(exponent, list) and _width(exponent) > self.most
+        if first in _FRACTIONS and _width(nodes) > self.most:
+            return f"{self._factor(_argument(nodes, 1))}/\\allowbreak {self._factor(_argument(nodes, 2))}"
+        if first.isdigit() and len(first) > self.most / 2:
+            return r"\allowbreak ".join(re.findall(r"\d{1,10}", first))
+        return r",\allowbreak " if first == "," else _verbatim(nodes)
 
     def _root(self, nodes: list[Node]) -> str:
-        r"""\sqrt, maybe its index in brackets, and what is under it."""
+        r"""\sqrt, perhaps with an index in brackets, and its radicand."""
         inside = _argument(nodes, len(nodes) - 1)
         if _width(inside) <= self.most:
             return _verbatim(nodes)
@@ -150,20 +143,6 @@ class _LineBreaker:
         if nodes[1] != "(" or _width(inner) <= self.most:
             return _verbatim(nodes)
         return rf"\bigl({self._inside(inner)}\bigr)"
-
-    def _fraction(self, nodes: list[Node]) -> str:
-        r"""\frac, numerator, denominator."""
-        if _width(nodes) <= self.most:
-            return _verbatim(nodes)
-        return f"{self._factor(_argument(nodes, 1))}/\\allowbreak {self._factor(_argument(nodes, 2))}"
-
-    def _token(self, token: str) -> str:
-        """Long numbers in pieces of ten digits; a comma ends a line."""
-        if token.isdigit() and len(token) > self.most / 2:
-            return r"\allowbreak ".join(re.findall(r"\d{1,10}", token))
-        if token == ",":
-            return r",\allowbreak "
-        return _verbatim([token])
 
     def _inside(self, nodes: list[Node]) -> str:
         """Between parentheses; parameters and argument of a hypergeometric function in one line, with semicolons."""

@@ -181,8 +181,14 @@ def _printer(language: _Language) -> Any:
             if own is not None:
                 return _filled(own, [self._print(part) for part in _arguments(expr)], language)
             if isinstance(expr, sympy.Tuple):
-                return _list([self._print(part) for part in expr], language)
-            if _is_foreign(expr):
+                before, after = language.lists
+                if language.name == "Julia" and expr.args:  # a tuple, in which a single element needs the comma
+                    after = ",)"
+                return before + ", ".join(map(self._print, expr)) + after
+            is_foreign = isinstance(expr, sympy.CRootOf | sympy.RootSum | sympy.Integral | sympy.Derivative)
+            if isinstance(expr, sympy.Function):
+                is_foreign = kind not in _ELEMENTARY.split()
+            if is_foreign:
                 raise InputError(f"{language.name} has no {kind}, or one with another meaning")
             corrected = _in_julia(self._print, expr) if language.name == "Julia" else None
             return corrected or str(super()._print(expr, **options))
@@ -207,14 +213,6 @@ def _arguments(expr: Expr) -> tuple[Expr, ...]:
     return tuple(expr.args)
 
 
-def _list(parts: list[str], language: _Language) -> str:
-    """A list or a tuple."""
-    before, after = language.lists
-    if language.name == "Julia" and parts:
-        after = ",)"
-    return before + ", ".join(parts) + after
-
-
 def _filled(own: str, arguments: list[str], language: _Language) -> str:
     """A pattern with the arguments, or a name before all of them."""
     if "{0}" not in own:
@@ -223,13 +221,6 @@ def _filled(own: str, arguments: list[str], language: _Language) -> str:
     for k, argument in enumerate(arguments):
         own = own.replace(f"{{{k}}}", argument)
     return own
-
-
-def _is_foreign(expr: Expr) -> bool:
-    """Is it a function without a rule, or what only SymPy has?"""
-    if isinstance(expr, sympy.Function):
-        return type(expr).__name__ not in _ELEMENTARY.split()
-    return isinstance(expr, sympy.CRootOf | sympy.RootSum | sympy.Integral | sympy.Derivative)
 
 
 def _in_julia(shown: Any, expr: Expr) -> str | None:

@@ -89,10 +89,7 @@ class Format:
     def sentence(self, sentence: Sentence) -> str:
         """The parts of a sentence, one after the other."""
         parts = (sentence,) if isinstance(sentence, str | Math) else sentence
-        return "".join(map(self._part, parts))
-
-    def _part(self, part: str | Math) -> str:
-        return self.math(part) if isinstance(part, Math) else self.plain(part)
+        return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in parts)
 
 
 def _text_heading(text: str, level: int) -> str:
@@ -126,24 +123,18 @@ def _latex_table(rows: list[list[str]]) -> str:
             broken[k] = w
     share = max(0.3, 0.9 - (sum(widths) - sum(broken)) / _PAGE) / max(1, sum(broken))  # of the line
     shares = [share * w for w in broken]
-    columns = "".join(map(_latex_column, shares))
+    columns = "".join(rf"p{{{share:.2f}\linewidth}}" if share else "l" for share in shares)
     lines = []
     for row in rows:
-        cells = map(_latex_cell, row, shares)
+        cells = [
+            rf"\raggedright {breakable(cell, share * _PAGE)}" if share else cell
+            for cell, share in zip(row, shares, strict=True)
+        ]
         lines.append(" & ".join(cells) + r" \tabularnewline")
     body = "\n".join([lines[0], r"\hline", *lines[1:]])
     box = f"\\sbox0{{\\def\\arraystretch{{1.3}}\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}}}"
     fitted = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"  # graphicx
     return rf"\medskip{box}\par\noindent{fitted}\par\medskip"
-
-
-def _latex_column(share: float) -> str:
-    """As wide as it is, or the share of a line."""
-    return rf"p{{{share:.2f}\linewidth}}" if share else "l"
-
-
-def _latex_cell(cell: str, share: float) -> str:
-    return rf"\raggedright {breakable(cell, share * _PAGE)}" if share else cell
 
 
 def _rows(math: Math) -> list[str]:
@@ -194,39 +185,29 @@ def _code(math: Math) -> str:
 
 def _html_math(math: Math) -> str:
     try:
-        check_time()
         return _html_line(math.latex) if math.latex else _code(math)
     except LimitExceeded:
         return _code(math)
 
 
 def _html_line(latex: str) -> str:
-    """In a line; of a formula that is wider than a page many small ones, between which browsers break the line."""
+    """In a line; a formula that is wider than a page as many small ones, between which browsers break the line."""
     if width(latex) <= 1.5 * LINE:
         return _mathml(Math("", latex))
-    return "<wbr/>".join(map(_mathml_piece, pieces(latex)))
-
-
-def _mathml_piece(latex: str) -> str:
-    """A part of a sum; empty braces make a sign with which it begins that of the sum."""
-    if latex[0] in "+-":
-        latex = f"{{}} {latex}"
-    return _mathml(Math("", latex))
+    # A sign at the beginning is one of the sum, not of its first term: empty braces before it say so.
+    parts = [f"{{}} {piece}" if piece[0] in "+-" else piece for piece in pieces(latex)]
+    return "<wbr/>".join(_mathml(Math("", part)) for part in parts)
 
 
 def _html_formula(math: Math) -> str:
-    try:
-        check_time()
-        return _html_block(math)
-    except LimitExceeded:
-        return f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">{_code(math)}</div>'
-
-
-def _html_block(math: Math) -> str:
+    wide = f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">'
     rows = _rows(math)
-    if all(width(row) <= 1.5 * LINE for row in rows):
-        return f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">{_mathml(math, "block")}</div>'
-    return "".join(f'<div style="padding:.4em 0">{_html_line(row)}</div>' for row in rows)
+    try:
+        if all(width(row) <= 1.5 * LINE for row in rows):
+            return f"{wide}{_mathml(math, 'block')}</div>"
+        return "".join(f'<div style="padding:.4em 0">{_html_line(row)}</div>' for row in rows)
+    except LimitExceeded:
+        return f"{wide}{_code(math)}</div>"
 
 
 FORMATS = {
