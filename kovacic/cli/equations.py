@@ -86,11 +86,7 @@ def solve(
         if form == "formula":
             return (answer._repr_latex_(),)
         if form in options.LANGUAGES:
-            from kovacic.writing.code import LANGUAGES, as_code
-
-            language = LANGUAGES[form]
-            named = [(f"y{k}", as_code(y, form)) for k, y in enumerate(answer.solutions or answer.special, start=1)]
-            return (language.comment.format(answer), *(language.assignment.format(*pair) for pair in named))
+            return _assignments(answer, form)
         solutions: Iterable[str] | None = None
         if not no_solutions:
             homogeneous = answer.equation is None or answer.equation.is_homogeneous
@@ -100,6 +96,15 @@ def solve(
     refuse = _print_refusal if form == "json" else None
     gap = "\n" if form == "text" else ""
     return options.answer_each(equations, show, gap=gap, refuse=refuse, **given)
+
+
+def _assignments(answer: Solution, language: str) -> Iterator[str]:
+    """The equation and the verdict as a comment, and two solutions if they are known, in Mathematica, Maple or Julia."""
+    from kovacic.writing.code import LANGUAGES, as_code
+
+    yield LANGUAGES[language].comment.format(answer)
+    for k, y in enumerate(answer.solutions or answer.special, start=1):
+        yield LANGUAGES[language].assignment.format(f"y{k}", as_code(y, language))
 
 
 def _print_refusal(text: str, error: KovacicError) -> None:
