@@ -325,26 +325,6 @@ class DegreeBySum(DegreeClaim):
         return found
 
 
-@dataclass(frozen=True)
-class DegreeByFamily(DegreeClaim):
-    """`parameter = value`, a function of d and j, for an integer j from 1 to `largest`; and d = `constant`, if there is one."""
-
-    letter: str
-    constant: int | None
-    parameter: str
-    value: RatFunc
-    j: str
-    largest: int
-
-    def numbers_at(self, point: ParameterPoint) -> set[int]:
-        found: set[int] = set() if self.constant is None else {self.constant}
-        for number in range(1, self.largest + 1):
-            names = (*point.names, self.j)
-            there = ParameterPoint(names, (*point.values, point.field.poly([number])), point.field)
-            found |= natural_numbers(IntegerFamily(self.parameter, self.value, self.letter, NATURALS).numbers_at(there))
-        return found
-
-
 def natural_numbers(values: Iterable[Poly]) -> set[int]:
     """Those of the constants that are natural numbers."""
     numbers = map(rational, values)

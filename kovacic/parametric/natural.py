@@ -30,9 +30,8 @@ from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
-    NATURALS,
+    Alternatives,
     Claim,
-    DegreeByFamily,
     DegreeBySum,
     DegreeClaim,
     DegreeExists,
@@ -41,7 +40,6 @@ from kovacic.parametric.claims import (
     rational_roots,
 )
 from kovacic.parametric.exponents import (
-    Numbers,
     choices_of_degree,
     conditions_of_degree,
     degrees_of_solutions,
@@ -61,17 +59,16 @@ from kovacic.parametric.functions import (
     union,
 )
 from kovacic.parametric.integers import LETTERS, free_letter
+from kovacic.parametric.prose import Words
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
-from kovacic.parametric.solving import alternatives, solved_with_another_integer
+from kovacic.parametric.solving import alternatives
 from kovacic.parametric.statements import Setting, Statement
+from kovacic.writing.formula import Math
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 2
-#: Characters up to which Delta_d and the equations for d are written out, and those for the zeros of an invariant.
-_WRITTEN_OUT = 300
-_EQUATIONS = 100
 #: What is said of Delta_d where the exponents need too large an extension.
 NO_FORMULA = "no polynomial, as the exponents are irrational: at each point the rank of its linear system decides"
 
@@ -227,27 +224,12 @@ class Natural(Statement):
                     found[solution] = None
         return tuple(found)
 
-    def shown_determinant(self, number: int) -> str:
-        """In one line: one polynomial where it is the same for all exponents that give the number."""
-        values = self._values_of_determinants(number)
-        texts = [*values]
-        if len(values) > 1:
-            texts = [f"{value} where {' or '.join(wheres)}" for value, wheres in values.items()]
-        text = ", ".join(texts)
-        if len(text) > _WRITTEN_OUT:
-            text = f"{text[:_WRITTEN_OUT]}..."
-        return f"Delta_{number} = {text}"
-
-    def _values_of_determinants(self, number: int) -> dict[str, list[str]]:
-        """What Delta is, each with the equations for the exponents where it is that."""
-        at_exponents: dict[str, dict[str, None]] = {}
+    def values(self, number: int) -> dict[str, Words]:
+        """What Delta is for a number, in the parameters, each with the equations for the exponents where it is that."""
+        found: dict[str, dict[Math, None]] = {}
         for determinant in self.determinants(number):
-            where = prose.equation(determinant.exponents).text
-            at_exponents.setdefault(where, {})[str(determinant)] = None
-        values: dict[str, list[str]] = {}
-        for where, texts in at_exponents.items():
-            values.setdefault(" or ".join(texts), []).append(where)
-        return values
+            found.setdefault(str(determinant), {})[prose.equation(determinant.exponents)] = None
+        return {value: prose.alternatives_of([*places]) for value, places in found.items()}
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         if not self.factors:
@@ -256,19 +238,15 @@ class Natural(Statement):
         if not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
-        found = self._that_can_vanish(number)
+        found = []
+        if self.m == 1:  # of invariants the numbers of zeros say enough
+            found = [one for one in self.determinants(number) if one.factors or one.system]
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
         if chosen.factors:
             return [chosen.exponents, random.choice(chosen.factors)]
         return [chosen.exponents, *chosen.system]
-
-    def _that_can_vanish(self, number: int) -> list[Determinant]:
-        """The determinants that aren't 1, and have a formula; none for invariants, of which the numbers of zeros say enough."""
-        if self.m > 1:
-            return []
-        return [determinant for determinant in self.determinants(number) if determinant.factors or determinant.system]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         if self._possible(assumptions) == ():
@@ -294,23 +272,18 @@ class Natural(Statement):
 
     @property
     def _degree(self) -> DegreeClaim:
-        """The equations for the number; sums of exponents where these are shorter, or the equations aren't listed."""
-        found: list[DegreeClaim] = []
+        """The equations for the number, each solved for a parameter; sums of exponents where one of them can't be."""
+        listed = None
         if self.factors is not None:
             listed = alternatives(self.factors, self.letter, self.setting)
-            longest = _WRITTEN_OUT if self.m == 1 else _EQUATIONS
-            if not listed.equations and prose.length(listed) <= longest:
-                return listed
-            found.append(listed)
-        sums = self._by_exponents()
-        if sums is not None:
-            found.append(sums)
-        return min(found, key=prose.length)
+        if listed is None or listed.equations:
+            return self._by_exponents() or listed or Alternatives(self.letter)
+        return listed
 
     def _by_exponents(self) -> DegreeClaim | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
         problem = analyse(self.S, Budget())
-        numbers = self._allowed(problem)
+        numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
         if numbers is None:
             return None
         squares = tuple(root.square for root in numbers.roots)
@@ -318,37 +291,11 @@ class Natural(Statement):
             return SignedDegree(self.letter, numbers.constant, squares)
         distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         has_zero = self.factors is None or distance in self.factors
-        letters = self._letters_beside(parameters_of(problem.field), len(squares))
-        if len(letters) == 1:
-            solved = self._solved_for_a_parameter(numbers, letters[0], has_zero=has_zero)
-            if solved is not None:
-                return solved
+        letters: list[str] = []
+        for _ in squares:
+            letters.append(free_letter([self.letter, *parameters_of(problem.field), *letters], "jkmnl"))
         bounds = tuple(root.largest for root in numbers.roots)
         return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero)
-
-    def _solved_for_a_parameter(self, numbers: Numbers, j: str, *, has_zero: bool) -> DegreeByFamily | None:
-        """(d - constant)^2 = j^2 square for the only root, solved for a parameter; d is the constant for j = 0."""
-        (root,) = numbers.roots
-        square = over_parameters(root.square)
-        solved = solved_with_another_integer(square, numbers.constant, self.letter, j, self.setting.fixed)
-        if solved is None:
-            return None
-        is_natural = has_zero and NATURALS.contain(numbers.constant)
-        constant = int(numbers.constant) if is_natural else None
-        return DegreeByFamily(self.letter, constant, solved.parameter, solved.value, j, root.largest)
-
-    def _allowed(self, problem: Problem) -> Numbers | None:
-        """What the exponents allow as degrees of P, or as numbers of zeros of an invariant."""
-        if self.m == 1:
-            return degrees_of_solutions(problem)
-        return zeros_of_forms(problem, self.m)
-
-    def _letters_beside(self, names: Sequence[str], count: int) -> list[str]:
-        """So many names of integers that are neither parameters nor d."""
-        letters: list[str] = []
-        for _ in range(count):
-            letters.append(free_letter([self.letter, *names, *letters], "jkmnl"))
-        return letters
 
 
 class _Given(NamedTuple):

@@ -21,7 +21,6 @@ from kovacic.parametric.claims import (
     AnyOf,
     Claim,
     Classes,
-    DegreeByFamily,
     DegreeBySum,
     DegreeClaim,
     DegreeExists,
@@ -210,6 +209,11 @@ def equation(zero: FunctionPoly) -> Math:
     return formula(f"{sides.left} = {sides.right}")
 
 
+def alternatives_of(formulas: Sequence[Math]) -> Words:
+    """One or another."""
+    return _joined([(one,) for one in formulas], " or ")
+
+
 def unequal(zero: FunctionPoly) -> Math:
     """That it doesn't."""
     left, right = sides_of_equation(zero)
@@ -323,7 +327,7 @@ def _any_of(claim: AnyOf) -> Words:
     if sides is not None:
         *first, last = (right for _, right in sides)
         return (formula(f"{sides[0].left} = {first[0]}"), *_each(", ", first[1:]), " or ", formula(last))
-    for together in (_of_common_numbers, _of_common_value, _of_one_kind):
+    for together in (_of_common_numbers, _of_one_kind):
         found = together(parts)
         if found is not None:
             return found
@@ -369,16 +373,6 @@ def _numbers_of_any(part: IntegerFamily | EquationFor) -> Words:
 
 def _head_of_any(part: IntegerFamily | EquationFor) -> Words:
     return head_of(part) if isinstance(part, IntegerFamily) else (_unsolved(part),)
-
-
-def _of_common_value(parts: Sequence[Claim]) -> Words | None:
-    """`E = f for a number n with n + a in Z or n + b in Z`."""
-    families = [part for part in parts if isinstance(part, IntegerFamily) and part.forms]
-    heads = {head_of(part) for part in families}
-    if len(families) != len(parts) or len(heads) != 1:
-        return None
-    letter = formula(families[0].letter)
-    return (*heads.pop(), " for a number ", letter, " with ", *_joined([*map(_forms_of, families)], " or "))
 
 
 def _of_one_kind(parts: Sequence[Claim]) -> Words | None:
@@ -431,45 +425,17 @@ def _alternatives(claim: Alternatives) -> Words:
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
-    """That a parameter is one of the functions; or that it or c minus it is, where these come in pairs with the sum c."""
-    left: Words = ()
-    total = _sum_in_pairs(functions)
-    if total:
-        left = (formula(name), " or ")
-        name = function(total - total.field.generator(name), letter)
-        functions = _one_of_each_pair(functions, RatFunc(total), letter)
+    """That a parameter is one of the functions."""
     first, *others = _with_signs(functions, letter)
-    found: list[str | Math] = [*left, Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
+    found: list[str | Math] = [Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
     for k, value in enumerate(others, 1):
         found += [" or " if k == len(others) else ", ", value]
     return tuple(found)
 
 
-def _one_of_each_pair(functions: Sequence[RatFunc], total: RatFunc, letter: str) -> list[RatFunc]:
-    """f or total - f, each once: one that isn't negative, if there is one, or the first in the order of their texts."""
-    found: dict[RatFunc, None] = {}
-    for f in functions:
-        pair = sorted((f, total - f), key=str)
-        found[_not_negative(pair, letter)] = None
-    return [*found]
-
-
 def _not_negative(functions: Sequence[RatFunc], letter: str) -> RatFunc:
     """The first that isn't written with a minus before it, or the first."""
     return min(functions, key=lambda f: function(f, letter).lstrip("(").startswith("-"))
-
-
-def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
-    """A constant, not 0, of which each function has another one that makes it up; None where there isn't one, or two pairs."""
-    if len(functions) < 4:
-        return None
-    for other in functions[1:]:
-        total = functions[0] + other
-        if not total or not _is_number(total):
-            continue
-        if all(total - f in functions and 2 * f != total for f in functions):
-            return over_parameters(total.num)
-    return None
 
 
 def _is_free_of_n(f: RatFunc) -> bool:
@@ -537,15 +503,6 @@ def _degree_by_sum(claim: DegreeBySum) -> Words:
     return (*said, ", not 0" if len(claim.names) == 1 else ", not all 0")
 
 
-def _degree_by_family(claim: DegreeByFamily) -> Words:
-    start: Words = ()
-    if claim.constant is not None:
-        start = (formula(f"{claim.letter} = {claim.constant}"), ", or ")
-    j = formula(claim.j)
-    value = equals(claim.parameter, claim.value, claim.letter)
-    return (*start, value, " for an integer ", j, f" from 1 to {claim.largest}")
-
-
 def _degree_exists(claim: DegreeExists) -> Words:
     d = formula(claim.degree.letter)
     zero = delta(d.text).equals(Math("0", "0"))
@@ -574,7 +531,6 @@ _WRITERS: dict[type, Callable[[Any], Words]] = {
     Alternatives: _alternatives,
     SignedDegree: _signed_degree,
     DegreeBySum: _degree_by_sum,
-    DegreeByFamily: _degree_by_family,
     DegreeExists: _degree_exists,
     SolutionWithZeros: _solution_with_zeros,
 }

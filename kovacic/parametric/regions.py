@@ -28,8 +28,8 @@ from kovacic.parametric.statements import (
     both,
 )
 
-#: Characters up to which statements share a line.
-_LINE = 100
+#: Characters of a determinant that are written.
+_WRITTEN_OUT = 300
 
 
 @dataclass(frozen=True)
@@ -256,7 +256,13 @@ class ParameterRegion:
             return ()
         found: list[str] = []
         with Budget(self.limits).watched(), suppress(LimitExceeded):
-            found.extend(map(statement.shown_determinant, range(self.shown_degree + 1)))
+            for d in range(self.shown_degree + 1):
+                values = statement.values(d)
+                said = [
+                    value + f" where {prose.text_of(places)}" * (len(values) > 1) for value, places in values.items()
+                ]
+                text = ", ".join(said)
+                found.append(f"Delta_{d} = {text[:_WRITTEN_OUT]}" + "..." * (len(text) > _WRITTEN_OUT))
         return tuple(found)
 
     def numbers_at(self, point: ParameterPoint) -> list[int | None]:

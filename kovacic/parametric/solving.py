@@ -14,12 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import product
 from math import floor
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY
@@ -49,9 +48,6 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.statements import Setting
 
-#: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
-_BESIDE = 120
-_LONGER = 40
 #: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
 _WEIGHT = 3
 _LATER = 10
@@ -174,12 +170,9 @@ def integer_condition(
         return spectrum or IntegerCondition(EquationFor(equation, letter, numbers))
     if spectrum is None:
         return IntegerCondition(roots)
-    length = prose.length(spectrum.claim)
     if len(roots.squares) > 1:
-        if length > _BESIDE or spectrum.strata:
-            return IntegerCondition(roots)
-        return IntegerCondition(ThatIs(roots, spectrum.claim))
-    return spectrum if length <= prose.length(roots) + _LONGER else IntegerCondition(roots)
+        return IntegerCondition(roots if spectrum.strata else ThatIs(roots, spectrum.claim))
+    return spectrum
 
 
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:
@@ -367,23 +360,3 @@ def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
         if factor.degree > 0 and is_possible:
             found.append(factor)
     return found
-
-
-def solved_with_another_integer(
-    square: FunctionPoly, constant: Fraction, letter: str, j: str, fixed: Collection[str]
-) -> SolvedCondition | None:
-    """(d - constant)^2 = j^2 square for an integer j > 0, solved for a parameter; None where more would have to be said."""
-    names = square.field.names
-    field = FunctionField((*names, j))
-    moved = over_parameters(square).value_at([field.generator(name) for name in names], field)
-    d = field.poly([0, 1])
-    equation = over_parameters((d - constant) ** 2 - field.generator(j) ** 2 * moved)
-    for solved in all_solved(equation, (*fixed, j)):
-        others = {name for part in solved.value.cleared() for name in _parameters_in(over_parameters(part))}
-        if others <= {j} and not solved.poles:
-            return solved
-    return None
-
-
-def _parameters_in(function: FunctionPoly) -> list[str]:
-    return [name for name, k in zip(function.field.names, degrees(function), strict=True) if k]

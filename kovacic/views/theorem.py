@@ -7,7 +7,6 @@ before holds.  Text, Markdown, LaTeX or HTML, as for `explain`.
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
@@ -23,7 +22,7 @@ from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.facts import WORDS
 from kovacic.parametric.formulas import partial_fractions
 from kovacic.parametric.integers import free_letter
-from kovacic.parametric.natural import NO_FORMULA, Determinant, Natural
+from kovacic.parametric.natural import NO_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
@@ -522,31 +521,14 @@ def _values(natural: Natural, number: int) -> Iterator[Block]:
     rows: list[list[Sentence]] = []
     delta = _delta_named(natural.letter)
     for d in range(number):
-        found = _by_values(natural.determinants(d))
+        found = natural.values(d)
         if any(len(value) > _LONGEST for value in found):
             break
         if {*found} == {NO_FORMULA}:
             yield say(delta, f" is given by {NO_FORMULA}.")
             return
-        for value, determinants in found.items():
-            rows.append([str(d), *_where_it_is(value, determinants)])
+        for value, places in found.items():
+            said: Sentence = value if value == NO_FORMULA else prose.formula(value)
+            rows.append([str(d), [*places], said])
     if rows:
         yield Table([_name(natural.letter), "where", delta], rows)
-
-
-def _by_values(determinants: Iterable[Determinant]) -> dict[str, list[Determinant]]:
-    """The determinants by what is printed of them."""
-    found: dict[str, list[Determinant]] = defaultdict(list)
-    for determinant in determinants:
-        found[str(determinant)].append(determinant)
-    return found
-
-
-def _where_it_is(value: str, determinants: Iterable[Determinant]) -> list[Sentence]:
-    """The places where Delta_d has this value, and the value."""
-    places = dict.fromkeys(prose.equation(determinant.exponents) for determinant in determinants)
-    said: Sentence = value if value == NO_FORMULA else prose.formula(value)
-    where: list[str | Math] = []
-    for place in places:
-        where += [" or ", place]
-    return [where[1:], said]
