@@ -50,11 +50,12 @@ from kovacic.parametric.functions import (
     irreducible_factors,
     over_parameters,
 )
+from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, verdict_of
 from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution
-from kovacic.parametric.statements import Statement, Vanishes
+from kovacic.parametric.statements import Statement, Vanishes, both
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 
 
@@ -150,7 +151,7 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
         return
     answer = found.answer_at(point)
     if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
-        yield f"{predicted} is printed, {RegionVerdict.of(answer.decision)} is found"
+        yield f"{predicted} is printed, {verdict_of(answer.decision)} is found"
     yield from _false_groups(predicted, answer)
     inside = found.region_at(point)
     if inside is not None and inside.case == 1:
@@ -178,7 +179,10 @@ def _false_formulas(
     equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
     if equation is None:
         return
-    numbers = [number for number in region.numbers_at(point) if number is None or number <= _LARGEST]
+    natural = [part for part in both(region.statement).parts if isinstance(part, Natural) and part.m == 1]
+    numbers: list[int | None] = [number for part in natural for number in part.numbers_at(point) if number <= _LARGEST]
+    if not natural:
+        numbers = [None]
     for number in numbers:
         for solution in _solutions_at(region, number, values):
             y = solution.at(values)

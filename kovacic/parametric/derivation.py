@@ -20,7 +20,7 @@ from kovacic.parametric.letters import Letters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
 from kovacic.parametric.powers import in_powers
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, settled
+from kovacic.parametric.regions import ParameterRegion, settled, verdict_of
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement
@@ -97,7 +97,7 @@ def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budge
         if decided is True:
             generic = region.verdict
             if not generic.known:
-                generic = RegionVerdict.of(decide(S, budget, certify=False))
+                generic = verdict_of(decide(S, budget, certify=False))
             complete = together([*regions, region])
             break
         statement = region.statement.narrowed(assumptions)

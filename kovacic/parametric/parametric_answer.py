@@ -26,7 +26,16 @@ from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.letters import Letters, letters_from, values_of_letters
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
-from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
+from kovacic.parametric.record import (
+    StatementReader,
+    constant_data,
+    constant_from,
+    equation_data,
+    equation_from,
+    region_data,
+    verdict_data,
+    verdict_from,
+)
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, said_of, settled
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.solutions import Later, Origin
@@ -362,8 +371,8 @@ class ParametricAnswer:
             "variable": self.variable,
             "parameters": list(self.parameters),
             "assumptions": self.assumptions.to_dict(),
-            "generic": {"case": self.generic.case, "group": self.generic.group, "verdict": self.generic.to_dict()},
-            "regions": [region.to_dict() for region in self.regions],
+            "generic": {"case": self.generic.case, "group": self.generic.group, "verdict": verdict_data(self.generic)},
+            "regions": [*map(region_data, self.regions)],
             "complete": self.complete,
             "theory": self.theory,
             "notices": list(self.notices),
@@ -411,14 +420,14 @@ class ParametricAnswer:
                 raise ValueError("a parameter or the variable isn't a name")
             field = FunctionField((*names, *constant.names))
             reader = StatementReader(field)
-            read = [_region_from(region, reader) for region in data["regions"]]
+            read = [*map(reader.region, data["regions"])]
             regions = settled(read, variable, field.names, constant.names)
             answer = cls(
                 variable=variable,
                 parameters=parameters,
                 letters=letters,
                 regions=tuple(regions),
-                generic=RegionVerdict.from_dict(data["generic"]["verdict"]),
+                generic=verdict_from(data["generic"]["verdict"]),
                 complete=data["complete"],
                 theory=data["theory"],
                 assumptions=read_assumptions(data["assumptions"] or None, None, names),
@@ -619,17 +628,6 @@ def _solutions_of(region: ParameterRegion) -> list[str]:
     if region.case == 1 and not known:
         return [region.why_no_solution]
     return [*map(str, known)]
-
-
-def _region_from(data: Mapping[str, Any], reader: StatementReader) -> ParameterRegion:
-    """What `ParameterRegion.to_dict` wrote."""
-    return ParameterRegion(
-        reader.statement(data["statement"]),
-        RegionVerdict.from_dict(data["verdict"]),
-        complete=data["complete"],
-        defined=data["defined"],
-        shown_degree=len(data["determinants"]) - 1 if "determinants" in data else None,
-    )
 
 
 @lru_cache(maxsize=16)

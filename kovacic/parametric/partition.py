@@ -33,7 +33,7 @@ from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, verdict_of
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
 from kovacic.parametric.solutions import solutions_there
@@ -85,7 +85,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     count_work(1)
     constants = S.field
     decision = decide(S, settings.budget, certify=False)
-    verdict = RegionVerdict.of(decision)
+    verdict = verdict_of(decision)
     if constants.ground == QQ:
         return Partition(verdict, verdict.known or str(decision.undecided), "the engine")
     if not isinstance(constants, FunctionField):

@@ -22,10 +22,12 @@ from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json, fraction
+from kovacic.parametric import prose
 from kovacic.parametric.functions import ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
@@ -89,6 +91,36 @@ def _natural_data(statement: Natural) -> dict[str, Any]:
 
 def _number(value: Fraction) -> int | str:
     return for_json(int(value)) if value.denominator == 1 else as_text(value)
+
+
+def verdict_data(verdict: RegionVerdict) -> dict[str, Any]:
+    """A verdict as plain values."""
+    structure = verdict.structure and verdict.structure.value
+    data = {"structure": structure, "known": verdict.known, "family": verdict.family and prose.marked(verdict.family)}
+    return data if verdict.abelian is None else data | {"abelian": prose.marked(verdict.abelian)}
+
+
+def verdict_from(data: Mapping[str, Any]) -> RegionVerdict:
+    """What `verdict_data` wrote."""
+    structure = None if data["structure"] is None else Structure(data["structure"])
+    family, abelian = (said and prose.phrase(said) for said in (data["family"], data.get("abelian")))
+    return RegionVerdict(structure, data["known"], family, abelian)
+
+
+def region_data(region: ParameterRegion) -> dict[str, Any]:
+    """A region as plain values."""
+    data: dict[str, Any] = {
+        "condition": region.statement.text(),
+        "case": region.case,
+        "group": region.group,
+        "complete": region.complete,
+        "defined": region.defined,
+        "statement": statement_data(region.statement),
+        "verdict": verdict_data(region.verdict),
+    }
+    if region.shown_degree is not None:
+        data["determinants"] = list(region.determinants)
+    return data
 
 
 def equation_data(equation: Equation | None) -> dict[str, Any] | None:
@@ -189,6 +221,16 @@ class StatementReader:
         if not isinstance(kind, str) or kind not in _READERS:
             raise InputError(f"{kind!r} isn't a kind of condition")
         return _READERS[kind](self, data)
+
+    def region(self, data: Mapping[str, Any]) -> ParameterRegion:
+        """What `region_data` wrote."""
+        return ParameterRegion(
+            self.statement(data["statement"]),
+            verdict_from(data["verdict"]),
+            complete=data["complete"],
+            defined=data["defined"],
+            shown_degree=len(data["determinants"]) - 1 if "determinants" in data else None,
+        )
 
     def statements(self, data: Mapping[str, Any]) -> tuple[Statement, ...]:
         """The parts of one that is made of others."""

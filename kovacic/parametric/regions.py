@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.decision import Decision, Status, Structure
@@ -14,10 +13,8 @@ from kovacic.equation import PI
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
-from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
-from kovacic.parametric.record import statement_data
 from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
 from kovacic.parametric.statements import (
     Setting,
@@ -61,72 +58,6 @@ class RegionVerdict:
     family: Words | None = field(default=None, compare=False)
     abelian: Words | None = field(default=None, compare=False)
 
-    @classmethod
-    def of(cls, decision: Decision) -> RegionVerdict:
-        """What the engine's decision says.
-
-        Parameters
-        ----------
-        decision : Decision
-            Of one equation.
-
-        Returns
-        -------
-        RegionVerdict
-            Its `known` is False where it is undecided.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> print(RegionVerdict.of(kovacic.solve("x").decision))
-        no Liouvillian solution
-        """
-        return cls(decision.structure, decision.status is not Status.UNDECIDED)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Its part of the JSON object.
-
-        Returns
-        -------
-        dict
-            structure, known, family.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> kovacic.conditions("n/x^2").generic.to_dict()
-        {'structure': 'reducible', 'known': True, 'family': None}
-        """
-        family = self.family and prose.marked(self.family)
-        data = {"structure": self.structure and self.structure.value, "known": self.known, "family": family}
-        return data if self.abelian is None else data | {"abelian": prose.marked(self.abelian)}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> RegionVerdict:
-        """The way back from `to_dict`.
-
-        Parameters
-        ----------
-        data : mapping
-            What `to_dict` returned.
-
-        Returns
-        -------
-        RegionVerdict
-            Equal to the one that was written.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> generic = kovacic.conditions("n/x^2").generic
-        >>> RegionVerdict.from_dict(generic.to_dict()) == generic
-        True
-        """
-        name = data["structure"]
-        structure = None if name is None else Structure(name)
-        family, abelian = (said and prose.phrase(said) for said in (data["family"], data.get("abelian")))
-        return cls(structure, data["known"], family, abelian)
-
     @property
     def case(self) -> int | None:
         """Kovacic's case, 1 to 3; None without a Liouvillian solution."""
@@ -161,6 +92,11 @@ class RegionVerdict:
         if not self.known:
             return "not determined"
         return "no Liouvillian solution" if self.case is None else f"case {self.case}"
+
+
+def verdict_of(decision: Decision) -> RegionVerdict:
+    """What the engine's decision says."""
+    return RegionVerdict(decision.structure, decision.status is not Status.UNDECIDED)
 
 
 _ADJECTIVES = {Structure.REDUCIBLE: "reducible", Structure.IMPRIMITIVE: "imprimitive"}
@@ -265,24 +201,6 @@ class ParameterRegion:
                 found.append(f"Delta_{d} = {text[:_WRITTEN_OUT]}" + "..." * (len(text) > _WRITTEN_OUT))
         return tuple(found)
 
-    def numbers_at(self, point: ParameterPoint) -> list[int | None]:
-        """For `solution`: the degrees that the exponents allow at a point; None where there is none to choose.
-
-        Parameters
-        ----------
-        point : ParameterPoint
-            What `Conditions.point` returned.
-
-        Returns
-        -------
-        list
-            Natural numbers, or None alone.
-        """
-        natural = [part for part in both(self.statement).parts if isinstance(part, Natural) and part.m == 1]
-        if not natural:
-            return [None]
-        return [number for part in natural for number in part.numbers_at(point)]
-
     @property
     def why_no_solution(self) -> str:
         """A sentence where `solution()` is empty: why there is no formula in all of the parameters; "" where there is one."""
@@ -297,7 +215,7 @@ class ParameterRegion:
             )
         if self.formulas is None:
             return "omega follows from the equation on this part: solve_at, or assume the values"
-        if _has_natural_number(self.statement):
+        if any(isinstance(part, Natural) for part in both(self.statement).parts):
             return "P has another degree for each natural number: solution(d), () where the exponents need two square roots"
         if self.solution():
             return ""
@@ -319,34 +237,6 @@ class ParameterRegion:
         is_proven = self.complete is True and self.verdict.known
         return self.defined and is_proven and self.shown_degree is None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The region's part of the JSON object.
-
-        Returns
-        -------
-        dict
-            condition, case, group, complete, defined, statement, verdict, and determinants where there are any.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> (region,) = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions
-        >>> region.to_dict()["condition"], region.to_dict()["case"]
-        ('n - 1/2 in Z', 1)
-        """
-        data: dict[str, Any] = {
-            "condition": self.statement.text(),
-            "case": self.case,
-            "group": self.group,
-            "complete": self.complete,
-            "defined": self.defined,
-            "statement": statement_data(self.statement),
-            "verdict": self.verdict.to_dict(),
-        }
-        if self.shown_degree is not None:
-            data["determinants"] = list(self.determinants)
-        return data
-
     def __repr__(self) -> str:
         return f"<ParameterRegion {self.statement.text()}: {said_of(self)}>"
 
@@ -359,11 +249,6 @@ class ParameterRegion:
             known = f" [{self.complete}]"
         first = f"{self.statement.text()}: {said_of(self)}{known}"
         return "\n      ".join([first, *self.determinants])
-
-
-def _has_natural_number(statement: Statement) -> bool:
-    """Is it about a determinant Delta_d?"""
-    return any(isinstance(part, Natural) for part in both(statement).parts)
 
 
 def said_of(region: ParameterRegion) -> str:
