@@ -189,7 +189,7 @@ class IntegerFamily(Claim):
             if number is not None and self.numbers.contain(number) and not point.at(zero.zero):
                 yield root
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
-        equation = (above - below * _value(point, self.parameter))(n)
+        equation = (above - below * point.values[point.names.index(self.parameter)])(n)
         for number in rational_roots(equation):
             if self.numbers.contain(number) and below(n)(point.field.poly([number])):
                 yield n(point.field.poly([number]))
@@ -210,10 +210,6 @@ class EquationFor(Claim):
         for number in rational_roots(point.at(self.equation)):
             if self.numbers.contain(number):
                 yield point.field.poly([number])
-
-
-def _value(point: ParameterPoint, name: str) -> Poly:
-    return point.values[point.names.index(name)]
 
 
 def rational(constant: Poly) -> Fraction | None:

@@ -24,6 +24,7 @@ from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
+    in_field,
     irreducible_factors,
     over_parameters,
     powers_of,
@@ -105,21 +106,14 @@ def _energies(S: RatFunc) -> list[int]:
     assert isinstance(field, FunctionField)
     above, below = map(over_parameters, S.cleared())
     candidates = [i for i in range(len(field.names)) if degrees(above)[i] == 1 and not degrees(below)[i]]
-    return [i for i in candidates if _is_number(_slope(above, field, i) / RatFunc(below))]
-
-
-def _slope(function: FunctionPoly, field: FunctionField, i: int) -> RatFunc:
-    """f(E + 1) - f(E) for parameter number i, in which f is linear."""
-    values = [field.generator(name) for name in field.names]
-    values[i] = values[i] + 1
-    return RatFunc(function.value_at(values, field) - function)
-
-
-def _is_number(function: RatFunc) -> bool:
-    """Does it depend neither on the variable nor on the parameters, without being 0?"""
-    if not function.is_polynomial or function.num.degree != 0:
-        return False
-    return function.field.rational_value(function.num) is not None
+    found = []
+    for i in candidates:
+        values = [field.generator(name) for name in field.names]
+        values[i] = values[i] + 1
+        slope = RatFunc(above.value_at(values, field) - above, below)  # S(E + 1) - S(E)
+        if slope.is_polynomial and slope.num.degree == 0 and field.rational_value(slope.num) is not None:
+            found.append(i)
+    return found
 
 
 def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
@@ -129,21 +123,11 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
         return
     for d in range(_DEGREE + 1):
         for special in irreducible_factors(equation(Fraction(d))):
-            surface = _first_solved(special, energies)
-            if surface is None:
-                continue
-            W = _logarithmic_derivative(problem, surface)
+            surfaces = (surface for surface in (_solved_for(special, i) for i in energies) if surface is not None)
+            surface = next(surfaces, None)
+            W = None if surface is None else _logarithmic_derivative(problem, surface)
             if W is not None:
                 yield special, W
-
-
-def _first_solved(function: FunctionPoly, energies: list[int]) -> ParameterPoint | None:
-    """Its zeros by the first of these parameters for which it can be solved."""
-    for i in energies:
-        surface = _solved_for(function, i)
-        if surface is not None:
-            return surface
-    return None
 
 
 def _logarithmic_derivative(problem: Problem, surface: ParameterPoint) -> RatFunc | None:
@@ -156,7 +140,9 @@ def _logarithmic_derivative(problem: Problem, surface: ParameterPoint) -> RatFun
         return None
     field = problem.field
     assert isinstance(field, FunctionField)
-    return _over(W, field)
+    if not isinstance(W.num, FunctionPoly):
+        return RatFunc(field.poly(W.num.rational_coefficients()), field.poly(W.den.rational_coefficients()))
+    return RatFunc(*(in_field(over_parameters(part), field) for part in W.cleared()))
 
 
 def _solved_for(function: FunctionPoly, i: int) -> ParameterPoint | None:
@@ -170,12 +156,3 @@ def _solved_for(function: FunctionPoly, i: int) -> ParameterPoint | None:
     rest = powers.get(0, 0 * powers[1]).value_at(values, below)
     values[i] = -rest / powers[1].value_at(values, below)
     return ParameterPoint(names, tuple(values), below)
-
-
-def _over(W: RatFunc, field: FunctionField) -> RatFunc:
-    """The same function with all parameters in its field."""
-    if not isinstance(W.num, FunctionPoly):
-        return RatFunc(field.poly(W.num.rational_coefficients()), field.poly(W.den.rational_coefficients()))
-    values = [field.generator(name) for name in W.num.field.names]
-    above, below = map(over_parameters, W.cleared())
-    return RatFunc(above.value_at(values, field), below.value_at(values, field))

@@ -27,6 +27,11 @@ def over_parameters(value: Poly) -> FunctionPoly:
     return value
 
 
+def in_field(function: FunctionPoly, field: FunctionField) -> FunctionPoly:
+    """The same function over a field that has its parameters among others."""
+    return over_parameters(function.value_at([field.generator(name) for name in function.field.names], field))
+
+
 def element(field: FunctionField, num: Any) -> FunctionPoly:
     """A polynomial in x and the parameters over Z, as one over Q(t)."""
     return FunctionPoly(field, num, field.context.constant(1))

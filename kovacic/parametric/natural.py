@@ -14,12 +14,11 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from random import Random
 from typing import NamedTuple
 
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
@@ -194,7 +193,7 @@ class Natural(Statement):
             problem = analyse(S, Budget())
             for conditions in self._conditions(problem, number):
                 determinant = _determinant(exponents, conditions, deficient=conditions.deficient and self.m == 1)
-                determinant = determinant.rewritten(_back(surface, exponents.field))
+                determinant = determinant.rewritten(partial(surface.back, field=exponents.field))
                 if determinant not in found:
                     found.append(determinant)
         return found
@@ -323,18 +322,6 @@ def _determinant(exponents: FunctionPoly, conditions: RankConditions, *, deficie
     if conditions.system is None:
         return Determinant(exponents)
     return Determinant(exponents, conditions.polynomials, conditions.system)
-
-
-def _back(surface: Hypersurface, field: Field) -> Callable[[FunctionPoly], FunctionPoly]:
-    """From functions on a hypersurface to functions of all parameters."""
-
-    def change(function: FunctionPoly) -> FunctionPoly:
-        if surface.curve:
-            return surface.back(function)
-        values = [field.generator(name) for name in function.field.names]  # type: ignore[attr-defined]
-        return over_parameters(function.value_at(values, field))
-
-    return change
 
 
 @lru_cache(maxsize=256)

@@ -26,13 +26,11 @@ from kovacic.decision import Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
-from kovacic.galois import Group, group_of
+from kovacic.galois import group_of
 from kovacic.limits import Budget, count_work
 from kovacic.parametric import prose, restriction
 from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
-from kovacic.parametric.natural import Natural
-from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, verdict_of
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
@@ -103,7 +101,12 @@ def _is_reducible(verdict: RegionVerdict) -> bool:
 
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
-    theorem = _theorem_for(problem, expected, settings)
+    if _is_reducible(expected):  # where S is defined: see the head of this module
+        always = ParameterRegion(ALWAYS, expected)
+        name = "a rational omega for generic values, and so for all"
+        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [always])
+    else:
+        theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
     if theorem is not None:
         return _by_theorem(problem, theorem, expected, settings)
     if settings.only_theorems:
@@ -112,14 +115,6 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
     if simpler is not None:
         return _by_transformation(problem, simpler, settings)
     return _by_candidates(problem, expected, settings)
-
-
-def _theorem_for(problem: Problem, expected: RegionVerdict, settings: Settings) -> Theorem | None:
-    """One that covers all values of the parameters."""
-    if _is_reducible(expected):
-        name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
-        return Theorem(name, restriction.undefined(problem), [ParameterRegion(ALWAYS, expected)])
-    return kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
 
 
 def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, settings: Settings) -> Partition:
@@ -147,17 +142,12 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     regions = _degenerate(problem.S, found.exceptions, settings)
     regions += _pieces(problem.S, found.special, settings)
     inner = partition(found.simpler, settings)
-    regions += [_carried_back(region, found, settings.variable) for region in inner.regions if region.defined]
+    for region in filter(lambda one: one.defined, inner.regions):
+        origin = region.origin and Back(region.origin, found.W, settings.variable)
+        regions.append(replace(region, origin=origin))
     complete = together(regions) if inner.complete is True else inner.complete
     theory = f"{inner.theory.removesuffix(_TRANSFORMED)}{_TRANSFORMED}"
     return Partition(inner.generic, complete, theory, tuple(regions))
-
-
-def _carried_back(region: ParameterRegion, found: Transformation, variable: str) -> ParameterRegion:
-    """A region of the simpler equation, with the solutions of the one that was given."""
-    if region.origin is None:
-        return region
-    return replace(region, origin=Back(region.origin, found.W, variable))
 
 
 def together(regions: Iterable[ParameterRegion]) -> bool | str:
@@ -178,7 +168,10 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
         findings = search(problem)
         half_integers = all_half_integers(problem)
-        _add_smaller_groups(findings, problem, expected, settings)
+        if expected.structure is Structure.IMPRIMITIVE:
+            findings.candidates += _discriminants(problem, settings)
+        elif expected.structure is not None and expected.structure is not Structure.REDUCIBLE:
+            findings.unproven.append("smaller groups than the generic one")
         if findings.unproven:
             complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
         _add_special(regions, findings.candidates, problem, expected, settings)
@@ -188,16 +181,6 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
     if complete is True:
         complete = together(regions)
     return Partition(expected, complete, findings.theory, tuple(regions))
-
-
-def _add_smaller_groups(findings: Findings, problem: Problem, expected: RegionVerdict, settings: Settings) -> None:
-    """Where an imprimitive group can become reducible; for a primitive one that isn't known."""
-    if expected.structure is None or expected.structure is Structure.REDUCIBLE:
-        return
-    if expected.structure is Structure.IMPRIMITIVE:
-        findings.candidates += _discriminants(problem, settings)
-    else:
-        findings.unproven.append("smaller groups than the generic one")
 
 
 def _add_special(
@@ -216,15 +199,10 @@ def _add_special(
             continue
         settings.budget.check()
         found = _pieces(problem.S, function, settings)
-        if not all(_is_as_expected(region, expected) for region in found):
+        proven = [region.verdict.known and region.complete is True and region.case == expected.case for region in found]
+        if not all(proven):
             regions += found
             settings = settings.also(function)
-
-
-def _is_as_expected(region: ParameterRegion, expected: RegionVerdict) -> bool:
-    """Is the same case proven for all of the region?"""
-    is_proven = region.verdict.known and region.complete is True
-    return is_proven and region.case == expected.case
 
 
 def _add_natural(
@@ -245,15 +223,10 @@ def _add_natural(
             half_integers = NEVER
         is_smaller = is_without_solution or is_reducible
         if is_smaller and structure is not expected.structure:
-            regions.append(_with_a_number(statement, settings.variable))
-
-
-def _with_a_number(statement: Natural, variable: str) -> ParameterRegion:
-    """The region of a statement with a natural number; case 3 leaves the group open."""
-    structure = statement.structure
-    family = ("binary tetrahedral, octahedral or icosahedral",) if structure.case == 3 else None
-    origin = partial(statement.solutions, variable)
-    return ParameterRegion(statement, RegionVerdict(structure, family=family), origin=origin)
+            # Case 3 leaves the group open.
+            family = ("binary tetrahedral, octahedral or icosahedral",) if structure.case == 3 else None
+            origin = partial(statement.solutions, settings.variable)
+            regions.append(ParameterRegion(statement, RegionVerdict(structure, family=family), origin=origin))
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
@@ -346,16 +319,13 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     inner = partition(restricted, settings.on(surface))
     rest = _rest(statement, surface, restricted, inner, settings)
     special = _special(inner.regions, surface)
-    while special and _says_the_same(special[-1], rest):
-        special.pop()
+    while special and special[-1].defined and _says(special[-1]) == _says(rest):
+        special.pop()  # it needn't be named
     return [*_also(special, statement), rest]
 
 
-def _says_the_same(region: ParameterRegion, rest: ParameterRegion) -> bool:
-    """Is a region like the one that follows it, so that it needn't be named?"""
-    if not region.defined:
-        return False
-    return region.verdict == rest.verdict and region.complete == rest.complete
+def _says(region: ParameterRegion) -> tuple[RegionVerdict, bool | str]:
+    return region.verdict, region.complete
 
 
 def _rest(
@@ -395,14 +365,11 @@ def _at_a_value(
     group = group_of(S, decision)
     if group is not None:
         is_small = group.dimension is not None and group.dimension < 2
-        verdict = replace(verdict, family=_named(group), abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
+        # What is a formula in the name of the group is one.
+        family = prose.phrase(_FORMULA.sub(r"`\g<0>`", group.name))
+        verdict = replace(verdict, family=family, abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
     origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
     return ParameterRegion(statement, verdict, complete, origin=origin)
-
-
-def _named(group: Group) -> Words:
-    """The name of a group, what is a formula in it as one."""
-    return prose.phrase(_FORMULA.sub(r"`\g<0>`", group.name))
 
 
 def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[ParameterRegion]:
@@ -413,13 +380,8 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
         first = both(region.statement).parts[0]
         if isinstance(first, Vanishes) and str(first.function) in elsewhere:
             continue
-        if surface.curve:
-            region = _off_the_curve(region, surface)
+        if surface.curve:  # without its parameter, which isn't one of the user's
+            statement = region.statement.rewritten(partial(surface.back, field=surface.curve.value.field))
+            region = replace(region, statement=statement, verdict=_without_formulas(region.verdict), origin=None)
         special.append(region)
     return special
-
-
-def _off_the_curve(region: ParameterRegion, surface: Hypersurface) -> ParameterRegion:
-    """The same region without the parameter of the curve."""
-    statement = region.statement.rewritten(surface.back)
-    return replace(region, statement=statement, verdict=_without_formulas(region.verdict), origin=None)

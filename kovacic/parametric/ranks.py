@@ -27,7 +27,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.sparse import by_power
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
-from kovacic.parametric.functions import element, irreducible_factors, over_parameters
+from kovacic.parametric.functions import element, in_field, irreducible_factors, over_parameters
 
 #: Determinants whose common factors are taken, and minors up to which all of them are computed.
 _DETERMINANTS = 3
@@ -135,7 +135,8 @@ class _Matrix:
     @classmethod
     def of(cls, images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> _Matrix:
         """That of the images, each row once."""
-        smaller = without_constant_pivots([*map(_column, images)])
+        # By powers of x, without denominators.
+        smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
         different = {tuple(map(str, row)): row for row in map(_normalised, smaller.rows)}
         rows = [*different.values()]
         rank = _generic_rank(rows, field, surface)
@@ -185,11 +186,8 @@ class _Matrix:
             if not parts:
                 return RankConditions(factors, deficient=self.deficient)
             products[reduce(mul, parts)] = None
-        return RankConditions(factors, tuple(sorted(products, key=_length_and_text)), self.deficient)
-
-
-def _length_and_text(function: FunctionPoly) -> tuple[int, str]:
-    return len(function.num), str(function)
+        shortest_first = sorted(products, key=lambda function: (len(function.num), str(function)))
+        return RankConditions(factors, tuple(shortest_first), self.deficient)
 
 
 def _generic_rank(rows: Sequence[Sequence[Any]], field: FunctionField, surface: _Surface | None) -> int:
@@ -213,16 +211,15 @@ class _Surface:
         base = field.base
         assert isinstance(base, FunctionField)
         larger = FunctionField((*base.names, field.name))
-        values = [larger.generator(name) for name in base.names]
-        modulus = over_parameters(field.modulus).value_at(values, larger)
+        modulus = in_field(over_parameters(field.modulus), larger)
         return cls(larger, over_parameters(modulus(larger.generator(field.name))).num)
 
     def lifted(self, image: Poly) -> FunctionPoly:
         """The polynomial of the lowest degree in the algebraic parameter that is equal to the image there."""
-        values = [self.field.generator(name) for name in self.field.names]
+        last = self.field.generator(self.field.names[-1])
         total = self.field.poly([])
         for power, part in enumerate(image.parts):
-            total = total + over_parameters(part).value_at(values[:-1], self.field) * values[-1] ** power
+            total = total + in_field(over_parameters(part), self.field) * last**power
         return over_parameters(total)
 
     def values_of_last(self, others: Sequence[int], p: int) -> list[int]:
@@ -254,12 +251,6 @@ def _normalised(row: list[Any]) -> list[Any]:
     first = next(entry for entry in row if entry)
     sign = 1 if int(first.leading_coefficient()) > 0 else -1
     return [sign * entry for entry in reduced.values()]
-
-
-def _column(image: Poly) -> dict[int, Any]:
-    """The coefficients of a polynomial over Q(t), without denominators."""
-    check_time()
-    return by_power(over_parameters(image).num, 0)
 
 
 class WithoutPivots(NamedTuple):

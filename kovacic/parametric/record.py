@@ -23,7 +23,7 @@ from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json, fraction
 from kovacic.parametric import prose
-from kovacic.parametric.functions import ParameterPoint, over_parameters
+from kovacic.parametric.functions import ParameterPoint, in_field, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import Natural
@@ -171,10 +171,7 @@ def _in_order(function: RatFunc, names: tuple[str, ...]) -> RatFunc:
     if base is not field:
         raise InputError("the parameters of an equation with an algebraic constant are in another order")
     ordered = FunctionField(names)
-    values = [ordered.generator(name) for name in base.names]
-    num = over_parameters(function.num).value_at(values, ordered)
-    den = over_parameters(function.den).value_at(values, ordered)
-    return RatFunc(num, den)
+    return RatFunc(*(in_field(over_parameters(part), ordered) for part in (function.num, function.den)))
 
 
 def constant_data(constant: ParameterPoint) -> dict[str, Any]:

@@ -12,7 +12,7 @@ larger space that is right at all of its points is right on the slice, and if it
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, combinations, count
@@ -30,7 +30,15 @@ from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
 from kovacic.parametric import functions
 from kovacic.parametric.formulas import shown
-from kovacic.parametric.functions import ParameterPoint, degrees, element, irreducible_factors, over_parameters, union
+from kovacic.parametric.functions import (
+    ParameterPoint,
+    degrees,
+    element,
+    in_field,
+    irreducible_factors,
+    over_parameters,
+    union,
+)
 from kovacic.parametric.statements import Statement
 
 
@@ -175,11 +183,10 @@ class Hypersurface(ParameterPoint):
     missed: tuple[FunctionPoly, ...] = ()
     curve: Curve | None = None
 
-    def back(self, function: FunctionPoly) -> FunctionPoly:
-        """A function of the parameter of the curve, and of others, in the original parameters."""
+    def back(self, function: FunctionPoly, field: FunctionField) -> FunctionPoly:
+        """A function of fewer parameters, or of that of the curve, in the original ones, which are those of the field."""
         if self.curve is None:
-            return function
-        field = self.curve.value.field
+            return in_field(function, field)
         values = {name: field.generator(name) for name in field.names}
         values[self.curve.name] = self.curve.value
         chosen = [values[name] for name in function.field.names]
@@ -216,14 +223,9 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
 def _to_be_eliminated(powers: Sequence[int], leading: Mapping[int, FunctionPoly]) -> int:
     """The number of the parameter with the lowest power; among linear ones, the one with the simplest coefficient."""
     linear = [i for i in leading if powers[i] == 1]
-    if linear:
-        return min(linear, key=lambda i: _complexity(leading[i]))
+    if linear:  # constants come first, then the shortest
+        return min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
     return min(leading, key=lambda i: powers[i])
-
-
-def _complexity(coefficient: FunctionPoly) -> tuple[bool, int]:
-    """Constants come first, then the shortest."""
-    return not coefficient.num.is_constant(), len(coefficient.num)
 
 
 class _PowerTerm(NamedTuple):
@@ -277,7 +279,7 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
     u_name = names[powers.i]
     v_name = names[powers.j]
     others = tuple(name for name in names if name not in (u_name, v_name))
-    letter = _unused_letter(names)
+    letter = next(name for name in chain(["T"], map("T{}".format, count(1))) if name not in names)
     field = FunctionField((*others, letter))
     T = field.generator(letter)
     values: dict[str, Poly] = {name: field.generator(name) for name in others}
@@ -301,12 +303,6 @@ def _two_powers(function: FunctionPoly) -> _TwoPowers | None:
     if min(first.power, second.power) < 2:
         return None
     return _TwoPowers.of(first, second)
-
-
-def _unused_letter(names: Collection[str]) -> str:
-    """T, or the first of T1, T2, ... that isn't one of the names."""
-    letters = chain(["T"], map("T{}".format, count(1)))
-    return next(letter for letter in letters if letter not in names)
 
 
 def _powers_of_parameters(function: FunctionPoly) -> list[_PowerTerm] | None:
@@ -355,24 +351,15 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
 def _free(polynomial: Poly, larger: FunctionField) -> Poly:
     """The polynomial with the generator of its field replaced by the last parameter of the larger field."""
     assert isinstance(polynomial, ExtensionPoly)
-    values = [larger.generator(name) for name in larger.names[:-1]]
     total = larger.poly([])
     for part in reversed(polynomial.parts):
-        total = total * larger.generator(larger.names[-1]) + over_parameters(part).value_at(values, larger)
+        total = total * larger.generator(larger.names[-1]) + in_field(over_parameters(part), larger)
     return total
 
 
 def over_all(statement: Statement, field: FunctionField) -> Statement:
     """The same statement with functions of all parameters, those on hypersurfaces among them."""
-    values = [field.generator(name) for name in field.names]
-
-    def change(function: FunctionPoly) -> FunctionPoly:
-        if function.field == field:
-            return function
-        chosen = [values[field.names.index(name)] for name in function.field.names]
-        return over_parameters(function.value_at(chosen, field))
-
-    return statement.rewritten(change)
+    return statement.rewritten(lambda function: function if function.field == field else in_field(function, field))
 
 
 def reduced(statement: Statement, constant: ParameterPoint) -> Statement:

@@ -19,14 +19,13 @@ from itertools import product
 from math import lcm, prod
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
 from kovacic.parametric import riemann
 from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.exponents import (
-    Numbers,
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
@@ -78,13 +77,11 @@ class Findings:
 
 def _are_eliminated(functions: Iterable[FunctionPoly]) -> bool:
     """Does the vanishing of each leave rational functions of fewer parameters, so that everything on it is found?"""
-    return all(map(_is_eliminated, functions))
-
-
-def _is_eliminated(function: FunctionPoly) -> bool:
-    if isinstance(hypersurface(function).field, FunctionField):
-        return True
-    return sum(map(bool, degrees(function))) == 1  # numbers, where one parameter occurs
+    for function in functions:
+        leaves_numbers = sum(map(bool, degrees(function))) == 1  # one parameter occurs
+        if not leaves_numbers and not isinstance(hypersurface(function).field, FunctionField):
+            return False
+    return True
 
 
 def search(problem: Problem) -> Findings:
@@ -100,10 +97,13 @@ def search(problem: Problem) -> Findings:
         findings = Findings("the exponents, and polynomials of bounded or natural degree")
         _add_reducible(problem, findings)
         wanted = _degrees_that_are_possible(problem)
-    if wanted:
-        wanted = _beside_logarithms(problem, wanted, findings)
+    candidates = _where_a_logarithm_vanishes(problem) if wanted else None
+    if candidates is not None:
+        findings.candidates += candidates
+        wanted = {m: [Structure.REDUCIBLE] for m, structures in wanted.items() if Structure.REDUCIBLE in structures}
     equations = _equations_by_degree(problem, wanted, findings)
-    if any(_hides_case_1(m, wanted) for m in equations):
+    # A reducible group has an invariant of degree m, which doesn't show that it is one.
+    if any(Structure.REDUCIBLE in wanted[m] and not _shows(m, Structure.REDUCIBLE, wanted) for m in equations):
         _add_reducible(problem, findings)
     for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
         for m, factors in equations.items():
@@ -119,20 +119,6 @@ def _shows(m: int, structure: Structure, wanted: Degrees) -> bool:
     return structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
 
 
-def _hides_case_1(m: int, wanted: Degrees) -> bool:
-    """Has a reducible group an invariant of degree m, which doesn't show that it is one?"""
-    return Structure.REDUCIBLE in wanted[m] and not _shows(m, Structure.REDUCIBLE, wanted)
-
-
-def _beside_logarithms(problem: Problem, wanted: Degrees, findings: Findings) -> Degrees:
-    """The degrees that are left where there is a logarithm; the values at which there is none become candidates."""
-    candidates = _where_a_logarithm_vanishes(problem)
-    if candidates is None:
-        return wanted
-    findings.candidates += candidates
-    return {m: [Structure.REDUCIBLE] for m, structures in wanted.items() if Structure.REDUCIBLE in structures}
-
-
 def _equations_by_degree(
     problem: Problem, wanted: Degrees, findings: Findings
 ) -> dict[int, tuple[FunctionPoly, ...] | None]:
@@ -142,7 +128,7 @@ def _equations_by_degree(
         factors = _equations_for_zeros(problem, m, findings)
         if factors == ():
             continue
-        if _has_conjugate_exponents(problem):
+        if any(place.kind is Kind.REGULAR and place.delta_squared is None for place in problem.places):
             findings.unproven.append(f"case {structures[0].case}")
         else:
             found[m] = factors
@@ -187,14 +173,8 @@ def _rational_differences(problem: Problem) -> list[Fraction] | None:
 
 def _has_logarithms(problem: Problem) -> bool:
     """Is there a logarithm for all values?  It leaves only case 1 or none."""
-    return any(map(_has_logarithm, problem.places))
-
-
-def _has_logarithm(place: Place) -> bool:
-    """Is it a simple pole, or has it a double exponent?"""
-    if place.order == 1:
-        return True
-    return place.order == 2 and place.delta == 0
+    # A simple pole has one, and a double exponent.
+    return any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places)
 
 
 def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
@@ -266,14 +246,11 @@ def _degrees_that_are_possible(problem: Problem) -> Degrees:
         return found
     if _has_two_branch_points(problem):
         found[4] = [Structure.IMPRIMITIVE]
-    if riemann.is_fuchsian(problem) and all(map(_is_finite_or_unknown, problem.places)):
+    # Can each exponent difference be one of Schwarz's table?
+    are_possible = all(place.delta is None or place.delta.denominator <= riemann.LARGEST for place in problem.places)
+    if riemann.is_fuchsian(problem) and are_possible:
         found[12] = [Structure.TETRAHEDRAL]
     return found
-
-
-def _is_finite_or_unknown(place: Place) -> bool:
-    """Can the denominator of the exponent difference be one of Schwarz's table?"""
-    return place.delta is None or place.delta.denominator <= riemann.LARGEST
 
 
 def _has_two_branch_points(problem: Problem) -> bool:
@@ -354,20 +331,15 @@ def all_half_integers(problem: Problem) -> Statement:
     singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
     found: dict[Statement, None] = {}
     for place in singular:
-        statement = _half_integer_difference(place)
+        square = place.delta_squared
+        if square is None or square.degree > 0:
+            return NEVER
+        equation = square.field.poly([-4 * square, 0, 1])  # (2 Delta)^2 = N^2 with an odd N
+        statement = integer_roots(over_parameters(equation), [1], 2)
         if statement == NEVER:
             return NEVER
         found[statement] = None
     return all_of([statement for statement in found if statement != ALWAYS])
-
-
-def _half_integer_difference(place: Place) -> Statement:
-    """That Delta is half an odd integer N: (2 Delta)^2 = N^2."""
-    square = place.delta_squared
-    if square is None or square.degree > 0:
-        return NEVER
-    equation = square.field.poly([-4 * square, 0, 1])
-    return integer_roots(over_parameters(equation), [1], 2)
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:
@@ -382,7 +354,8 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
         return False
     changes = set()
     for place in problem.places:
-        if place.kind is Kind.UNRAMIFIED and _is_fixed(place, center):
+        is_fixed = place.at_infinity or (place.degree == 1 and place.factor[0] == -center)
+        if place.kind is Kind.UNRAMIFIED and is_fixed:
             # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
             changes.add(place.order // 2 % 2 == 0)
     return len(changes) == 2
@@ -403,13 +376,6 @@ def _center_of_symmetry(problem: Problem) -> Poly | None:
     return center
 
 
-def _is_fixed(place: Place, center: Poly) -> bool:
-    """Is it a fixed point of x -> 2c - x?"""
-    if place.at_infinity:
-        return True
-    return place.degree == 1 and place.factor[0] == -center
-
-
 def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
     """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents.
 
@@ -427,20 +393,10 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
         factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
     for multiples in product(*multiples_of_roots):
         if any(multiples):
-            factors += _numbers_of_zeros(multiples, numbers, problem.field)
+            chosen = [k * k * root.square for k, root in zip(multiples, numbers.roots, strict=True) if k]
+            sums = signed_sums(chosen, numbers.constant, problem.field)
+            factors += [over_parameters(factor) for factor, _ in problem.field.factor(sums) if _may_be_natural(factor)]
     return tuple(dict.fromkeys(factors))
-
-
-def _has_conjugate_exponents(problem: Problem) -> bool:
-    """Do the exponents differ at conjugate poles of order 2?"""
-    return any(place.kind is Kind.REGULAR and place.delta_squared is None for place in problem.places)
-
-
-def _numbers_of_zeros(multiples: Sequence[int], numbers: Numbers, field: Field) -> list[FunctionPoly]:
-    """Equations for the constant + the sums of +- k times the roots."""
-    chosen = [k * k * root.square for k, root in zip(multiples, numbers.roots, strict=True) if k]
-    sums = signed_sums(chosen, numbers.constant, field)
-    return [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
 
 
 def _may_be_natural(factor: Poly) -> bool:

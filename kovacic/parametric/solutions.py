@@ -136,15 +136,11 @@ class PolynomialSolution:
 
     def exclusion(self, d: str) -> str:
         """Where y vanishes identically for the degree d; "" where it never does."""
-        if not self.jacobi or any(a.is_number and not _is_negative_integer(a) for a in self.jacobi):
+        if not self.jacobi or any(a.is_number and not (a.is_Integer and a < 0) for a in self.jacobi):
             return ""
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
         return f", unless {a} and {b} are integers from -{name} to -1 with a sum below -{name}"
-
-
-def _is_negative_integer(number: Any) -> bool:
-    return bool(number.is_Integer and number < 0)
 
 
 #: From the degree d, if there is one to be chosen.
@@ -332,17 +328,12 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     for part in exponents.parts:
         exponent = sympy.factor(part.exponent.to_sympy(x))
         y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
-    conditions = [given.to_sympy(x), *(_product_of(factors, x) for factors in alternatives)]
-    where = [prose.equation(given).text, *map(_one_vanishes, dict.fromkeys(map(tuple, alternatives)))]
+    conditions = [given.to_sympy(x)]
+    where = {prose.equation(given).text: None}
+    for factors in alternatives:
+        conditions.append(sympy.Mul(*(factor.to_sympy(x) for factor in factors)))
+        where[" or ".join(f"{caret(as_text(factor.to_sympy(x)))} = 0" for factor in factors)] = None
     return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join(where))
-
-
-def _product_of(factors: Iterable[Poly], x: Any) -> Any:
-    return sympy.Mul(*(factor.to_sympy(x) for factor in factors))
-
-
-def _one_vanishes(factors: Iterable[Poly]) -> str:
-    return " or ".join(f"{_text(factor)} = 0" for factor in factors)
 
 
 def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
@@ -478,11 +469,6 @@ def _conditions(value: Poly) -> list[Poly]:
     rest = value * element(field, denominator) / element(field, content)
     is_product_of_roots = len(leaves) == 1
     return factors if is_product_of_roots else [*factors, rest]
-
-
-def _text(function: Poly) -> str:
-    """A polynomial in the parameters, and maybe square roots."""
-    return caret(as_text(function.to_sympy(sympy.Symbol("x"))))
 
 
 def may_be_natural(degree: Any) -> bool:

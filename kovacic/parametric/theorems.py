@@ -225,7 +225,11 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
         degree = shorter_sum((-1 - f * first - g * second - h * third) / 2)
         e = sympy.expand((1 + f * first) / 2)
         e1 = sympy.expand((1 + g * second) / 2)
-        powers = _power(base, n, c, e, -sympy.Rational(n - 1, 2)) * _positive(z, c1) ** e1
+        own = -sympy.Rational(n - 1, 2)
+        first_power = _positive(z, c) ** e * base**own
+        if c == 0:
+            first_power = base ** sympy.expand(n * e + own)
+        powers = first_power * _positive(z, c1) ** e1
         powers *= last ** sympy.expand(1 - e - e1)
         y = weight * powers * jacobi(degree, f * first, g * second, argument)
         return PolynomialSolution(y, degree, jacobi=(f * first, g * second))
@@ -278,13 +282,6 @@ def _square_root(square: Any) -> Any:
     return sympy.sqrt(constant) * sympy.prod(factor ** (k // 2) for factor, k in factors)
 
 
-def _power(base: Any, n: int, c: Any, exponent: Any, own: Any) -> Any:
-    """(base^n - c)^exponent base^own up to a constant factor."""
-    if c == 0:
-        return base ** sympy.expand(n * exponent + own)
-    return _positive(base**n, c) ** exponent * base**own
-
-
 def _positive(z: Any, c: Any) -> Any:
     """z - c, or c - z for a positive number c: what is positive at small z."""
     return c - z if c.is_positive else z - c
@@ -295,28 +292,17 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     squares = [problem.field.poly([1])] * 3
     for place in problem.places:
         if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
-            squares[_position(place)] = place.delta_squared
+            third = 2 if place.factor[0] else 0
+            squares[1 if place.at_infinity else third] = place.delta_squared
     found: dict[Statement, None] = {}
     for square, denominator in zip(squares, denominators, strict=False):
-        statement = _has_denominator(square, denominator)
+        equation = over_parameters(square.field.poly([-square * denominator**2, 0, 1]))
+        coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
+        statement = integer_roots(equation, coprime, denominator)
         if statement == NEVER:
             return NEVER
         found[statement] = None
     return both(*found)
-
-
-def _has_denominator(square: Poly, denominator: int) -> Statement:
-    """That the root of a square is a rational number with this denominator."""
-    equation = over_parameters(square.field.poly([-square * denominator**2, 0, 1]))
-    coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
-    return integer_roots(equation, coprime, denominator)
-
-
-def _position(place: Place) -> int:
-    """0 for 0, 1 for infinity, 2 for the third point."""
-    if place.at_infinity:
-        return 1
-    return 2 if place.factor[0] else 0
 
 
 @dataclass(frozen=True)
