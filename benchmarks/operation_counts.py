@@ -98,7 +98,7 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.algebra.modular", "square_root_series"): _terms(1),
     ("kovacic.algebra.modular", "null_space"): _system,
     ("kovacic.engine.expansion", "_null_vector"): _system,
-    ("kovacic.verify", "_omega_holds"): _verification,
+    ("kovacic.verify", "_invariant_holds"): _verification,
     ("kovacic.verify.primes", "homomorphisms_modulo"): _prime,
     ("kovacic.verify.primes", "roots_modulo"): _roots,
     ("kovacic.verify.series", "solutions_at_ordinary_point"): _terms(2),

@@ -249,8 +249,11 @@ class ExtensionPoly(Poly):
             return self.field.poly([1])
         lifter = Lifter(self.field)
         for bundle in self.field.bundles():
-            images = self._gcd_images(other, bundle)
-            if images is None:
+            try:
+                images = [h.keeping_degree(self).gcd(h.keeping_degree(other)) for h in bundle]
+            except BadPrimeError:
+                continue
+            if len({image.degree() for image in images}) > 1:  # at a bad prime, too
                 continue
             if images[0].degree() == 0:
                 return self.field.poly([1])
@@ -258,15 +261,6 @@ class ExtensionPoly(Poly):
             if proposal and not self % proposal[0] and not other % proposal[0]:
                 return proposal[0]  # type: ignore[return-value]
         raise AssertionError("there are infinitely many primes")
-
-    def _gcd_images(self, other: ExtensionPoly, bundle: Sequence[Homomorphism]) -> list[Any] | None:
-        """The greatest common divisors modulo one prime; None at a bad one, where their degrees differ, for instance."""
-        try:
-            images = [h.keeping_degree(self).gcd(h.keeping_degree(other)) for h in bundle]
-        except BadPrimeError:
-            return None
-        degrees = {image.degree() for image in images}
-        return images if len(degrees) == 1 else None
 
     def inverse_modulo(self, modulus: Poly) -> ExtensionPoly:
         small = modulus.degree <= _EUCLID_DEGREE or self.field.ground != QQ
@@ -310,26 +304,27 @@ class ExtensionPoly(Poly):
 
 def _root_by_primes(element: Poly, f: Poly, modulus: Poly) -> Poly:
     """-A(e)/B(e) in K[x]/modulus for f(Y) = A(Y^2) + Y B(Y^2), which is a square root of e, from its images modulo primes."""
+
+    def root_modulo(h: Homomorphism) -> Any:
+        g = h.keeping_degree(f)
+        reduced = h.keeping_degree(modulus)
+        A, B = (nmod_poly(g.coeffs()[start::2], h.p).compose_mod(h(element), reduced) for start in (0, 1))
+        common, inverse, _ = B.xgcd(reduced)
+        if common.degree() > 0:
+            raise BadPrimeError(f"{h.p} divides the norm of B(e)")
+        return -A * inverse % reduced
+
     lifter = Lifter(element.field)
     for bundle in element.field.bundles():
         check_time()
         try:
-            images = [[_root_modulo(h(element), h.keeping_degree(f), h.keeping_degree(modulus))] for h in bundle]
+            images = [[root_modulo(h)] for h in bundle]
         except BadPrimeError:
             continue
         proposal = lifter.add(bundle, images)
         if proposal is not None and not (proposal[0] * proposal[0] - element) % modulus:
             return proposal[0]
     raise AssertionError("there are infinitely many primes")
-
-
-def _root_modulo(element: Any, f: Any, modulus: Any) -> Any:
-    p = f.modulus()
-    A, B = (nmod_poly(f.coeffs()[start::2], p).compose_mod(element, modulus) for start in (0, 1))
-    common, inverse, _ = B.xgcd(modulus)
-    if common.degree() > 0:
-        raise BadPrimeError(f"{p} divides the norm of B(e)")
-    return -A * inverse % modulus
 
 
 def norm(polynomial: Poly) -> Poly:

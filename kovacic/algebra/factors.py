@@ -13,10 +13,10 @@ from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 
-#: From so many factors of a denominator on, leading terms are tried that are short enough for so many primes.
+#: For this many factors of a denominator or more, leading terms are tried that are short enough for `_PRIMES` primes.
 _MANY_FACTORS = 50
 _PRIMES = 6
-#: To fewer factors trees are of no use.
+#: Trees of products don't pay for fewer factors.
 _FEW_FACTORS = 12
 
 
@@ -108,7 +108,7 @@ class _LiftedTerm:
         self._lifter = Lifter(field)
 
     def has(self, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> bool:
-        """Does what was proposed have these images, too?"""
+        """True if the last proposal has these images, too."""
         proposed = self.proposed
         if proposed is None:
             return False
@@ -199,7 +199,7 @@ class _Combination(NamedTuple):
     coefficients: list[Poly]
 
     def reduced(self, echelon: Mapping[int, _Combination]) -> _Combination:
-        """Reduced by those of the echelon, which are kept by their degrees, until none there has its degree."""
+        """The remainder by the members of an echelon, by their degrees, until none of them has its degree."""
         value = self.value
         coefficients = self.coefficients
         while value and value.degree in echelon:
@@ -207,10 +207,6 @@ class _Combination(NamedTuple):
             other = echelon[value.degree]
             ratio = value.lc / other.value.lc
             value = value - ratio * other.value
-            coefficients = [_less(c, ratio, d) for c, d in zip(coefficients, other.coefficients, strict=True)]
+            pairs = zip(coefficients, other.coefficients, strict=True)
+            coefficients = [c - ratio * d if d else c for c, d in pairs]  # most d are zero
         return _Combination(value, coefficients)
-
-
-def _less(c: Poly, ratio: Poly, d: Poly) -> Poly:
-    """c - ratio d; most d are zero."""
-    return c - ratio * d if d else c

@@ -74,18 +74,14 @@ class FunctionField(Field):
         x = self.context.gen(0)
         for coefficient in coefficients:
             if coefficient:
-                constant = self._constant(coefficient)
-                total = total._add(self.make(constant.num * power, constant.den))
+                if isinstance(coefficient, Poly):
+                    one = coefficient if isinstance(coefficient, FunctionPoly) else self.embed(coefficient[0])
+                else:
+                    constant = self.context.constant
+                    one = self.make(constant(coefficient.numerator), constant(coefficient.denominator))
+                total = total._add(self.make(one.num * power, one.den))
             power = power * x
         return total
-
-    def _constant(self, value: Scalar | Poly) -> FunctionPoly:
-        if isinstance(value, FunctionPoly):
-            return value
-        if isinstance(value, Poly):
-            return self.embed(value[0])
-        constant = self.context.constant
-        return self.make(constant(value.numerator), constant(value.denominator))
 
     def extends(self, other: Field) -> bool:
         return not isinstance(other, FunctionField) and other.absolute_degree == 1

@@ -89,7 +89,7 @@ class Collector(ABC):
         return [list(islice(following, length)) for length in self.shape]
 
     def _is_due(self) -> bool:
-        """One more prime was used: with which the next guess is made, after a third more of them than for the last one."""
+        """Count one more prime; True if a guess is due: after a third more primes than for the last one."""
         self.primes_used += 1
         if self.primes_used < self._next_attempt:
             return False

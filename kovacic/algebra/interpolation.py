@@ -88,8 +88,17 @@ class _Unknown:
         return sum(map(len, self.terms)) if self.terms else 0
 
     def solve(self, p: int, points: list[Exponents], values: list[int]) -> None:
-        """Add what the samples modulo a prime say: with the known terms, or with all up to the next degree."""
-        above, below = self.terms or self._terms_of_next_degree()
+        """Add what the samples modulo a prime say: with the known terms, or with all up to the next degree.
+
+        Raises `LimitExceeded` where these are too many.
+        """
+        if self.terms is None:
+            monomials = list(_monomials(self.parameters, self.degree))
+            if 2 * len(monomials) > _LARGEST:
+                reason = f"the answer has coefficients of degree above {self.degree - 1} in the parameters"
+                raise LimitExceeded(reason, limit="parameters")
+            self.degree += 1
+        above, below = self.terms or (monomials, monomials)
         solution = _solve(p, points, values, above, below)
         if solution is None:
             return
@@ -104,16 +113,6 @@ class _Unknown:
         self.residues = chinese_remainders(self.residues or [0] * len(residues), self.modulus, residues, p)
         self.modulus *= p
         self.primes.add(p)
-
-    def _terms_of_next_degree(self) -> tuple[list[Exponents], list[Exponents]]:
-        """All monomials up to it, for N and for D; raises LimitExceeded where these are too many."""
-        monomials = list(_monomials(self.parameters, self.degree))
-        if 2 * len(monomials) > _LARGEST:
-            raise LimitExceeded(
-                f"the answer has coefficients of degree above {self.degree - 1} in the parameters", limit="parameters"
-            )
-        self.degree += 1
-        return monomials, monomials
 
     def reconstruct(self) -> tuple[dict[Exponents, int], dict[Exponents, int]] | None:
         """Integer coefficients of N and D, or None as long as the modulus is too small."""

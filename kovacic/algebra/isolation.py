@@ -41,7 +41,10 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     if degree < 1:
         return ()
     check_duration(_SECONDS * degree**2, f"the isolation of the zeros of a polynomial of degree {degree}")
-    if degree == 1 or _is_soon_done(polynomial):
+    bits = polynomial.height_bits()
+    is_short = bits <= _SHORT + _SHORT_PER_DEGREE * degree
+    # Is there the time for zeros of any kind, clusters included?
+    if degree == 1 or (is_short and not may_be_late(degree**2 * (_MOST_SECONDS + _MOST_SECONDS_PER_BIT * bits))):
         return _isolated(polynomial)
     if degree == 2:
         return _of_quadratic(polynomial)
@@ -49,21 +52,12 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     return tuple((acb(_ball(real), _ball(imaginary)), k) for real, imaginary, k in found)
 
 
-def _is_soon_done(polynomial: fmpz_poly) -> bool:
-    """Are the coefficients short, and is there the time for zeros of any kind?"""
-    degree = polynomial.degree()
-    bits = polynomial.height_bits()
-    if bits > _SHORT + _SHORT_PER_DEGREE * degree:
-        return False
-    return not may_be_late(degree**2 * (_MOST_SECONDS + _MOST_SECONDS_PER_BIT * bits))
-
-
 def _isolated(polynomial: fmpz_poly) -> Zeros:
     return tuple((root, int(k)) for root, k in polynomial.complex_roots())
 
 
 def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
-    """Where the zeros differ, they do by more than the coefficients' square."""
+    """The zeros of a x^2 + b x + c, to the working precision: different ones are at least as far apart as 1/a^2."""
     c, b, a = polynomial.coeffs()
     square = b * b - 4 * a * c
     with working_precision(ctx.prec + 4 * int(polynomial.height_bits()) + 20):

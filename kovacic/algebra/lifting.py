@@ -53,19 +53,13 @@ def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int
     r1 = residue % modulus
     t0 = 0
     t1 = 1
-    while r1 and _is_product_above(bound, r1, abs(t1)):
+    # As long as r1 |t1| > bound: nearly always their lengths say so, and long numbers needn't be multiplied.
+    while r1 and (r1.bit_length() + t1.bit_length() > bound.bit_length() + 1 or r1 * abs(t1) > bound):
         quotient = r0 // r1
         r0, r1, t0, t1 = r1, r0 - quotient * r1, t1, t0 - quotient * t1
     if not r1 and abs(t1) > 1:
         return None
     return (r1, t1) if t1 > 0 else (-r1, -t1)
-
-
-def _is_product_above(bound: int, a: int, b: int) -> bool:
-    """Is a b > bound, for positive numbers?  Nearly always their lengths say so: long numbers needn't be multiplied."""
-    if a.bit_length() + b.bit_length() > bound.bit_length() + 1:
-        return True
-    return a * b > bound
 
 
 class Lifter:

@@ -310,7 +310,7 @@ class Field(ABC):
 
     @abstractmethod
     def extends(self, other: Field) -> bool:
-        """Is `other` one of the fields below this one?"""
+        """True if `other` is one of the fields below this one."""
 
     @abstractmethod
     def embed(self, polynomial: Poly) -> Poly:

@@ -30,7 +30,7 @@ _SHORT_DEGREE = 60
 _FEW_FACTORS = 16
 _FACTOR_SECONDS = 1e-7
 _SMALL_PRIME = 65267
-#: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
+#: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones, factors of up to `_SMOOTH_BITS` bits.
 _FACTORED_BITS = 160
 _SMOOTH_BITS = 15
 #: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
@@ -38,7 +38,7 @@ _POWER_SECONDS = 1.2e-9
 _GCD_SECONDS = 1.2e-11
 #: FLINT's time for a division over Z per bit of the products of coefficients.
 _QUOTIENT_SECONDS = 2e-11
-#: Above this degree products and divisions look at the clock; divisions so many times for each degree of the divisor.
+#: Above this degree products and divisions look at the clock; a division by a divisor of degree n every n/`_PIECES` terms.
 _LOOK_DEGREE = 100
 _PIECES = 8
 _SHORTEST_PIECE = 64
@@ -124,7 +124,11 @@ class RationalPoly(Poly):
     def __mul__(self, other: Poly | Scalar) -> RationalPoly:
         if type(other) is RationalPoly:
             if self.rep.degree() > _LOOK_DEGREE and other.rep.degree() > _LOOK_DEGREE:
-                self._foresee_product(other)
+                check_time()
+                bits = (self.degree + other.degree) * (self.height_bits() + other.height_bits())
+                if bits > _LONG_PRODUCT:
+                    what = f"a product of polynomials of degree {self.degree} and {other.degree}"
+                    check_duration(_PRODUCT_SECONDS * bits, what)
             return RationalPoly(self.rep * other.rep)
         if type(other) is int:
             return RationalPoly(self.rep * other)
@@ -178,15 +182,6 @@ class RationalPoly(Poly):
         if quotient is None:
             return None
         return RationalPoly(quotient * fmpq(divisor.rep.denom(), self.rep.denom()))
-
-    def _foresee_product(self, other: RationalPoly) -> None:
-        """Look at the clock before a long product; raise `LimitExceeded` where it won't end in time."""
-        check_time()
-        bits = (self.degree + other.degree) * (self.height_bits() + other.height_bits())
-        if bits > _LONG_PRODUCT:
-            check_duration(
-                _PRODUCT_SECONDS * bits, f"a product of polynomials of degree {self.degree} and {other.degree}"
-            )
 
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
@@ -343,8 +338,7 @@ class RationalField(Field):
 
 
 def foresee_move(degree: int, bits: int, point_bits: int) -> None:
-    """Raise `LimitExceeded` where there isn't the time to write down a polynomial, whose coefficients have so many bits, around
-    a point."""
+    """Raise `LimitExceeded` if there isn't the time to expand a polynomial, with coefficients of this size, around a point."""
     written = degree * (bits + degree * point_bits)
     what = f"a polynomial of degree {degree} around a point of {point_bits} bits"
     check_duration(_MOVE_SECONDS * float(written) ** _MOVE_POWER, what)
@@ -392,7 +386,8 @@ def _exact_quotient(dividend: Any, divisor: Any) -> Any:
 
 
 def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
-    """Quotient and remainder: the leading coefficients first, so many at a time, each piece behind what is left of the last."""
+    """Quotient and remainder, `size` coefficients of the dividend at a time from the leading one on, each piece behind the rest
+    of the last."""
     coefficients = dividend.coeffs()
     ring = type(dividend)
     quotient = rest = ring([])
@@ -406,7 +401,7 @@ def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
 
 
 def _may_take_long(polynomial: Any) -> bool:
-    """Might its factorisation end long after the time that is left?  For a short one that depends on its factors modulo p."""
+    """True if the factorisation might overrun the time that is left; for a short polynomial its factors modulo p tell."""
     degree = polynomial.degree()
     if degree <= _SHORT_DEGREE:
         return False

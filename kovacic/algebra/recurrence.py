@@ -86,20 +86,8 @@ class FieldSeries:
         return self._zero if pivot else -total
 
 
-def _operator(second: Poly, first: Poly, zeroth: Poly) -> list[tuple[Any, ...]]:
-    """The (a_j, b_j, c_j) of `second P'' + first P' + zeroth P`, integers over Q.
-
-    It takes x^k to sum_j L_j(k) x^(k+s-j), L_j(k) = a_j k (k-1) + b_j k + c_j.
-    """
-    parts = list[Any]([second, first, zeroth])
-    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
-    if first.field == QQ:
-        scale = lcm(*(f.content()[1] for f in parts))
-        parts = [(f * scale).rep.numer() for f in parts]
-    return [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)]
-
-
 def _at(coefficients: tuple[Any, ...], k: int) -> Any:
+    """L(k) = a k (k-1) + b k + c."""
     a, b, c = coefficients
     return a * (k * (k - 1)) + b * k + c
 
@@ -111,7 +99,14 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
     be added.
     """
-    operator = _operator(second, first, zeroth)
+    # The (a_j, b_j, c_j) of L_j(k) = a_j k (k-1) + b_j k + c_j, integers over Q: the operator takes x^k to
+    # sum_j L_j(k) x^(k+shift-j).
+    parts = list[Any]([second, first, zeroth])
+    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
+    if first.field == QQ:
+        scale = lcm(*(f.content()[1] for f in parts))
+        parts = [(f * scale).rep.numer() for f in parts]
+    operator = [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)]
     if _at(operator[0], degree):
         return None
     main = _descend(first.field, operator, degree)
@@ -152,7 +147,7 @@ def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple
 
 
 def _remainder(second: Poly, first: Poly, zeroth: Poly, P: Poly) -> Poly:
-    """second P'' + first P' + zeroth P for a P whose coefficients fulfil the recurrence: below x^shift of `_operator`.
+    """second P'' + first P' + zeroth P for a P whose coefficients satisfy the recurrence: all terms are below x^shift.
 
     By products, which stay fast where the operator is long; of P they need no more than the low powers.
     """

@@ -23,7 +23,7 @@ from kovacic.algebra.rationals import QQ, RationalHomomorphism
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
-#: From this degree on a number field may have too few primes that split completely; so many primes are tried.
+#: From this degree on a number field may have too few primes that split completely, as the first `_TRIED_PRIMES` show.
 _LARGE_DEGREE = 4
 _TRIED_PRIMES = 12
 #: Primes that are tried where a number field of such a degree has parameters.
@@ -47,14 +47,14 @@ def homomorphisms_modulo(field: Any, p: int) -> Iterator[Homomorphism]:
 
 @lru_cache(maxsize=64)
 def splits_rarely(base: Field, modulus: Poly) -> bool:
-    """Does none of the first primes split completely in a number field of a large degree?"""
+    """True for a number field of a large degree in which none of the first primes splits completely."""
     if base != QQ or modulus.degree < _LARGE_DEGREE:
         return False
     return not any(_splits(modulus, p) for p in islice(primes(), _TRIED_PRIMES))
 
 
 def _splits(modulus: Poly, p: int) -> bool:
-    """Does a polynomial over Q have as many roots modulo p as its degree says?"""
+    """True if a polynomial over Q has as many roots modulo p as its degree says."""
     try:
         return len(RationalHomomorphism(p).keeping_degree(modulus).roots()) == modulus.degree
     except BadPrimeError:
@@ -111,7 +111,7 @@ def _extended(
 
 
 def _splitting(modulus: Poly, allowed: Callable[[int], bool] | None) -> Callable[[int], bool]:
-    """Is a prime allowed, and does a polynomial over Q split completely there?
+    """The predicate of primes that are allowed and at which a polynomial over Q splits completely.
 
     Raises `LimitExceeded` after many primes: one in 12! does so for a general polynomial of degree 12.
     """
@@ -143,17 +143,14 @@ class _Remembered:
         for k in count():
             with self._lock:
                 while len(self._found) <= k:
-                    self._found.append(self._next())
+                    if self._search is None:
+                        self._search = islice(_bundles(*self._field), len(self._found), None)
+                    try:
+                        self._found.append(next(self._search))
+                    except BaseException:
+                        self._search = None
+                        raise
             yield self._found[k]
-
-    def _next(self) -> tuple[ExtensionHomomorphism, ...]:
-        if self._search is None:
-            self._search = islice(_bundles(*self._field), len(self._found), None)
-        try:
-            return next(self._search)
-        except BaseException:
-            self._search = None
-            raise
 
 
 @lru_cache(maxsize=64)

@@ -31,7 +31,7 @@ _DECIDERS: dict[Structure, Callable[[Problem], Outcome]] = {
 
 
 def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
-    """Which structure does the Galois group of y'' = S y have, and which form shows it?
+    """The structure of the Galois group of y'' = S y, and the form that shows it.
 
     With `certify=False` the polynomial of omega isn't computed.  An exhausted budget gives a decision with `undecided` set,
     and with the exclusions that were reached.

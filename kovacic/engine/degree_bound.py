@@ -1,4 +1,4 @@
-"""How many zeros a solution with a unique rational omega can have, exactly, and when there can be no such solution.
+"""The number of zeros that a solution with a unique rational omega can have, and when there can be no such solution.
 
 The exponents of the solution at the roots of a factor p are conjugate, (A +- sqrt g)/2 with g in K[x]/p, because omega is
 rational over K.  So g must be a square in K[x]/p, and the sum of the exponents over the roots follows from the trace of its
@@ -81,7 +81,14 @@ def degree_bound(problem: Problem) -> DegreeBound | Evidence:
         delta = place.delta
         twice -= n * place.weight
         if delta is None:
-            trace = _trace(place)
+            p = place.factor
+            if place.kind is not Kind.REGULAR:
+                square = irregular_difference_squared(place)
+            elif place.delta_squared is not None:
+                square = place.delta_squared
+            else:
+                square = (1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p
+            trace = trace_of_square_root(square, p)
             if trace is None:
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))
             # a Q-linear map of the field onto Q that is the identity on Q: the first rational coordinate
@@ -97,20 +104,10 @@ def degree_bound(problem: Problem) -> DegreeBound | Evidence:
 
 
 def is_cheap(problem: Problem) -> bool:
-    """Does `degree_bound` need no traces of square roots in extensions?"""
+    """True if `degree_bound` needs no traces of square roots in extensions."""
     return all(
         place.kind is Kind.ORDINARY or place.delta_squared is not None or place.degree == 1 for place in problem.places
     )
-
-
-def _trace(place: Place) -> Poly | None:
-    """The trace of an irrational difference of exponents over the roots, up to sign; None if it isn't in K[x]/p."""
-    p = place.factor
-    if place.kind is not Kind.REGULAR:
-        return trace_of_square_root(irregular_difference_squared(place), p)
-    if place.delta_squared is not None:
-        return trace_of_square_root(place.delta_squared, p)
-    return trace_of_square_root((1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p, p)
 
 
 def trace_of_square_root(square: Poly, p: Poly) -> Poly | None:

@@ -99,18 +99,14 @@ def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Plac
     best = None
     for place, least in zip(problem.places, valuations, strict=True):
         if place.kind is Kind.REGULAR and place.degree == 1:
-            count = sum(1 for value in _exponents(place, m) if value.denominator == 1 and value >= least)
+            # The exponents of the products of m solutions; an irrational Delta, with y+ and y- equally often, leaves m/2.
+            delta = place.delta or Fraction(0)
+            exponents = {(m + (2 * k - m) * delta) / 2 for k in range(m + 1)}
+            count = sum(1 for value in exponents if value.denominator == 1 and value >= least)
             if count < fewest:
                 fewest = count
                 best = place
     return best
-
-
-def _exponents(place: Place, m: int) -> set[Fraction]:
-    """Those of the products of m solutions that may be integers."""
-    if place.delta is None:  # irrational: y+ and y- equally often
-        return {Fraction(m, 2)}
-    return {(m + (2 * k - m) * place.delta) / 2 for k in range(m + 1)}
 
 
 def _coefficients(
@@ -161,7 +157,10 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> list[Any]:
 
 
 def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
-    """The vector v with rows v = 0 if it is unique up to a factor, else None; short rows are filled with zeros."""
+    """The vector v with rows v = 0 if it is unique up to a factor, else None.
+
+    Short rows are filled with zeros: a condition that is met early doesn't concern the solutions that begin later.
+    """
     entries = [value for row in rows for value in (*row, *[fmpq(0)] * (columns - len(row)))]
     basis, nullity = fmpq_mat(len(rows), columns, entries).numer_denom()[0].nullspace()
     return [basis[i, 0] for i in range(columns)] if nullity == 1 else None

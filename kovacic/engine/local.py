@@ -76,7 +76,12 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
     nu = equation.nu
     ratio = equation.N.mul_low(equation.E.inverse_series_trunc(nu), nu)
     if place.kind is Kind.REGULAR:
-        parts = _regular_parts(equation.p, place, int(ratio[0]))
+        # (1 + Delta)/2 and (1 - Delta)/2 with Delta^2 = 1 + 4 s, s the leading coefficient.
+        p = equation.p
+        delta = square_root(1 + 4 * int(ratio[0]), p) if place.delta is None else _modulo(place.delta, p)
+        signs = [1] if place.logarithm or delta == 0 else [1, -1]
+        half = pow(2, -1, p)
+        parts = [] if delta is None else [nmod_poly([(1 + sign * delta) * half % p], p) for sign in signs]
     else:
         parts = _irregular_parts(equation.p, nu, ratio)
     if exponents is None:
@@ -87,16 +92,6 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
 
 def _modulo(number: Fraction, p: int) -> int:
     return number.numerator * pow(number.denominator, -1, p) % p
-
-
-def _regular_parts(p: int, place: Place, leading: int) -> list[Any]:
-    """(1 + Delta)/2 and (1 - Delta)/2 with Delta^2 = 1 + 4 s, s the leading coefficient."""
-    difference = square_root(1 + 4 * leading, p) if place.delta is None else _modulo(place.delta, p)
-    if difference is None:
-        return []
-    signs = [1] if place.logarithm or difference == 0 else [1, -1]
-    half = pow(2, -1, p)
-    return [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
 
 
 def _irregular_parts(p: int, nu: int, ratio: Any) -> list[Any]:
@@ -121,7 +116,7 @@ def _irregular_parts(p: int, nu: int, ratio: Any) -> list[Any]:
 def rational_omega(c: ModularChart, Q: Any, degree: int) -> tuple[Any, Any] | None:
     """`(A, P)` modulo p with omega = A/(D P) in the chart, deg P <= degree, for the local solution of type Q, or None.
 
-    None is a proof that no such rational omega over K has a P of degree at most `degree` (see `cases.reducible`).
+    None is a proof that no such rational omega over K has a P of degree at most `degree` (see `engine.reducible`).
     """
     top = degree + c.growth
     order = top + degree + 2

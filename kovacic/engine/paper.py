@@ -26,6 +26,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import chain, product
 from math import factorial, prod
 from string import ascii_letters
 from typing import Any
@@ -110,7 +111,7 @@ class Search:
 
     @property
     def complete(self) -> bool:
-        """Were all families of the paper enumerated, every pole on its own?"""
+        """True if all families of the paper were enumerated, every pole on its own."""
         return self.families is not None and all(point.count == 1 for point in self.points)
 
 
@@ -121,7 +122,7 @@ class Roots:
         self.field = field
 
     def root(self, square: Poly) -> Poly | None:
-        """None where the field would become too large."""
+        """A square root, adjoined if need be; None if the field would become too large."""
         found = self.field.sqrt(square.over(self.field))
         if found is None and self.field.absolute_degree < _MOST_ROOTS:
             outer, inner = square.square_part() if isinstance(square, FunctionPoly) else (1, square)
@@ -137,10 +138,12 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     None outside the domain: exponents that are no square roots of constants, constants of a high degree, poles of a high
     order.
     """
-    if not _is_in_domain(problem):
+    highest = max(place.order for place in problem.places)
+    if highest > _HIGHEST_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
         return None
     roots = Roots(problem.field)
-    points = _all_points(problem.places, roots)
+    *poles, infinity = problem.places
+    points = (SingularPoint(infinity), *chain.from_iterable(_points(place, roots) for place in poles))
     choices = _all_choices(points, m, roots)
     if choices is None:
         return None
@@ -155,20 +158,6 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     shown = every if m == 1 and total <= _FEW_FAMILIES else hopeful
     trial = _Trial(problem, points, m, roots.field, Symbol(variable))
     return Search(m, points, choices, total, natural, _tried(shown, trial))
-
-
-def _is_in_domain(problem: Problem) -> bool:
-    """Are the orders of the poles and the degree of the constants low enough?"""
-    highest = max(place.order for place in problem.places)
-    return highest <= _HIGHEST_ORDER and problem.field.absolute_degree <= _HIGHEST_DEGREE
-
-
-def _all_points(places: Sequence[Place], roots: Roots) -> tuple[SingularPoint, ...]:
-    """Infinity, which is the last of the places, and the poles."""
-    points = [SingularPoint(places[-1])]
-    for place in places[:-1]:
-        points += _points(place, roots)
-    return tuple(points)
 
 
 def _all_choices(points: Sequence[SingularPoint], m: int, roots: Roots) -> tuple[tuple[Choice, ...], ...] | None:
@@ -201,23 +190,23 @@ def _families(
 
 
 def _weight(point: SingularPoint, m: int) -> Fraction | int:
-    """What d has an exponent at this point times: SCALE[m] at infinity, minus that at a pole."""
+    """The factor of an exponent at this point in d: SCALE[m] at infinity, minus that at a pole."""
     return SCALE[m] if point.place.at_infinity else -SCALE[m]
 
 
 def _may_succeed(family: Family, m: int) -> bool:
-    """Is d natural, and for m = 2 one of the e odd?"""
+    """True if d is natural and, for m = 2, one of the e is odd."""
     return is_natural(family.d) and (m != 2 or any(choice.value % 2 for choice in family.choices))
 
 
 def is_natural(d: Number) -> bool:
-    """Is it 0, 1, 2, ...?"""
+    """True for 0, 1, 2, ..."""
     value = _rational(d)
     return value is not None and value >= 0 and value.denominator == 1
 
 
 def natural(d: Number) -> int:
-    """The number 0, 1, 2, ... that it is."""
+    """The number 0, 1, 2, ... as an integer."""
     value = _rational(d)
     assert value is not None
     assert value.denominator == 1
@@ -256,19 +245,13 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
         parts = [(weight * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
             check_time()
-            sums = _summed(sums, parts)
+            longer: Counter[tuple[Number, bool]] = Counter()
+            for ((d, all_even), count), (part, even) in product(sums.items(), parts):
+                longer[d + part, all_even and even] += count
+            sums = longer
             if len(sums) > _MOST_FAMILIES:
                 return None
     return sum(count for (d, all_even), count in sums.items() if is_natural(d) and not all_even)
-
-
-def _summed(sums: Counter[tuple[Number, bool]], parts: Sequence[tuple[Number, bool]]) -> Counter[tuple[Number, bool]]:
-    """One more pole."""
-    found: Counter[tuple[Number, bool]] = Counter()
-    for (d, all_even), count in sums.items():
-        for part, even in parts:
-            found[d + part, all_even and even] += count
-    return found
 
 
 def _choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
@@ -276,46 +259,32 @@ def _choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] |
     place = point.place
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
         return tuple(map(Choice, _AT_ORDINARY_INFINITY.get(m, range(13))))
-    if place.order > 2:
-        return _at_irregular(place, m, roots)
-    if place.order == 1:  # alpha_c = 1, or e_c = 12 (4 for m = 2)
-        value = 1 if m == 1 else 2 * _centre(m)
-        return (Choice(value),)
     if m == 1:
-        return _square_root_exponents(place, roots)
-    return _rational_exponents(place, m)
-
-
-def _centre(m: int) -> int:
-    """The middle of the set E_c at a pole of order 2."""
-    return 2 if m == 2 else 6
-
-
-def _at_irregular(place: Place, m: int, roots: Roots) -> tuple[Choice, ...] | None:
-    """(c3), (inf3) for m = 1, and E_c with one element for m = 2; higher degrees don't occur."""
-    if m == 2:
+        return _first_case_choices(place, roots)
+    if place.order > 2:  # E_c has one element for m = 2; higher degrees don't occur
         value = 4 - place.order if place.at_infinity else place.order
-        return (Choice(value),)
-    if m == 1 and place.degree == 1 and place.order % 2 == 0:
-        return _irregular(place, roots)
-    return None
+        return (Choice(value),) if m == 2 else None
+    centre = 2 if m == 2 else 6  # the middle of the set E_c at a pole of order 2
+    if place.order == 1:  # e_c = 12, or 4 for m = 2
+        return (Choice(2 * centre),)
+    # The integers among 2 + k Delta (m = 2) and 6 + 12 k Delta / m (m = 4, 6, 12), k = 0, +-1, ..., up to +-m/2 steps.
+    step = Fraction(2 * centre, m) * (place.delta or 0)
+    values = {centre + k * step for k in range(-m // 2, m // 2 + 1)}
+    return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
 
 
-def _square_root_exponents(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
-    """(c2) and (inf2): alpha = 1/2 + Delta/2 and 1/2 - Delta/2, once where they are equal."""
+def _first_case_choices(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
+    """Step 1 for m = 1 at a singular point: (c1) to (c3), (inf2), (inf3)."""
+    if place.order > 2:
+        return _irregular(place, roots) if place.degree == 1 and place.order % 2 == 0 else None
+    if place.order == 1:
+        return (Choice(1),)
+    # alpha = 1/2 + Delta/2 and 1/2 - Delta/2, once where they are equal.
     delta = None if place.delta_squared is None else roots.root(place.delta_squared)
     if delta is None:
         return None
     signs = (1, -1) if delta else (1,)
     return tuple(Choice((1 + sign * delta) / 2) for sign in signs)
-
-
-def _rational_exponents(place: Place, m: int) -> tuple[Choice, ...]:
-    """The integers among 2 + k Delta (m = 2) and 6 + 12 k Delta / m (m = 4, 6, 12), k = 0, +-1, ..., up to +-m/2 steps."""
-    centre = _centre(m)
-    step = Fraction(2 * centre, m) * (place.delta or 0)
-    values = {centre + k * step for k in range(-m // 2, m // 2 + 1)}
-    return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
 
 
 def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
@@ -392,7 +361,7 @@ class _Trial:
         return natural(family.d)
 
     def work(self, family: Family) -> int:
-        """Multiplications, about."""
+        """About how many multiplications of coefficients the trial takes."""
         n = self.D.degree
         d = self.degree(family)
         return (d + 1) * self.m * (self.m * n + d) * (n + 1) * self.field.absolute_degree**2

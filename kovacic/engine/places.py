@@ -96,7 +96,7 @@ class Place:
 
     @cached_property
     def logarithm(self) -> bool:
-        """Does a logarithm provably occur?  False says only that no proof was found.
+        """True if a logarithm provably occurs; False says only that no proof was found.
 
         For Delta > 0 the series with the smaller exponent meets an obstruction at its term number Delta.  If it doesn't vanish
         modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a
@@ -127,7 +127,7 @@ class Place:
 
     @property
     def degree(self) -> int:
-        """How many points of the Riemann sphere the place stands for."""
+        """The number of points of the Riemann sphere that the place stands for."""
         return self.factor.degree
 
     @cached_property
@@ -150,7 +150,7 @@ class Place:
 
     @property
     def is_apparent(self) -> bool:
-        """Do all solutions look alike here up to a sign: integer exponent difference and no logarithm found?"""
+        """True if all solutions look alike here up to a sign: an integer exponent difference, and no logarithm found."""
         if self.kind is Kind.ORDINARY:
             return True
         return self.delta is not None and self.delta.denominator == 1 and not self.logarithm
@@ -237,7 +237,7 @@ class LocalEquation:
         return int(self.E.modulus())
 
     def expanded(self, order: int) -> LocalEquation:
-        """The same to so many terms, with E = 1 where E is long: a term of a solution takes one scalar product, not three."""
+        """The equation to `order` terms, with E = 1 if E is long: a term of a solution takes one scalar product, not three."""
         if 6 * self.E.degree() <= order:
             return self
         size = order + 2 * self.nu

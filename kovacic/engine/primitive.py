@@ -21,7 +21,7 @@ INVARIANT_DEGREE = {Structure.TETRAHEDRAL: 6, Structure.OCTAHEDRAL: 8, Structure
 
 
 def decide(problem: Problem, structure: Structure) -> Outcome:
-    """Is the group this primitive one?  The smaller ones must have been excluded before."""
+    """Find the omega of a primitive group, or exclude the group; the smaller ones must have been excluded before."""
     found = invariants(problem, INVARIANT_DEGREE[structure])
     if isinstance(found, NoInvariant):
         return (Exclusion(structure, (found,)),)

@@ -54,11 +54,11 @@ class Form:
         return numerators(problem.D, problem.T, self.R, self.P, self.degree, count)
 
     def semi_invariant(self, problem: Problem) -> SemiInvariant:
-        """The same as it is claimed."""
+        """The form as the data of a claim, with theta = R/D."""
         return SemiInvariant(self.degree, RatFunc(self.R, problem.D), self.P)
 
     def is_form(self, problem: Problem) -> bool:
-        """Is this really a form in the solutions of the equation?"""
+        """True if this is a form in the solutions of the equation: A_(m+1) = 0."""
         return not self.numerators(problem)[-1]
 
 

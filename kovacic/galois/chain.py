@@ -21,12 +21,10 @@ of divisors.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 from math import lcm
-from typing import Any
 
 from flint import fmpq_mat, fmpz_mat
 
@@ -96,8 +94,14 @@ def logarithmic_slope(piece: Piece, h: Poly) -> RatFunc:
 
 def model_of(H: RatFunc) -> Model:
     """The curve in a coordinate in which the points at infinity aren't rational, and the poles of eta."""
-    r = next(r for r in _integers() if _is_no_square(H, r))
     field = H.field
+    # The first of 0, 1, -1, 2, ... at which H(r) is a number, not 0, without a root in the field.
+    for k in count():
+        r = (k + 1) // 2 * (-1) ** (k + 1)
+        above = H.num(field.poly([r]))
+        below = H.den(field.poly([r]))
+        if above and below and field.sqrt(above * below) is None:
+            break
     shifted = [f(field.poly([r, 1])) for f in (H.num, H.den)]
     top = max(f.degree for f in shifted)
     num, den = (f.reversed(top - f.degree) for f in shifted)
@@ -109,21 +113,6 @@ def model_of(H: RatFunc) -> Model:
         if multiplicity == 2:
             poles.append(_pole(moved, h, s, q))
     return Model(r, h, s, tuple(poles))
-
-
-def _integers() -> Iterator[int]:
-    """0, 1, -1, 2, -2, ..."""
-    yield 0
-    for k in count(1):
-        yield k
-        yield -k
-
-
-def _is_no_square(H: RatFunc, r: int) -> bool:
-    """Is H(r) a number of the field that has no root in it?"""
-    num = H.num(H.field.poly([r]))
-    den = H.den(H.field.poly([r]))
-    return bool(num) and bool(den) and H.field.sqrt(num * den) is None
 
 
 def _squarefree_part(H: RatFunc) -> tuple[Poly, RatFunc]:
@@ -147,7 +136,7 @@ def _pole(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fraction]:
     assert square is not None
     root = QQ.rational_value(QQ.sqrt(QQ.poly([square])) or QQ.poly([]))
     assert root
-    return Points(q, y * abs(root)), abs(root)
+    return Points(q, y * abs(root)), abs(root)  # y is proportional to the residue
 
 
 def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
@@ -175,17 +164,17 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     one = model.h.field.poly([1])
     total = Points(one, one * 0)
     pieces: list[Piece] = []
-    for place in reversed(range(max(multiples).bit_length())):
+    for digit in reversed(range(max(multiples).bit_length())):
         check_time()
         total = _sum(model.h, total, total)
         for (points, _), N in zip(model.poles, multiples, strict=True):
-            if N >> place & 1:
+            if N >> digit & 1:
                 total = _sum(model.h, total, points)
         total, found = _reduced(model, total)
         if total.u.height_bits() > _LARGEST_HEIGHT:
             return None
         if found is not None:
-            pieces.append(Piece(2**place, *found))
+            pieces.append(Piece(2**digit, *found))  # it is doubled `digit` times from now on
     return None if total.u.degree else pieces
 
 
@@ -270,14 +259,15 @@ def _shortest(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly
     if field.ground != QQ:
         return _primitive(*first)
     basis = [_primitive(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
-    M = _coordinate_matrix(basis)
+    lengths = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
+    M = fmpz_mat([[*_coordinates(a, lengths[0]), *_coordinates(b, lengths[1])] for a, b in basis])
     size = len(basis)
     columns = M.transpose().hnf()
     T = fmpz_mat([[columns[j, i] for j in range(size)] for i in range(size)])
     saturated = (fmpq_mat(T).inv() * fmpq_mat(M)).numer_denom()[0]
     rows, change = saturated.lll(transform=True)
-    lengths = [sum(int(c) ** 2 for c in row) for row in rows.tolist()]
-    shortest = lengths.index(min(lengths))
+    squares = [sum(int(c) ** 2 for c in row) for row in rows.tolist()]
+    shortest = squares.index(min(squares))
     factors = (fmpq_mat(change) * fmpq_mat(T).inv()).tolist()[shortest]
     a = b = first[0] * 0
     for factor, pair in zip(factors, basis, strict=True):
@@ -285,13 +275,6 @@ def _shortest(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly
         a = a + pair[0] * scale
         b = b + pair[1] * scale
     return a, b
-
-
-def _coordinate_matrix(pairs: Sequence[tuple[Poly, Poly]]) -> Any:
-    """The integral coordinates of each pair, a row."""
-    first_length = 1 + max(a.degree for a, _ in pairs)
-    second_length = 1 + max(b.degree for _, b in pairs)
-    return fmpz_mat([[*_coordinates(a, first_length), *_coordinates(b, second_length)] for a, b in pairs])
 
 
 def _power_basis(field: Field) -> list[Poly]:

@@ -75,7 +75,7 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
 
 
 def _is_square(problem: Problem, F: SemiInvariant) -> bool:
-    """Is the quadratic form the square of a solution: F'^2 - 2 F F'' + 4 S F^2 = 0?"""
+    """True if the quadratic form is the square of a solution: F'^2 - 2 F F'' + 4 S F^2, A1^2 - 4 A0 A2 over D^2, is 0."""
     R = (F.theta * problem.D).num
     A0, A1, A2 = Form(2, R, F.P).numerators(problem)[:3]
     return A1 * A1 == 4 * A0 * A2

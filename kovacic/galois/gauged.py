@@ -102,7 +102,10 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     if N == 1:
         return EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order)
     if kind is GroupKind.SL2:
-        return EquationGroup(normal_form, N, _special_linear(N), False)
+        name = "GL2"
+        if N is not None:  # -1 lies in SL2
+            name = "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
+        return EquationGroup(normal_form, N, name, False)
     assert f is not None
     if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):
         torus = _torus(*_forms(f.theta, rho))
@@ -116,13 +119,6 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     if kind is GroupKind.INFINITE_DIHEDRAL:
         return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
     return _finite_gauge(S, normal_form, f, rho, N)
-
-
-def _special_linear(N: int | None) -> str:
-    """The name of SL2 with scalars of order N > 1; -1 is in SL2."""
-    if N is None:
-        return "GL2"
-    return "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
 
 
 def _finite_gauge(S: RatFunc, normal_form: Group, f: SemiInvariant, rho: RatFunc, N: int) -> EquationGroup:
@@ -160,7 +156,11 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
     if group.order is None:
         return None
     if group.kind in _COMMON_QUOTIENT:
-        e = _common_quotient(group.kind, f, rho, N)
+        # The quotient of degree e is common if f has the same character as gamma to a power of the order e.
+        e = _COMMON_QUOTIENT[group.kind]
+        powers = [j * (N // e) for j in range(1, e + 1) if gcd(j, e) == 1]
+        if N % e or not any(_is_integral(power * rho - f.theta) for power in powers):
+            e = 1
         common = e if (N // e) % 2 else 2 * e  # with -1, which is in both
         return group.order * N // common
     if N == 2:  # the sign is a character of G that is trivial at -1, or independent of it
@@ -224,7 +224,7 @@ def _up_to_squares(function: CurveFunction, factors: Sequence[Poly]) -> tuple[Po
 
 
 def _is_square(A: Poly, B: Poly, h: Poly) -> bool:
-    """Is A + B y on the curve y^2 = h a square, up to a constant?
+    """True if A + B y on the curve y^2 = h is a square, up to a constant.
 
     The norm A^2 - h B^2 of a square is the square of some m, and 2 (A + m) (A + B y) = (A + m + B y)^2; so it is one exactly
     if A + m is a square on the curve, which for a rational function is the square of a rational function, or h times one.
@@ -240,16 +240,8 @@ def _is_square(A: Poly, B: Poly, h: Poly) -> bool:
     return any(all(k % 2 == 0 for _, k in squarefree_factors(F)) for F in (rational, rational * h.over(rational.field)))
 
 
-def _common_quotient(kind: GroupKind, f: SemiInvariant, rho: RatFunc, N: int) -> int:
-    """e, the degree of the largest common quotient of a primitive G and Gamma = mu_N."""
-    e = _COMMON_QUOTIENT[kind]
-    if N % e:
-        return 1
-    powers = [j * (N // e) for j in range(1, e + 1) if gcd(j, e) == 1]
-    return e if any(_is_integral(power * rho - f.theta) for power in powers) else 1
-
-
 def _is_integral(theta: RatFunc) -> bool:
+    """True if exp(int theta) is a rational function: simple poles with integer residues only."""
     residues = rational_residues(theta)
     return not isinstance(residues, Ground) and all(r.denominator == 1 for r in residues)
 
@@ -302,18 +294,14 @@ def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tu
     """The diagonalisable group with the characters Z^2/L, L = {(a, b) : the first forms vanish, the others are integers}."""
     rows = [row for row in vanishing if any(row)]
     if not rows:
-        return _finite_torus(integral)
+        n = lcm(1, *(value.denominator for row in integral for value in row))
+        matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
+        # The entries have no common factor, n being the least common denominator: the elementary divisors are 1 and the gcd
+        # of the minors.
+        minors = gcd(*(r[0] * s[1] - r[1] * s[0] for k, r in enumerate(matrix) for s in matrix[:k]))
+        return Torus.of(0, n // minors, n)
     p, q = rows[0]
     if any(p * s != q * r for r, s in rows):
         return Torus.of(2)
     a, b = (-q / p).as_integer_ratio() if p else (1, 0)  # p a + q b = 0
     return Torus.of(1, lcm(1, *((r * a + s * b).denominator for r, s in integral)))
-
-
-def _finite_torus(integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:
-    """That where no form has to vanish."""
-    n = lcm(1, *(value.denominator for row in integral for value in row))
-    matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
-    # The entries have no common factor, n being the least common denominator: the elementary divisors are 1 and the minors'.
-    minors = gcd(*(r[0] * s[1] - r[1] * s[0] for k, r in enumerate(matrix) for s in matrix[:k]))
-    return Torus.of(0, n // minors, n)

@@ -60,7 +60,7 @@ _UPPER = "the upper triangular matrices with c and 1/c on the diagonal, "
 
 
 class _Facts(NamedTuple):
-    """What is said of a kind, with n and the order where they belong."""
+    """The texts about a kind, with places for n and the order, its dimension, and its order if that is fixed."""
 
     name: str
     latex: str
@@ -138,7 +138,7 @@ class Group:
 
     @property
     def claim(self) -> GroupClaim:
-        """What the kernel checks."""
+        """The claim that the kernel checks."""
         evidence = (self.form, self.orders, self.function)
         return GroupClaim(self.kind.value, self.n, *evidence, order=self.order, dimension=self.dimension)
 
@@ -175,7 +175,7 @@ class Group:
 
     @property
     def finite(self) -> bool | None:
-        """Is the group finite, so that all solutions are algebraic functions?  None if that wasn't determined."""
+        """True if the group is finite, so that all solutions are algebraic functions; None if that wasn't determined."""
         return None if self.kind is GroupKind.IMPRIMITIVE else self.order is not None
 
     @property

@@ -49,7 +49,7 @@ from kovacic.galois.jacobian import Jacobian
 
 #: Primes whose orders must agree before a function of this order is looked for.
 _AGREEING_PRIMES = 3
-#: So many orders are tried where no prime shows one.
+#: The orders 1, 2, ... up to this are tried where no prime shows one.
 _ORDERS_TRIED = 12
 #: Primes that are tried, beyond which the bad ones are too many.
 _PRIMES_TRIED = 400
@@ -131,7 +131,11 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurv
     for h in _small_homomorphisms(problem.field, curve.genus):
         problem.budget.check()
         try:
-            _demand_a_value_without_root(H, h)
+            # The kernel moves infinity to where H isn't a square modulo p: there has to be such a place.
+            num = h(H.num)
+            den = h(H.den)
+            if all(fmpz(int(num(r)) * int(den(r))).jacobi(h.p) != -1 for r in range(h.p)):
+                continue
             k = _order_modulo(h, curve, l)
         except BadPrimeError:
             continue
@@ -171,16 +175,6 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 
-def _demand_a_value_without_root(H: RatFunc, h: Homomorphism) -> None:
-    """The kernel moves infinity to where H isn't a square modulo p: there has to be such a place."""
-    num = h(H.num)
-    den = h(H.den)
-    for r in range(h.p):
-        if fmpz(int(num(r)) * int(den(r))).jacobi(h.p) == -1:
-            return
-    raise BadPrimeError("all values are squares")
-
-
 # ------------------------------------------------------------------------------------------- orders modulo primes
 
 
@@ -194,12 +188,23 @@ class _Image(NamedTuple):
 
 def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # noqa: E741 - as in the module's text
     """The order of the divisor of l eta in the Jacobian modulo p.  Raises `BadPrimeError` where that says nothing."""
-    _demand_units(curve.residues, h.p)
-    images = _images(curve, h)
+    # The kernel knows the residues by their squares modulo p: these have to be units, and different ones.
+    squares = {residue**2 for residue in curve.residues}
+    differences = {a - b for a, b in combinations(squares, 2)}
+    if any(value.numerator * value.denominator % h.p == 0 for value in squares | differences):
+        raise BadPrimeError("a residue isn't a unit, or two have the same square")
+    images = [_Image(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
+    together = prod((image.factor for image in images), start=nmod_poly([1], h.p))
+    if together.gcd(together.derivative()).degree() > 0:
+        raise BadPrimeError("points meet")
     if curve.infinity.e % 2 == 0:
         images = _moved(images, curve.infinity, h.p)
+    # With g = c b Q^2, b the product over the branch points, eta = dx/(s Q) on the curve s^2 = b/c', c' a constant that one
+    # of its points tells.
     poles = [(image, _ordinate(image, images)) for image in images if image.residue]
-    jacobian = Jacobian(_curve_through(*poles[0], images))
+    first, s = poles[0]
+    branch = prod((image.factor for image in images if image.e % 2), start=first.factor**0)
+    jacobian = Jacobian(branch * int((s * s * branch.xgcd(first.factor)[1] % first.factor)[0]))
     total = jacobian.zero
     for image, s in poles:
         points = jacobian.point(image.factor, s)
@@ -207,42 +212,17 @@ def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # no
     return jacobian.order(total)
 
 
-def _demand_units(residues: list[Fraction], p: int) -> None:
-    """The kernel knows the residues by their squares modulo p: these have to be units, and different ones."""
-    squares = {residue**2 for residue in residues}
-    differences = {a - b for a, b in combinations(squares, 2)}
-    if any(value.numerator * value.denominator % p == 0 for value in squares | differences):
-        raise BadPrimeError("a residue isn't a unit, or two have the same square")
-
-
-def _images(curve: SquareRootCurve, h: Homomorphism) -> list[_Image]:
-    images = [_Image(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
-    together = prod((image.factor for image in images), start=nmod_poly([1], h.p))
-    if together.gcd(together.derivative()).degree() > 0:
-        raise BadPrimeError("points meet")
-    return images
-
-
 def _moved(images: list[_Image], infinity: CurvePoint, p: int) -> list[_Image]:
     """The points in a coordinate t = 1/(x - r), which keeps eta, with a branch point at infinity; the old infinity is 0."""
-    r = _rational_branch_point(images)
+    r = next((root for image in images if image.e % 2 for root in simple_roots(image.factor)), None)
+    if r is None:
+        raise BadPrimeError("no branch point is rational modulo this prime")
     moved = []
     for image in images:
         factor = image.factor.compose(nmod_poly([r, 1], p)).reverse()
         if factor.degree():
             moved.append(image._replace(factor=factor))
     return [*moved, _Image(nmod_poly([0, 1], p), infinity.e, infinity.residue)]
-
-
-def _rational_branch_point(images: list[_Image]) -> int:
-    for image in images:
-        if image.e % 2:
-            for root in simple_roots(image.factor):
-                return root
-    raise BadPrimeError("no branch point is rational modulo this prime")
-
-
-# With g = c b Q^2, b the product over the branch points, eta = dx/(s Q) on the curve s^2 = b/c', c' a constant.
 
 
 def _ordinate(pole: _Image, images: list[_Image]) -> Any:
@@ -253,10 +233,3 @@ def _ordinate(pole: _Image, images: list[_Image]) -> Any:
     below = prod((image.factor ** (-(image.e // 2)) for image in images if image.e < 0), start=one)
     residue = pole.residue.numerator * pow(pole.residue.denominator, -1, q.modulus())
     return below * (above.derivative() * residue).xgcd(q)[1] % q
-
-
-def _curve_through(pole: _Image, s: Any, images: list[_Image]) -> Any:
-    """b/c', where c' is known from one of its points."""
-    q = pole.factor
-    branch = prod((image.factor for image in images if image.e % 2), start=q**0)
-    return branch * int((s * s * branch.xgcd(q)[1] % q)[0])

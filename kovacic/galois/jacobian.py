@@ -83,8 +83,12 @@ class Jacobian:
 
         n = least + i s - j for one of the giant steps i and of the s baby steps j [Shanks].
         """
-        least, width = self._number_of_classes()
-        s = isqrt(width) + 1
+        # The number of classes is between (sqrt(p) - 1)^(2g) and (sqrt(p) + 1)^(2g) [Weil].
+        genus = (self.h.degree() - 1) // 2
+        root = Fraction(isqrt(int(self.h.modulus()) << 40), 1 << 20)  # at most sqrt(p), and more than sqrt(p) - 2^-20
+        least = max(int((root - 1) ** (2 * genus)), 1)
+        most = int((root + 1 + Fraction(1, 1 << 20)) ** (2 * genus)) + 1
+        s = isqrt(most - least) + 1
         babies: dict[tuple[Any, ...], int] = {}
         current = self.zero
         for j in range(s):
@@ -100,14 +104,6 @@ class Jacobian:
                 return n
             current = self.add(current, giant)
         raise AssertionError("the number of classes is in the interval of Hasse and Weil")
-
-    def _number_of_classes(self) -> tuple[int, int]:
-        """A natural number and a width: the number of classes is between (sqrt(p) - 1)^(2g) and (sqrt(p) + 1)^(2g) [Weil]."""
-        genus = (self.h.degree() - 1) // 2
-        root = Fraction(isqrt(int(self.h.modulus()) << 40), 1 << 20)  # at most sqrt(p), and more than sqrt(p) - 2^-20
-        least = max(int((root - 1) ** (2 * genus)), 1)
-        most = int((root + 1 + Fraction(1, 1 << 20)) ** (2 * genus)) + 1
-        return least, most - least
 
     def _reduced(self, u: Any, v: Any) -> DivisorClass:
         while 2 * u.degree() >= self.h.degree():
