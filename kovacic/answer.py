@@ -47,7 +47,7 @@ class Answer:
 
     @property
     def change(self) -> Change | None:
-        """Which function of the user's variable, that of `solutions`, `variable` is; None where they are the same."""
+        """`variable` as a function of the user's variable, in which `solutions` are; None if they are the same."""
         return None if self.equation is None else self.equation.change
 
     @property
@@ -96,12 +96,12 @@ class Answer:
         raise TypeError("ask for .status or .case: an answer is neither true nor false")
 
     def __getstate__(self) -> dict[str, Any]:
-        """The data alone: what was computed from it may not pickle, and is computed again when it is asked for."""
+        """The data alone: what was computed from it may not pickle, and is computed again on demand."""
         return {f.name: self.__dict__[f.name] for f in fields(self)}
 
 
 def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
-    """The function of an answer; what it finds is kept with the answer.
+    """A decorator for functions of an answer: the result is kept with the answer.
 
     >>> @computed_once
     ... def squared(answer):
@@ -127,7 +127,7 @@ def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
 
 
 def was_computed(function: Callable[[Any], Any], answer: Answer) -> bool:
-    """Has this function of `computed_once` been asked for?"""
+    """True if this function of `computed_once` has been called for the answer."""
     return _name(function) in answer.__dict__
 
 

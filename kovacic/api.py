@@ -194,7 +194,7 @@ def _read(
 def _decided(
     parsed: Parsed, S: Any, assume: Mapping[Any, Any] | None, budget: Budget, *, certify: bool
 ) -> tuple[Decision, tuple[str, ...], bool, Assumptions | None]:
-    """The decision, under the assumptions if there are any, the notices, is it proven for all values with them, and they."""
+    """The decision, the notices, whether it is proven for all values with the assumptions, and the assumptions as read."""
     decision = decide_structure(parsed.S, budget, certify=certify)
     if assume is None and parsed.S.field.ground == QQ:
         return decision, parsed.notices, False, None

@@ -59,9 +59,9 @@ def eigenvalues(
     domain : pair, optional
         The ends, if the conditions don't name both; the whole line without any.
     count : int
-        So many eigenvalues, if there are as many.
+        The number of eigenvalues; fewer come back if there are no more.
     digits : int
-        Proven digits of each, relative to it, or to a thousandth of the mean distance of eigenvalues where that is
+        Proven digits of each, relative to its size, or to a thousandth of the mean distance of eigenvalues if that is
         larger.
     var : str, optional
         The name of the variable.

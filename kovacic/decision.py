@@ -38,7 +38,7 @@ class Structure(Enum):
 
 
 class Rule(Enum):
-    """The necessary conditions that can fail; the value says what is the case instead."""
+    """The necessary conditions that can fail; the value is the sentence about the failure that users read."""
 
     RAMIFIED = "an irregular singular point is ramified, so no solution has a rational logarithmic derivative"
     LOGARITHM = (
@@ -215,8 +215,8 @@ class Piece:
 class CurveFunction:
     """A function f, the product of its pieces up to a function of x alone, on the curve y^2 = h.
 
-    `multiple` * d log(y1/y2) = df/f + `rest` dx/y: without a rest (y1/y2)^multiple is f; with one, holomorphic as it is, no
-    power of y1/y2 is a function.
+    `multiple` * d log(y1/y2) = df/f + `rest` dx/y: without a rest (y1/y2)^multiple is f; with one, since it is holomorphic,
+    no power of y1/y2 is a function.
     """
 
     multiple: int
@@ -227,7 +227,7 @@ class CurveFunction:
 
 @dataclass(frozen=True)
 class GroupClaim:
-    """What is said of the group: its family, as in `kovacic.galois.GroupKind`, the parameter n, and its size.
+    """A claim about the group: its family, as in `kovacic.galois.GroupKind`, the parameter n, and its size.
 
     `order` is None for an infinite group, and for one whose order wasn't determined; then the dimension is None as well.
 

@@ -1,4 +1,4 @@
-"""What follows from an answer by the theory: the groups, two solutions, the check.  Computed when asked for, once each.
+"""Consequences of an answer: the groups, two solutions, the check.  Each is computed on demand, once.
 
 Each room is imported when its function is called: a verdict alone needs neither SymPy nor the group.
 """
@@ -57,7 +57,7 @@ def equation_group(answer: Answer) -> EquationGroup | None:
 
 
 def is_algebraic(answer: Answer) -> bool | None:
-    """Are all solutions of the equation as given algebraic functions?  None if that wasn't determined."""
+    """True if all solutions of the equation as given are algebraic functions; None if that wasn't determined."""
     found = equation_group(answer)
     return None if found is None else found.finite
 
@@ -97,7 +97,7 @@ def special(answer: Answer) -> SpecialFunctions:
 
 
 def _in_given_variable(answer: Answer, found: Any) -> Any:
-    """The same with y1 and y2 in the user's variable."""
+    """`found` with y1 and y2 in the user's variable."""
     if answer.equation is None or answer.change is None or found.y1 is None:
         return found
     from kovacic.reading.change_of_variable import solution_in_x

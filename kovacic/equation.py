@@ -37,7 +37,7 @@ ENERGY = "E"
 
 @dataclass(frozen=True)
 class Change:
-    """Which function of the user's variable the variable of an equation is.
+    """The variable of an equation as a function of the user's variable.
 
     Attributes
     ----------
@@ -94,8 +94,8 @@ class Equation:
     variable, unknown : str
         The names of x and y.
     change : Change or None
-        Which function of the user's variable the variable is, where coefficients in exp(k x) were given.  Then h is in the
-        user's variable, and what is beside f on the right-hand side there, divided by the coefficient of y''.
+        The variable as a function of the user's, where coefficients in exp(k x) were given.  Then h is in the user's
+        variable: the part of the right-hand side apart from f, divided by the coefficient of y''.
 
     Raises
     ------
@@ -139,12 +139,12 @@ class Equation:
 
     @property
     def is_homogeneous(self) -> bool:
-        """Is the right-hand side zero?"""
+        """True if the right-hand side is zero."""
         return not self.f and self.h is None
 
     @property
     def is_normal_form(self) -> bool:
-        """Is it y'' = S y itself, up to a factor?"""
+        """True for y'' = S y itself, up to a factor."""
         return not self.b and self.is_homogeneous
 
     def text(self, *, caret: bool = True) -> str:
@@ -171,7 +171,14 @@ class Equation:
         """
         y = self.unknown
         terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]
-        left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)
+        products = []
+        for coefficient, name in terms:
+            text = _coefficient(coefficient, self.variable)
+            if text in ("1", "-1"):
+                products.append(text[:-1] + name)
+            elif text != "0":
+                products.append(f"({text})*{name}" if " " in text or "/" in text else f"{text}*{name}")
+        left = " + ".join(products)
         right = [_coefficient(self.f, self.variable)] if self.f or self.h is None else []
         if self.h is not None and self.change is None:
             right.append(as_text(self.h))
@@ -225,13 +232,6 @@ def parameters_of(field: Field) -> tuple[str, ...]:
     return () if ground == QQ else ground.names  # type: ignore[attr-defined]
 
 
-def _term(coefficient: RatFunc, name: str, variable: str) -> str:
-    text = _coefficient(coefficient, variable)
-    if text in ("1", "-1"):
-        return text[:-1] + name
-    return f"({text})*{name}" if " " in text or "/" in text else f"{text}*{name}"
-
-
 def _coefficient(function: RatFunc, variable: str) -> str:
     """As `to_str`, but a polynomial over Q keeps its fractions: x**2 - 1/4."""
     num = function.num
@@ -255,12 +255,12 @@ def _coefficient(function: RatFunc, variable: str) -> str:
 
 
 def over(function: RatFunc, field: Field) -> RatFunc:
-    """The same function over a larger field."""
+    """The function over a larger field."""
     return RatFunc(function.num.over(field), function.den.over(field), reduced=True)
 
 
 def lowered(function: RatFunc) -> RatFunc:
-    """The same function over the field below, where its coefficients lie there."""
+    """The function over the lowest field of the tower that contains its coefficients."""
     num = function.num
     den = function.den
     while isinstance(num, ExtensionPoly) and isinstance(den, ExtensionPoly):

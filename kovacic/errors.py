@@ -61,19 +61,18 @@ class InputError(KovacicError, ValueError):
     def _told(self, hint: str | None) -> str:
         parts = [self.message]
         if self.text is not None and self.position is not None:
-            parts.append(f"  at position {self.position}:\n{self._marked(self.text, self.position)}")
+            # The text around the offending part, in one line, and below it a line that marks the part.
+            start = self.position
+            end = start + max(self.length, 1)
+            before, part, after = (
+                visible(piece.replace("\n", " "))
+                for piece in (self.text[max(0, start - 30) : start], self.text[start:end], self.text[end : end + 30])
+            )
+            marker = " " * len(before) + "^" * max(1, min(len(part), 40))
+            parts.append(f"  at position {start}:\n    {before}{part}{after}\n    {marker}")
         if hint:
             parts.append(f"  hint: {hint}")
         return visible("\n".join(parts))
-
-    def _marked(self, text: str, position: int) -> str:
-        """The text around the offending part, in one line, and below it a line that marks the part."""
-        end = position + max(self.length, 1)
-        before = visible(text[max(0, position - 30) : position].replace("\n", " "))
-        part = visible(text[position:end].replace("\n", " "))
-        after = visible(text[end : end + 30].replace("\n", " "))
-        marker = "^" * max(1, min(len(part), 40))
-        return f"    {before}{part}{after}\n    {' ' * len(before)}{marker}"
 
 
 class ParseError(InputError):
@@ -104,11 +103,11 @@ class VerificationFailed(KovacicError):
 
 
 class MissingExtra(KovacicError, ImportError):
-    """A package isn't installed that only some parts of this one need; the message has the command that installs it."""
+    """An optional dependency isn't installed; the message has the command that installs it."""
 
 
 def check_keywords(call: str, given: Iterable[str], known: Iterable[str]) -> None:
-    """For a function that hands its keywords on: raises `TypeError` with its name for one that isn't known, as Python does."""
+    """Raise `TypeError` for an unknown keyword of `call`, as Python does: for functions that hand their keywords on."""
     known = list(known)
     for name in given:
         if name not in known:
@@ -123,7 +122,7 @@ _DISTRIBUTION_OF = {"flint": "python-flint"}
 
 @contextmanager
 def needs(extra: str, what: str) -> Iterator[None]:
-    """Imports in the block belong to this extra of `pyproject.toml`; `what` is that for which they are needed."""
+    """A block whose imports belong to this extra of `pyproject.toml`; `what` names the feature that needs them."""
     try:
         yield
     except ModuleNotFoundError as error:

@@ -52,7 +52,7 @@ def exact(value: Any, name: str) -> Parts:
 
 
 def exact_real(value: Any, name: str) -> Fraction:
-    """The same as a fraction; raises `InputError` where the number isn't real."""
+    """The exact number as a fraction; raises `InputError` if it isn't real."""
     re, im = exact(value, name)
     if im != 0:
         raise InputError(f"{name} isn't a real number: {plain_text(value)[:60]!r}")
@@ -73,7 +73,7 @@ def whole(value: Any, name: str, *, least: int | None = 0) -> int:
 
 
 def is_rational(value: Any) -> bool:
-    """Is this an integer or a quotient by its type?  Floats and truth values aren't."""
+    """True for an integer or a quotient, by its type; floats and truth values aren't."""
     return isinstance(value, Rational | fmpz | fmpq) and not isinstance(value, bool) and not _is_duration(value)
 
 
@@ -94,14 +94,14 @@ def exact_text(value: Any, name: str) -> str:
 
 
 def is_complex(value: Any) -> bool:
-    """Is this a complex number by its type?"""
+    """True for a complex number, by its type."""
     if _library(value) == "mpmath":
         return hasattr(value, "_mpc_")
     return isinstance(value, complex | acb) or _kind(value) == "c"
 
 
 def _library(value: Any) -> str:
-    """Whose number it is, recognised without importing the library."""
+    """The library of a number, recognised without importing it; empty for Python's own."""
     names = (str(cls.__module__).partition(".")[0] for cls in type(value).__mro__)
     return next((name for name in names if name in _READERS), "")
 
@@ -147,14 +147,8 @@ def _of_sympy(value: Any, name: str) -> Parts | None:
     parts = value.as_real_imag() if getattr(value, "is_number", False) else ()
     if not parts or not all(part.is_Rational or part.is_Float for part in parts):
         return None
-    real, imaginary = (_of_sympy_real(part, name) for part in parts)
+    real, imaginary = (fmpq(int(n.p), int(n.q)) if n.is_Rational else _mpf(n._mpf_, name) for n in parts)
     return real, imaginary
-
-
-def _of_sympy_real(number: Any, name: str) -> Any:
-    if number.is_Rational:
-        return fmpq(int(number.p), int(number.q))
-    return _mpf(number._mpf_, name)
 
 
 def _of_flint(value: Any, name: str) -> Parts | None:
@@ -192,7 +186,7 @@ def _demand_exact(is_exact: bool, name: str) -> None:
 
 
 def _real(value: Any, name: str) -> Any:
-    """Of anything that says which quotient of integers it is."""
+    """The rational number of an object with `numerator` and `denominator`, or with `as_integer_ratio`."""
     if isinstance(value, Decimal) and value.is_finite() and abs(value.adjusted()) > _MAX_EXPONENT:
         raise InputError(f"{name} = {value} has an exponent beyond {_MAX_EXPONENT}")
     try:
@@ -233,7 +227,7 @@ def _power(mantissa: Any, exponent: Any, name: str) -> Any:
     return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
-#: Bits of a number of which a root is written: SymPy factors it first, as far as it can, which takes seconds for longer ones.
+#: The longest radicand of a root that is written, in bits: SymPy factors it as far as it can, which takes seconds beyond.
 _LONGEST_RADICAND = 1600
 
 
@@ -258,7 +252,7 @@ def radical(value: Any, n: int = 2) -> Any:
 
 
 def has_long_numbers(expression: Any) -> bool:
-    """Has it numbers so long that SymPy would take seconds for a root of them, which may come up when a value is put in?"""
+    """True if the expression has numbers so long that SymPy would take seconds for a root of them, as a value may bring up."""
     from sympy import Rational as Number
 
     return any(_bits(number) > _LONGEST_RADICAND for number in expression.atoms(Number))

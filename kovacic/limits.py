@@ -7,9 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, fields, replace
-from fractions import Fraction
 from functools import wraps
-from math import inf, isfinite, isnan
+from math import inf, isinf
 from typing import Any, ParamSpec, TypeVar
 
 from kovacic.errors import InputError, LimitExceeded
@@ -88,20 +87,16 @@ def seconds_of(given: Any, name: str) -> float | None:
     """A time as a float, infinity included, or None.  Raises `InputError` for anything else."""
     if given is None:
         return None
-    if isinstance(given, float) and not isfinite(given) and not isnan(given):
+    if isinstance(given, float) and isinf(given):
         seconds = float(given)
     else:
-        seconds = _as_float(exact_real(given, name))
+        exact = exact_real(given, name)
+        seconds = (
+            float(exact) if abs(exact) < 10**300 else inf * (1 if exact > 0 else -1)
+        )  # infinite beyond the doubles
     if seconds < 0:
         raise InputError(f"{name} = {plain_text(given)[:60]}: a time isn't negative")
     return seconds
-
-
-def _as_float(time: Fraction) -> float:
-    """Infinite beyond the doubles."""
-    if abs(time) < 10**300:
-        return float(time)
-    return inf if time > 0 else -inf
 
 
 DEFAULT_LIMITS = Limits()
@@ -184,7 +179,7 @@ class Budget:
         return max(0.0, self._deadline - CLOCK.now())
 
     def share(self, part: float) -> Budget:
-        """A clock for a part of the time that is left."""
+        """A budget for a fraction of the remaining time."""
         return Budget(replace(self.limits, seconds=part * self.seconds_left))
 
     @contextmanager
@@ -208,7 +203,7 @@ _WATCHED: ContextVar[Budget | None] = ContextVar("watched", default=None)
 
 
 class _Work:
-    """How much may still be counted."""
+    """The amount of work that may still be counted, and the bound."""
 
     __slots__ = ("left", "most")
 
@@ -238,7 +233,7 @@ def bounded_work(most: int) -> Iterator[None]:
 
 
 def count_work(amount: int) -> None:
-    """Counts some units of work; raises `LimitExceeded` where that is bounded and the bound is passed."""
+    """Count some units of work; raises `LimitExceeded` beyond the bound of `bounded_work`, if there is one."""
     work = _COUNTED.get()
     if work is None:
         return
@@ -252,7 +247,7 @@ _R = TypeVar("_R")
 
 
 def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
-    """The call, watched: it keeps the limits of its keyword `limits`, or of the object that it is a method of.
+    """A decorator: the call keeps the limits of its keyword `limits`, or of the object that it is a method of.
 
     Every public function is one of these.  `limits=None` is as good as no such keyword.
     """
@@ -273,30 +268,30 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
 
 
 def check_time() -> None:
-    """Raises `LimitExceeded` where a budget is watched and its time is over."""
+    """Raise `LimitExceeded` if the watched budget has expired."""
     budget = _WATCHED.get()
     if budget is not None and CLOCK.now() > budget._deadline:
         raise budget._used_up()
 
 
 def watched_seconds(most: float) -> float:
-    """So many seconds, or what is left of a watched budget."""
+    """The seconds left of the watched budget, at most `most`."""
     budget = _WATCHED.get()
     return most if budget is None else min(most, budget.seconds_left)
 
 
 def may_be_late(seconds: float) -> bool:
-    """Could a step that takes at most so long, and can't be stopped inside, end long after the time of a watched budget?
+    """True if an uninterruptible step of at most `seconds` could overrun the watched budget.
 
-    Some lateness is allowed, a tenth of the limit and a twentieth of a second.  Where a step is done may depend on this, never
-    what it gives.
+    Some lateness is allowed: a tenth of the limit and a twentieth of a second.  Where a step is carried out may depend on
+    this, never its result.
     """
     budget = _WATCHED.get()
     return budget is not None and seconds > budget.seconds_left + 0.1 * budget.seconds + 0.05
 
 
 def check_duration(seconds: float, what: str) -> None:
-    """Raises `LimitExceeded` where a budget is watched and has less time left: before a step that can't be stopped inside."""
+    """Raise `LimitExceeded` if the watched budget has less time left: before a step that can't be interrupted."""
     budget = _WATCHED.get()
     if budget is None:
         return

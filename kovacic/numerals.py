@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import fmpz
 
-#: Above, Python's readers of JSON refuse an integer as they are set by default; so it is a text there.
+#: Above this, Python's readers of JSON refuse an integer by default; it is written as a text.
 _TOO_LONG_FOR_JSON = 10**4300
 #: Bits of a number above which a message has its size in place of its digits.
 _BITS_IN_A_MESSAGE = 128
@@ -53,7 +53,7 @@ def fraction(text: str | int) -> Fraction:
 
 
 def in_a_message(number: int) -> str:
-    """A number as it is mentioned in passing.
+    """A number within a sentence: its digits, or its size if there are many.
 
     >>> in_a_message(17), in_a_message(10**5000)
     ('17', 'of 16610 bits')
@@ -85,7 +85,7 @@ def as_text(value: Any, first: Any = None) -> str:
 
 
 def plain_text(value: Any) -> str:
-    """The same for whatever was given: what isn't a number or an expression is written as Python does.
+    """`as_text` of a number or an expression, and `str` of anything else.
 
     >>> len(plain_text(10**5000)), plain_text("x")
     (5001, 'x')
@@ -107,21 +107,18 @@ def as_latex(expression: Any, first: Any = None) -> str:
 
 
 def _powers_first(terms: list[Any], first: Any) -> list[Any]:
-    """The terms of a sum by their powers of a symbol, where each is one times something without the symbol."""
-    degrees = {term: _degree(term, first) for term in terms}
-    if first is None or None in degrees.values():
+    """The terms of a sum by falling powers of a symbol, if each is c x^k; else in their order, as where a minus would lead."""
+    if first is None:
         return terms
+    degrees: dict[Any, Any] = {}
+    for term in terms:
+        _, dependent = term.as_independent(first, as_Add=False)
+        base, exponent = dependent.as_base_exp()
+        if dependent != 1 and not (base == first and exponent.is_Rational):
+            return terms
+        degrees[term] = 0 if dependent == 1 else exponent
     by_power = sorted(terms, key=lambda term: degrees[term], reverse=True)
     return terms if by_power[0].could_extract_minus_sign() else by_power
-
-
-def _degree(term: Any, x: Any) -> Any:
-    """Of c x^k: k; None for another term."""
-    _, dependent = term.as_independent(x, as_Add=False)
-    base, exponent = dependent.as_base_exp()
-    if dependent == 1:
-        return 0
-    return exponent if base == x and exponent.is_Rational else None
 
 
 def for_json(number: int) -> int | str:

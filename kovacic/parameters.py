@@ -20,7 +20,7 @@ class Conditions(ParametricAnswer):
 
     @classmethod
     def of(cls, found: ParametricAnswer) -> Conditions:
-        """The same conditions, with `solve_at`.
+        """The conditions `found`, with `solve_at`.
 
         Parameters
         ----------

@@ -110,7 +110,7 @@ class Process:
 
 
 def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: float) -> Any:
-    """The last value that a generator function of a module yields within so many seconds; None without one.
+    """The last value that a generator function of a module yields within `seconds`; None without one.
 
     Arguments and values must be picklable.  An exception of the function ends it.
     """
@@ -144,7 +144,7 @@ def _yield_values(channel: Channel) -> None:
 
 
 def echo(channel: Channel) -> None:
-    """Gives back what it gets."""
+    """Send back every object that arrives."""
     while True:
         channel.send(channel.receive())
 
@@ -159,24 +159,20 @@ def set_alarm(seconds: float) -> None:
 
 
 def main() -> None:
-    """What the interpreter runs that `Process` starts."""
+    """The entry point of the interpreter that `Process` starts."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's affair
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
-    _leave_with_parent()
-    channel = Channel(sys.stdin.buffer, answers)
-    with suppress(EOFError):
-        serve = channel.receive()
-        serve(channel)
-
-
-def _leave_with_parent() -> None:
-    """End this process soon after its parent is gone, even in the middle of a long computation."""
     parent = os.getppid()
 
-    def watch() -> None:
+    def leave_with_parent() -> None:
+        """End this process soon after its parent is gone, even in the middle of a long computation."""
         while os.getppid() == parent:
             time.sleep(_PARENT_CHECK_SECONDS)
         os._exit(1)
 
-    threading.Thread(target=watch, daemon=True).start()
+    threading.Thread(target=leave_with_parent, daemon=True).start()
+    channel = Channel(sys.stdin.buffer, answers)
+    with suppress(EOFError):
+        serve = channel.receive()
+        serve(channel)

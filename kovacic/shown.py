@@ -1,4 +1,4 @@
-r"""Text from outside, as it is shown: one function for each target.
+r"""Escapes untrusted text, one function per output format.
 
 Equations, names and messages may come from anybody: a file, a message, an answer in JSON that was changed by hand.  A terminal
 would obey escape sequences in them, and a reader would be misled by marks that turn the direction of writing round; LaTeX
@@ -36,11 +36,9 @@ def visible(text: str) -> str:
     """For a terminal: what isn't printed as a character, but for the ends of lines, as a backslash and its code."""
     if text.isprintable():
         return text
-    return "".join(char if char.isprintable() or char == "\n" else _code(char) for char in text)
-
-
-def _code(char: str) -> str:
-    return char.encode("unicode_escape").decode("ascii")
+    return "".join(
+        char if char.isprintable() or char == "\n" else char.encode("unicode_escape").decode("ascii") for char in text
+    )
 
 
 def in_one_line(text: str) -> str:
@@ -100,17 +98,16 @@ def strict_json(text: str) -> Any:
     Traceback (most recent call last):
     ValueError: a key occurs twice in one object: 'S'
     """
-    return json.loads(text, object_pairs_hook=_once, parse_constant=_no_number)
 
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for key, value in pairs:
+            if key in found:
+                raise ValueError(f"a key occurs twice in one object: {key!r}")
+            found[key] = value
+        return found
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in pairs:
-        if key in found:
-            raise ValueError(f"a key occurs twice in one object: {key!r}")
-        found[key] = value
-    return found
+    def no_number(name: str) -> Any:
+        raise ValueError(f"{name} isn't a number in JSON")
 
-
-def _no_number(name: str) -> Any:
-    raise ValueError(f"{name} isn't a number in JSON")
+    return json.loads(text, object_pairs_hook=once, parse_constant=no_number)

@@ -52,14 +52,14 @@ class Solution(Answer):
     notices : tuple of str
         What was noticed when the input was read: decimals taken as exact fractions, names taken as parameters, ...
     verified : bool
-        Has the decision passed its independent check?  True for each decided answer that `solve` returns; False for an
-        undecided one, and for an answer that `from_json` read with `unverified` and that fails the check.
+        True if the decision has passed its independent check, as each decided answer of `solve` has; False for an undecided
+        one, and for an answer that `from_json` read with `unverified` and that fails the check.
     seconds : float or None
         Wall-clock time of reading, deciding and verifying together; None for an answer that was read from JSON.
     equation : Equation or None
         The equation of which y'' = S y is the normal form, None where S itself was given.
     assumed : bool
-        Does a theorem prove the answer for all values with the assumptions, `known`, but for those that the notices name?
+        True if a theorem proves the answer for all values with the assumptions, `known`, except those that the notices name.
     limits : Limits
         They hold for each view that is computed later: where one would take longer, it raises `LimitExceeded`, and the groups
         are None.
@@ -80,7 +80,7 @@ class Solution(Answer):
 
     @classmethod
     def of(cls, answer: Answer) -> Solution:
-        """The same answer, with its methods.
+        """The answer with its methods.
 
         Parameters
         ----------
@@ -116,7 +116,7 @@ class Solution(Answer):
 
     @property
     def is_algebraic(self) -> bool | None:
-        """Are all solutions of the equation as given algebraic functions?  None if that wasn't determined."""
+        """True if all solutions of the equation as given are algebraic functions; None if that wasn't determined."""
         return derived.is_algebraic(self)
 
     @property
@@ -139,7 +139,7 @@ class Solution(Answer):
 
     @property
     def numeric(self) -> NumericProblem:
-        """What `at` and its relatives evaluate, read once."""
+        """The initial value problem behind `at` and its relatives, read once."""
         from kovacic.enclosure.problem import problem_of
 
         return problem_of(self)
@@ -196,7 +196,7 @@ class Solution(Answer):
 
         Notes
         -----
-        See `kovacic.evaluate` for each keyword, and for what is returned, raised and warned of.
+        `kovacic.evaluate` describes each keyword, the result, exceptions and warnings.
 
         Examples
         --------
@@ -273,7 +273,7 @@ class Solution(Answer):
 
         Notes
         -----
-        See `kovacic.doubles.lambdify.lambdify` for each keyword, and for what is returned, raised and warned of.
+        `kovacic.doubles.lambdify.lambdify` describes each keyword, the result, exceptions and warnings.
 
         Examples
         --------
@@ -313,7 +313,7 @@ class Solution(Answer):
         x0, y0, dy0, frobenius, which
             The solution to be drawn; by default y1 and y2 where they are known, else y(x0) = 1, y'(x0) = 0.
         points, digits, params, method, limits
-            As for `kovacic.views.plot.plot`, which says what is returned and raised.
+            As for `kovacic.views.plot.plot`.
 
         Returns
         -------
@@ -339,7 +339,7 @@ class Solution(Answer):
     def compare_with_monodromy(
         self, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
     ) -> Agreement:
-        """Does the monodromy, by analytic continuation, agree with the differential Galois group?
+        """Compare the monodromy, by analytic continuation, with the differential Galois group.
 
         Parameters
         ----------
@@ -483,7 +483,7 @@ class Solution(Answer):
 
     @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
-        """The derivation as a reader of Kovacic's paper follows it: its own steps, and then what is claimed and proven here.
+        """The derivation as a reader of Kovacic's paper follows it: the paper's steps, then the claims of this package.
 
         Parameters
         ----------

@@ -273,7 +273,7 @@ class FunctionPoly(Poly):
 
     @property
     def is_written_with_minus(self) -> bool:
-        """Is the leading coefficient negative, in the order of the parameters?"""
+        """True if the leading coefficient is negative, in the order of the parameters."""
         return bool(self.num) and int(self.num.leading_coefficient()) < 0
 
     def to_sympy(self, variable: Any) -> Any:

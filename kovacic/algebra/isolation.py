@@ -24,7 +24,7 @@ from kovacic.limits import check_duration, check_time, may_be_late, watched_seco
 _SECONDS = 4e-6
 _MOST_SECONDS = 1e-5
 _MOST_SECONDS_PER_BIT = 3e-7
-#: Bits of coefficients for which it takes no longer, beside so many for each degree.
+#: Bits of coefficients for which it takes no longer: `_SHORT`, and `_SHORT_PER_DEGREE` for each degree.
 _SHORT = 400
 _SHORT_PER_DEGREE = 4
 
@@ -43,7 +43,7 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     check_duration(_SECONDS * degree**2, f"the isolation of the zeros of a polynomial of degree {degree}")
     bits = polynomial.height_bits()
     is_short = bits <= _SHORT + _SHORT_PER_DEGREE * degree
-    # Is there the time for zeros of any kind, clusters included?
+    # At once where the time suffices for zeros of any kind, clusters included.
     if degree == 1 or (is_short and not may_be_late(degree**2 * (_MOST_SECONDS + _MOST_SECONDS_PER_BIT * bits))):
         return _isolated(polynomial)
     if degree == 2:

@@ -24,7 +24,7 @@ Scalar = int | Fraction
 
 
 class Immutable:
-    """What is set when it is made, by `object.__setattr__`, stays as it is."""
+    """A base for objects whose attributes are set once, by `object.__setattr__` in the constructor."""
 
     __slots__ = ()
 

@@ -78,7 +78,7 @@ class RatFunc(Immutable):
 
     @property
     def is_polynomial(self) -> bool:
-        """Is the denominator 1?"""
+        """True if the denominator is 1."""
         return self.den.degree == 0
 
     @property

@@ -68,7 +68,7 @@ class RationalSeries:
 
 
 class FieldSeries:
-    """The same over any field, in its scalars."""
+    """A series as `RationalSeries`, over any field, in its scalars."""
 
     def __init__(self, field: Field, width: int) -> None:
         self._field = field

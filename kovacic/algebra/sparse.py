@@ -72,7 +72,7 @@ def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
 
 @lru_cache(maxsize=16)
 def _factored_apart(names: tuple[str, ...], terms: _Terms) -> tuple[int, list[tuple[_Terms, int]]]:
-    """The same found where it can be stopped, as factors of long polynomials over Q are."""
+    """The factorisation by a process that can be stopped, as for long polynomials over Q."""
     from kovacic.process import last_of
 
     found = last_of(_yield_factors, names, terms, seconds=watched_seconds(inf))

@@ -1,4 +1,4 @@
-"""Many equations: worker processes that can be killed, or other machines; an answer for every input.
+"""Many equations, in worker processes that can be killed or on other machines: one answer for every input.
 
 Texts, or files of them, go in; a `Record` with a line of JSON for every one of them comes out.  `records` first: what travels.
 

@@ -154,9 +154,9 @@ def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
 
 
 def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None:
-    """What is wrong with the keys of an object or the header of a table, in which there may be `others`; None if all is well.
+    """The error in the keys of an object or the header of a table, in which there may be `others`; None if there is none.
 
-    Nothing is lost: a name that occurs twice, a second expression, or a key that means nothing here is refused.
+    Nothing is dropped silently: a repeated name, a second expression and an unknown key are refused.
     """
     for name, count in Counter(names).items():
         if count > 1:

@@ -63,7 +63,7 @@ Event = tuple["Child", Record | None] | None
 
 
 class Lot(NamedTuple):
-    """What is handed out at once: items for a process, and the records of those that need none, since their line was wrong."""
+    """Items for one process, handed out at once, and the records of items that need none, since their line was wrong."""
 
     items: list[Item]
     refusals: list[Record]

@@ -1,4 +1,4 @@
-"""What goes into a batch and what comes out of it: items, records, the conditions of a job, and a summary in numbers.
+"""The data of a batch: items, records, the conditions of a job, and a summary in numbers.
 
 Items, records and jobs are plain data that travel between processes and machines.
 """
@@ -121,7 +121,7 @@ class Record:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Job:
-    """What holds for every equation of a batch, and where it runs.
+    """The conditions for every equation of a batch, and where it runs.
 
     `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
     are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,

@@ -90,7 +90,7 @@ def _range(name: str, values: list[Fraction | str], text: str) -> Grid:
 
 
 def _grid_value(part: str, text: str) -> Fraction | str:
-    """A rational number as such, an algebraic one as it is written."""
+    """The value of a rational number, the text of an algebraic one."""
     try:
         number = number_text(part)
     except InputError as error:

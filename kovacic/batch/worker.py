@@ -1,4 +1,4 @@
-"""What the processes of a batch do: they get a job and then items, and give a record for each of them.
+"""The worker processes of a batch: each receives a job and then items, and sends a record for each item.
 
 The first record says that the process is ready.  Unexpected exceptions aren't caught here: the process ends with its
 traceback, and the parent replaces it.

@@ -151,7 +151,7 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
     """The general solution of a linear equation of second order; with values, or --ics, the one that has these.
 
     The right-hand side may contain exp, log, sin, cos and the like.  Where nothing is Liouvillian, special functions are
-    looked for; where none is found either, this is said, with the reason, and the exit status is 0 as well.
+    tried; if none is found either, the reason is printed, and the exit status is 0 as well.
 
     \b
     kovacic dsolve "y'' + 4*y' + 4*y = exp(-2*x)/x^2"

@@ -117,7 +117,7 @@ def formats(
 
 
 def _named_settings(option: str, given: Sequence[str], form: str) -> dict[str, str]:
-    """What is set by a repeated option, each setting `NAME=VALUE`.  Raises `click.UsageError`, also for a name set twice."""
+    """The settings `NAME=VALUE` of a repeated option.  Raises `click.UsageError`, also for a name that is set twice."""
     found: dict[str, str] = {}
     for setting in given:
         name, _, value = (part.strip() for part in setting.partition("="))
@@ -150,7 +150,7 @@ def _changed_limits(context: click.Context, _: click.Parameter, given: Sequence[
 
 
 def _assumptions(context: click.Context, _: click.Parameter, given: Sequence[str]) -> dict[str, str] | None:
-    """What is known about the parameters, all of it in one text for each name; None without any."""
+    """The assumptions about parameters, joined to one text for each name; None without any."""
     from kovacic.reading.substitution import relations
 
     found: dict[str, str] = {}
@@ -208,7 +208,7 @@ class EquationCommand(Command):
             raise click.UsageError(f"{error.format_message()} {how}", context) from error
 
     def _told_apart(self, arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-        """The arguments with a space in front of expressions that begin with -; and those that may be meant otherwise."""
+        """The arguments with a space before each expression that begins with -; and those that may be misspelt options."""
         options: dict[str, click.Option | None] = {"-h": None, "--help": None}
         for parameter in self.params:
             if isinstance(parameter, click.Option):
@@ -321,7 +321,7 @@ REFRESH = 0.2
 
 @contextmanager
 def waiting(what: str, *, patience: float = 1.0) -> Iterator[None]:
-    """Inside `with`, after some seconds of `patience`, a terminal shows a moving bar and the time; they go with the end."""
+    """Inside `with`, after `patience` seconds, a terminal shows a moving bar and the time; both vanish at the end."""
     if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
         yield
         return
@@ -361,7 +361,7 @@ def answer_each(
     gap: str,
     refuse: Callable[[str, KovacicError], None] | None = None,
 ) -> int:
-    """Solve every equation and print the lines that `show` makes of it, each when it is there.
+    """Solve every equation and print the lines that `show` makes of it, each as soon as it is found.
 
     `refuse` is called with each text that has no answer and the reason, which is printed in any case.  The status is that of
     the most serious outcome.
@@ -419,7 +419,7 @@ def _expressions(arguments: Sequence[str]) -> Iterator[str]:
 
 
 def fitted(text: str) -> str:
-    """The text for a terminal: lines that are longer are broken at spaces, but for rows of tables; elsewhere as it is."""
+    """The text with long lines broken at spaces, except rows of tables, for a terminal; unchanged for a file or a pipe."""
     if not sys.stdout.isatty():
         return text
     from shutil import get_terminal_size

@@ -121,7 +121,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @options.LIMIT
 def conditions(equation: str, form: str, everything: bool, explained: bool, samples: int | None, **given: Any) -> int:
-    """For which values of its parameters does y'' = S(x) y have Liouvillian solutions?
+    """The values of the parameters for which y'' = S(x) y has Liouvillian solutions.
 
     \b
     kovacic conditions "(4*n^2 - 1)/(4*x^2) - 1"
@@ -177,7 +177,7 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @options.formats(json="One line of JSON.", latex="A LaTeX formula.")
 @options.LIMIT
 def spectrum(potential: str, start: str, stop: str, form: str, picture: str | None, **given: Any) -> int:
-    """For which energies E has -y'' + V y = E y a square integrable solution?
+    """The energies E for which -y'' + V y = E y has a square integrable solution.
 
     \b
     kovacic spectrum "2/x^2 - Z/x" --from 0 --to oo --assume Z=positive

@@ -131,7 +131,7 @@ class _Search:
         forms = self._verified(self.lifter.add(bundle, bases) or [])
         if forms:
             return forms
-        # equation (2) of `riccati` modulo p: is every P really an invariant there, beyond the terms that were looked at?
+        # Equation (2) of `riccati` modulo p says whether every P is an invariant there, beyond the terms that were compared.
         problem = self.problem
         for h, basis in zip(bundle, bases, strict=True):
             D, T, R0 = h(problem.D), h(problem.T), h(self.R0)

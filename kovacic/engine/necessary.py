@@ -30,7 +30,7 @@ _ORDERS = {
 
 @dataclass(frozen=True)
 class _Failure:
-    """A condition that fails at these places, and what is excluded by it."""
+    """A condition that fails at the places `culprits`, and the structures that this excludes."""
 
     rule: Rule
     culprits: list[Place]

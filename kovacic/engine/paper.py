@@ -116,7 +116,7 @@ class Search:
 
 
 class Roots:
-    """The field of all numbers that occur, to which square roots are adjoined when they are asked for."""
+    """The field of all numbers that occur, to which square roots are adjoined on demand."""
 
     def __init__(self, field: Field) -> None:
         self.field = field

@@ -79,7 +79,7 @@ Outcome = Found | tuple[Exclusion, ...]
 
 
 def normalised(form: Form, problem: Problem) -> Form:
-    """The same form up to a constant, with P monic and prime to D: powers of the singular factors move from P into R."""
+    """The form up to a constant, with P monic and prime to D: powers of the singular factors move from P into R."""
     R = form.R
     P = form.P.monic()
     D = problem.D.over(P.field)

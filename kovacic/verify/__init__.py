@@ -1,4 +1,4 @@
-"""The trusted kernel: does a decision hold?  Recomputed from S, by other code than the search.
+"""The trusted kernel: a decision is checked by recomputing every claim from S, by other code than the search.
 
 A positive decision is checked by the identities for the form and for the polynomial of omega, and by the evidence against
 every smaller structure, which makes that polynomial irreducible over C(x): without a rational omega a polynomial of degree
@@ -43,7 +43,7 @@ class Check:
     statement : str
         A sentence.
     passed : bool
-        Does it hold?
+        True if it holds.
     """
 
     statement: str
@@ -126,7 +126,7 @@ def verify(
     return Verification((*checks, Check(statement, holds)))
 
 
-# ------------------------------------------------------------------------------------------- what is excluded
+# ------------------------------------------------------------------------------------------- exclusions
 
 
 def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]:

@@ -39,7 +39,7 @@ _SIZES: dict[str, tuple[int | None, int | None]] = {
 
 
 def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
-    """True if this is the group, of this size; None for one that is said to be imprimitive, where that doesn't decide it."""
+    """True if the claim about the group and its size is right; None for an imprimitive group whose order it leaves open."""
     n = claim.n
     sizes = _SIZES
     if n is not None and claim.family != "imprimitive":

@@ -32,7 +32,7 @@ _FEW = 4
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    `expansions` has what is computed once for all finite points of its kind.
+    `expansions` is shared by all finite points of a kind, regular or irregular.
     """
 
     factor: Poly

@@ -1,7 +1,7 @@
 """The kernel's own homomorphisms to prime fields, and roots modulo primes.
 
-What holds modulo one prime proves what is claimed over the field only in one direction (a rank can only drop, a square
-stays a square), and for this any prime will do.  So nothing here has to be the choice of the search.
+A statement modulo one prime proves the one over the field only in one direction (a rank can only drop, a square stays a
+square), and for this any prime will do.  So nothing here depends on the choices of the search.
 """
 
 from __future__ import annotations

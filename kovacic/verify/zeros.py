@@ -1,4 +1,4 @@
-"""How many zeros a solution with a rational omega can have, at points where the equation is ordinary.
+"""The possible numbers of zeros, at ordinary points of the equation, of a solution with a rational omega.
 
 The residues of the differential omega dx, omega = y'/y rational, add up to 0.  At a zero of y the residue is 1, and at a
 singular point it is the exponent of y there; so the number of zeros and the exponents at all singular points, that at infinity
@@ -61,9 +61,10 @@ class ZeroCounts:
         return largest_natural_sum(self.total, [half for _, half in self.choices])
 
     def by_exponent(self, point: Point) -> list[tuple[Fraction, int]] | None:
-        """The exponents that omega can have at a single point, each with the largest number; None where there is no choice.
+        """The exponents that omega can have at a single point, each with the largest number of zeros.
 
-        None, too, for irrational exponents over another field than Q, of which `choices` has the first coordinate only.
+        None if there is no choice, and for irrational exponents over another field than Q, of which `choices` has the first
+        coordinate only.
         """
         own = [half for other, half in self.choices if other is point]
         is_exact = point.difference is not None or point.factor.field == QQ
@@ -78,7 +79,7 @@ class ZeroCounts:
 
 
 def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
-    """None where the exponents at some point aren't rational over K[x]/p, so that no omega is rational over K."""
+    """The possible numbers of zeros; None if exponents at a point aren't in K[x]/p, so that no omega is rational over K."""
     twice = 2
     choices = []
     for point in all_points:
@@ -111,7 +112,7 @@ def _double_mean(point: Point) -> int:
 def _half_difference(point: Point) -> Fraction | None:
     """Half the difference of the exponents, added up over the roots of the factor; its sign is left open.
 
-    None where the difference is provably no element of K[x]/p, so that no omega is rational over K.
+    None if the difference is provably no element of K[x]/p, so that no omega is rational over K.
     """
     p = point.factor
     if point.difference is not None:  # the same rational number at all roots

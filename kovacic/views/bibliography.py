@@ -1,4 +1,4 @@
-"""The literature, and what of it an answer has used.
+"""The literature, and the references that an answer rests on.
 
 `references.bib`, beside this file, has the publications, with a field `use` that says for what this package uses each.
 """
@@ -42,7 +42,7 @@ def literature() -> dict[str, Reference]:
 
 
 def references(answer: Answer) -> tuple[Reference, ...]:
-    """What the answer rests on; for the group as well, if it was asked for."""
+    """The publications that the answer rests on, and its group if that was computed."""
     used = ["Kov86", *_for_the_decision(answer.decision)]
     if answer.case == 3:
         used.append("SU93")
@@ -56,7 +56,7 @@ def references(answer: Answer) -> tuple[Reference, ...]:
 
 
 def _for_the_decision(decision: Decision) -> list[str]:
-    """What the invariants, and the rational omega, rest on."""
+    """The publications for invariants and for a rational omega."""
     evidence = [item for exclusion in decision.exclusions for item in exclusion.evidence]
     excludes_invariants = any(isinstance(item, NoInvariant) for item in evidence)
     excludes_omega = any(isinstance(item, NoRationalOmega) for item in evidence)

@@ -69,13 +69,13 @@ def dumps(answer: Answer, *, full: bool = False) -> str:
 
 
 def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
-    """The answer that `dumps` wrote (or the object that the line stands for), verified again: its `verified` isn't believed.
+    """The answer that `dumps` wrote, given as text or as the object that it stands for; verified again, whatever it says.
 
-    What is said twice must agree; a group must be the one that is computed anew, and solutions must solve the equation.
-    `seconds`, `notices`, the evidence for the group and keys of the user's own aren't looked at.
+    Redundant keys must agree, the group must be the one that is computed anew, and solutions must solve the equation.
+    `seconds`, `notices`, the evidence for the group and the user's own keys aren't checked.
 
-    Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself, and `VerificationFailed` where the
-    answer doesn't pass its check, unless `unverified` says that it is wanted all the same.
+    Raises `InputError` if the text isn't an answer in schema 1, or contradicts itself, and `VerificationFailed` if the
+    answer doesn't pass its check, unless `unverified` accepts it all the same.
     """
     try:
         data = strict_json(text) if isinstance(text, str) else text

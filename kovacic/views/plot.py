@@ -239,7 +239,7 @@ def plot(
     InputError
         If start isn't below stop, and what `kovacic.evaluate` raises.
     TypeError
-        For a keyword that isn't known.
+        For an unknown keyword.
 
     Examples
     --------
@@ -295,7 +295,7 @@ def plot(
 
 
 def _typeset(latex: str, otherwise: str | None = None) -> str:
-    """A formula for matplotlib, which knows some of LaTeX; as text, by default the same, where it doesn't know this."""
+    """A formula for matplotlib's subset of LaTeX; text, by default the LaTeX itself, if it is outside of that subset."""
     from matplotlib.mathtext import MathTextParser
 
     formula = f"${latex}$"
@@ -320,7 +320,7 @@ def _title(equation: object, given: object, params: Mapping[str, object] | None)
         elif equation.equation.change is None:
             text = str(equation.equation)
             latex = latex_text(equation.equation.text(caret=False))
-    # In another variable it isn't what was given; the text stands as it is then.
+    # After a change of variable the equation isn't the given one: then the user's text stands above the picture.
     if not isinstance(text, str) or len(text) > _TITLE_LENGTH:
         return ""
     values = [f"{name} = {plain_text(value)}" for name, value in (params or {}).items()]

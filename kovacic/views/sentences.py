@@ -1,4 +1,4 @@
-"""What several views say of an answer, each once: its equation, omega, its solutions, the reasons of an exclusion."""
+"""Parts that several views share: the equation, omega, the solutions, the reasons of an exclusion."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ UNDECIDED = "undecided"
 
 
 def formulas_of(answer: Answer | Parsed) -> Formulas:
-    """How the functions of this answer are written."""
+    """The writer of functions of this answer, in its variable and with its constants."""
     return Formulas(answer.variable, answer.S.field)
 
 
 def unknown_of(answer: Answer) -> str:
-    """The name of the function that is looked for."""
+    """The name of the unknown function."""
     return "y" if answer.equation is None else answer.equation.unknown
 
 
@@ -73,7 +73,7 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
 
 
 def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
-    """Names and formulas of two solutions, in special functions where nothing is Liouvillian, if any are known; and notes."""
+    """Names and formulas of two solutions, and notes; in special functions if there is no Liouvillian one, empty if unknown."""
     form = derived.closed_form(answer)
     if form is None:
         return _named(answer, derived.special(answer)), ()
@@ -87,7 +87,7 @@ def _named(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:
 
 
 def verdict_of(answer: Answer) -> tuple[str, str]:
-    """What was found, and which case or why."""
+    """The verdict, and the case or the reason."""
     if answer.assumed and answer.reason is not None:
         return SOLVABLE, answer.reason
     if answer.riccati is not None:

@@ -97,7 +97,7 @@ class Steps:
         return [self.formulas.place(str(place)), points, order, kind, self._delta(place)]
 
     def _delta(self, place: Place) -> str | Math:
-        """The exponent difference at a regular point, as far as it is known."""
+        """The exponent difference at a regular point: a rational number, or a square root of a constant."""
         if place.kind is not Kind.REGULAR:
             return "-"
         if place.delta is not None:

@@ -60,7 +60,7 @@ def render(
 ) -> Iterator[str]:
     """The lines: the equation, the verdict in words, the `solutions`, omega or its polynomial, and how it was verified.
 
-    Each is given out as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
+    Each line is yielded as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
     """
     yield style(_given(answer), "title")
     for notice in answer.notices:
@@ -92,7 +92,7 @@ def render(
 
 
 def _indented(lines: Iterable[str]) -> Iterator[str]:
-    """Each line moved to the right, as what belongs to a title is."""
+    """Each line, indented as part of a section."""
     for line in lines:
         yield f"  {line}"
 
@@ -222,7 +222,7 @@ def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
 
 
 def _in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
-    """Two solutions and notes; where a limit was reached, that."""
+    """Two solutions and notes; if a limit was reached, a note that says so."""
     if answer.status is Status.UNDECIDED:
         return [], ()
     try:

@@ -1,4 +1,4 @@
-"""How mathematics is written: a function, a place, a document as text, LaTeX, Markdown and HTML.
+"""Mathematics in writing: functions, places and documents as text, LaTeX, Markdown and HTML.
 
 Nothing here knows of answers.  `formula` has a function or place as text and as LaTeX (read this first), `omega` the polynomial
 of omega, `document` headings, formulas and tables with their four renderings, `breaking` where a line of LaTeX may end, and

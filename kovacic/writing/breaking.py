@@ -25,12 +25,12 @@ _NO_WIDTH = ("", "{", "}", "$", " ", r"\left", r"\right", r"\displaystyle", r"\,
 
 
 def width(latex: str) -> float:
-    """About how many characters wide it is in print."""
+    """The approximate width of a formula in print, in characters."""
     return _width(_parsed(latex))
 
 
 def breakable(latex: str, line: float = LINE) -> str:
-    r"""The same formula, if it is wider than a line without anything in it that is wider than half a line and can't be broken.
+    r"""A formula in which nothing unbreakable is wider than half a line; unchanged if it fits into a line.
 
     >>> print(breakable(r"\frac{x^{2} + 1}{\sqrt{x}}", line=4))
     \bigl(x^{2} + 1\bigr)/\allowbreak \sqrt {x}
@@ -96,7 +96,7 @@ def _width(nodes: list[Node]) -> float:
 
 @dataclass(frozen=True)
 class _LineBreaker:
-    """What is wider than `most` is written on the line."""
+    """Writes constructs that are wider than `most` on the line."""
 
     most: float
 
@@ -165,7 +165,7 @@ class _LineBreaker:
 
 
 def _end(nodes: list[Node], k: int) -> int:
-    """Behind what belongs together from k on."""
+    """The index behind the construct that begins at k: a command with its arguments, a group, or a token."""
     node = nodes[k]
     if node == r"\sqrt":
         has_index = nodes[k + 1 : k + 2] == ["["]
@@ -180,7 +180,7 @@ def _end(nodes: list[Node], k: int) -> int:
 
 
 def _closing(nodes: list[Node], k: int) -> int:
-    r"""Where the \right is that belongs to the \left before k."""
+    r"""The index of the \right that matches the \left before k."""
     depth = 1
     while depth:
         depth += {r"\left": 1, r"\right": -1}.get(str(nodes[k]), 0)
@@ -189,7 +189,7 @@ def _closing(nodes: list[Node], k: int) -> int:
 
 
 def _verbatim(nodes: list[Node]) -> str:
-    """As it was, with a space behind each command."""
+    """The nodes unchanged, with a space behind each command."""
     written = ""
     for node in nodes:
         if isinstance(node, list):

@@ -20,7 +20,7 @@ from kovacic.errors import InputError
 
 Expr = Any  # SymPy publishes no types
 
-#: What all of SymPy's printers write correctly.
+#: Functions that all of SymPy's printers write correctly.
 _ELEMENTARY = "exp log Abs sin cos tan cot sec csc asin acos atan sinh cosh tanh coth asinh acosh atanh"
 #: SymPy's names with the others' names, or with a pattern for the printed arguments; E/1 is E with one argument.
 _MATHEMATICA = """
@@ -224,7 +224,7 @@ def _filled(own: str, arguments: list[str], language: _Language) -> str:
 
 
 def _in_julia(shown: Any, expr: Expr) -> str | None:
-    """What SymPy's printer gets wrong there: e, multiples of i such as i*pi, and roots of negative numbers."""
+    """Corrections of SymPy's Julia printer: e, multiples of i such as i*pi, and roots of negative numbers; None elsewhere."""
     if expr is sympy.E:
         return "exp(1)"
     if expr.is_Mul and expr.is_number and expr.is_imaginary:

@@ -64,7 +64,7 @@ Block = Heading | Paragraph | Formula | Table
 
 @dataclass(frozen=True)
 class Format:
-    """How the parts of a document are written; a table gets its cells as text, the head first."""
+    """The functions that write the parts of a document; `table` gets rows of cells as text, the head first."""
 
     heading: Callable[[str, int], str]
     math: Callable[[Math], str]
@@ -179,7 +179,7 @@ def _mathml(math: Math, display: str = "inline") -> str:
 
 
 def _code(math: Math) -> str:
-    """What can't be typeset, or not in time, as text."""
+    """A formula as text: it can't be typeset, or there is no time for it."""
     return f"<code>{shown.html(math.text)}</code>"
 
 

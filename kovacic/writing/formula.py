@@ -93,7 +93,7 @@ class Formulas:
         return re.sub(rf"\b{re.escape(self.variable)}\b", _VARIABLE, place)
 
     def _renamed(self, function: Any) -> Any:
-        """The same, its constants printed with `symbol`."""
+        """The function with its constants printed as `symbol`."""
         if isinstance(function, RatFunc):
             return RatFunc(self._renamed(function.num), self._renamed(function.den), reduced=True)
         field = function.field
@@ -153,7 +153,7 @@ def shortened(text: str) -> str:
 
 
 def _is_long(function: RatFunc) -> bool:
-    """Has it more terms, or longer coefficients, than anybody reads?"""
+    """True if the function has more terms, or longer coefficients, than anybody reads."""
     for part in (function.num, function.den):
         terms = _number_of_terms(part)
         if terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE:
@@ -164,7 +164,7 @@ def _is_long(function: RatFunc) -> bool:
 
 
 def _number_of_terms(polynomial: Poly) -> int:
-    """Of a low degree the most that there can be, of a high one those that aren't 0."""
+    """The number of coefficients that aren't 0; for a low degree, an upper bound is enough."""
     if polynomial.degree < LARGEST_DEGREE:
         return polynomial.degree + 1
     if isinstance(polynomial, RationalPoly):
@@ -190,7 +190,7 @@ def rational_functions(generator: str) -> Math:
 
 
 def caret(text: str) -> str:
-    """Python's powers as they are read."""
+    """The text with ^ for Python's **."""
     return text.replace("**", "^")
 
 
@@ -210,7 +210,7 @@ def latex_text(text: str) -> str:
 
 
 class _Part(NamedTuple):
-    """What is ready, as it stands in a product, and alone."""
+    """A finished part of a formula, as a factor of a product and on its own: (x + 1) and x + 1."""
 
     product: str
     alone: str
@@ -237,7 +237,7 @@ class _LatexWriter:
         return rf"\frac{{{self.alone(match[1])}}}{{{self.alone(match[2])}}}"
 
     def complete(self, text: str) -> str:
-        """What has no parentheses, or characters for them."""
+        """The LaTeX of a text without parentheses, in which characters stand for finished parts."""
         text = _QUOTIENT.sub(self.fraction, text)
         for pattern, replacement in _REPLACEMENTS:
             text = pattern.sub(replacement, text)

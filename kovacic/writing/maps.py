@@ -14,7 +14,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class CellKind:
-    """What can be the case at a point: its name in the legend, and its colour."""
+    """A kind of cell: its name in the legend, empty for none, and its colour."""
 
     name: str
     colour: str

@@ -1,4 +1,4 @@
-"""omega = y'/y as it is written: the function, or the polynomial of which it is a root, and that of its constants."""
+"""omega = y'/y in writing: the function, or the polynomial of which it is a root, and that of its constants."""
 
 from __future__ import annotations
 
