@@ -17,11 +17,10 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import foresee_move
 from kovacic.answer import Answer
 from kovacic.doubles.region import Region, region_of
-from kovacic.enclosure.analytic import analytic_question
+from kovacic.enclosure.analytic import way_of
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
 from kovacic.enclosure.constants import in_balls
-from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.log_derivative import LogDerivative, embed
@@ -105,15 +104,10 @@ class RationalChart:
                 return [found[point] for point in points]
             prec *= 2
 
-    @cached_property
-    def _forcing(self) -> Forcing | None:
-        """f/a, None where it is zero."""
-        return forcing_of(self.problem)
-
     @property
     def is_forced(self) -> bool:
         """Is there a right-hand side?"""
-        return self._forcing is not None
+        return self.problem.right is not None
 
     @cached_property
     def _equation(self) -> Sequence[Any]:
@@ -157,8 +151,8 @@ class RationalChart:
 
     def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
         """H^2 f/a at u."""
-        assert self._forcing is not None
-        return _real_value(self._forcing.value(acb(centre.x) + acb(u) * acb(arb((1, e))))) * arb((1, 2 * e))
+        x = acb(centre.x) + acb(u) * acb(arb((1, e)))
+        return _real_value(acb(way_of(self.problem).functions.values(x)[2])) * arb((1, 2 * e))
 
 
 @dataclass(frozen=True)
@@ -227,7 +221,7 @@ class AnalyticChart:
         """y and dy/dx, to so many digits where they can be had, along the real axis."""
         options |= {"digits": digits, "limits": limits, **self.given}
         options["path"] = self.given.get("path")
-        return [s.state for s in analytic_question(self.coefficients, **options).states(points)]
+        return [s.state for s in evaluate_states(self.coefficients, points, **options)]
 
     def steepness(self, x: Any, h: Any) -> Any:
         """Nothing is known beforehand."""

@@ -165,7 +165,7 @@ def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -
     at_high = False
     a = to_acb(low)
     b = to_acb(high)
-    for system in (problem.system, problem.gauge_poles):
+    for system in (problem.system, problem.further_poles):
         for root, _ in system.roots("den", _PREC):
             is_low = root.overlaps(a)
             is_high = root.overlaps(b)

@@ -120,7 +120,7 @@ class Embedded:
         if isinstance(poly, RationalPoly):
             return acb_poly(poly.rep)
         if isinstance(poly, ExtensionPoly):
-            c = _root(poly.field)
+            c = root_of(poly.field)
             return sum((self._embed(part) * c**k for k, part in enumerate(poly.parts)), acb_poly([]))
         assert isinstance(poly, FunctionPoly)
         balls = [to_ball(self.values[name]) for name in poly.field.names]
@@ -170,7 +170,7 @@ def _at(polynomial: Any, values: list[acb]) -> acb_poly:
     return acb_poly([columns.get(k, acb(0)) for k in range(max(columns, default=-1) + 1)])
 
 
-def _root(field: AlgebraicField) -> acb:
+def root_of(field: AlgebraicField) -> acb:
     """The generator, at the working precision in force."""
     modulus = [field.base.rational_value(field.modulus[k]) for k in range(field.dimension + 1)]
     if field.approximation is None or None in modulus:

@@ -21,10 +21,9 @@ from typing import Any, Literal, TypedDict, Unpack, overload
 
 from kovacic.enclosure.ball import Ball
 from kovacic.enclosure.precision import AccuracyWarning, Method, number_of_digits
-from kovacic.enclosure.problem import change_of
 from kovacic.enclosure.states import Path, question_of
 from kovacic.enclosure.variable import with_variable
-from kovacic.errors import NotRational, check_keywords, warn_user
+from kovacic.errors import check_keywords, warn_user
 from kovacic.limits import Limits, limited
 
 
@@ -315,15 +314,8 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
 
 
 def _prepared(equation: object, x0: object, options: Mapping[str, Any]) -> Prepared:
-    """The solution, whether the coefficients are rational or any functions of x."""
+    """The solution that the keywords describe."""
     given: dict[str, Any] = {"x0": x0, **options}
     equation = with_variable(equation, given.pop("var", None), given.get("limits"), given.get("params"))
     start = {name: given.get(name) for name in ("x0", "y0", "dy0", "frobenius", "which")}
-    if change_of(equation) is None:
-        try:
-            return Prepared(question_of(equation, **given), start)
-        except NotRational:
-            pass
-    from kovacic.enclosure.analytic import analytic_question  # imports SymPy
-
-    return Prepared(analytic_question(equation, **given), start)
+    return Prepared(question_of(equation, **given), start)

@@ -22,14 +22,15 @@ from flint import acb, acb_mat, arb, fmpq
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
 from kovacic.enclosure.frobenius import basis, junction
-from kovacic.enclosure.journey import Traveller
-from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
+from kovacic.enclosure.matrices import Matrix, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import number_of_digits, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.rational import RationalWay
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.enclosure.variable import with_variable
+from kovacic.enclosure.way import Traveller
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, limits_of
 
@@ -243,10 +244,9 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
 
 def _connection(problem: NumericProblem, way: _Way, prec: int) -> Matrix:
     """The matrix at about so many bits."""
-    traveller = Traveller.at(problem, way.first, None, prec)
-    both = (acb(1), acb(1))
+    traveller = Traveller(RationalWay(problem.at(prec), prec), way.first, (acb(1), acb(1)))
     for vertex in way.middle:
-        traveller.go(vertex, both)
+        traveller = traveller.moved(vertex)
     there = None
     end = way.last
     if isinstance(end, Singular):
@@ -255,8 +255,7 @@ def _connection(problem: NumericProblem, way: _Way, prec: int) -> Matrix:
         last, bound = junction(end, here, prec)
         there = basis(end, last, here, bound, prec)
         end = last
-    traveller.go(end, both)
-    found = fundamental(traveller.state((acb(1), acb(0))), traveller.state((acb(0), acb(1))))
+    found = traveller.moved(end).product.matrix()
     return found if there is None else multiply(inverse(there), found)
 
 

@@ -21,7 +21,7 @@ from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.system import System, Zeros
+from kovacic.enclosure.system import System, Zeros, check_segment
 from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotRational
 from kovacic.numerals import as_text
@@ -96,13 +96,20 @@ class NumericProblem:
         return self.embedded is None or self.embedded.exact
 
     @cached_property
-    def gauge_poles(self) -> System:
-        """The poles of the gauge where S is regular: singular points of the user's equation."""
-        if self.gauge is None:
-            return System((), (1,))
-        den, own = (fmpz_poly(list(part)) for part in (System.of(self.gauge).den, self.system.den))
-        while (common := den.gcd(own)).degree() > 0:
-            den //= common
+    def further_poles(self) -> System:
+        """The poles of the gauge, and of a rational right-hand side, where S is regular: singular points of the user's
+        equation."""
+        functions = [] if self.gauge is None else [self.gauge]
+        if self.right is not None and self.right.h is None and self.embedded is None:
+            functions.append(self.right.f / self.right.a)
+        den = fmpz_poly([1])
+        own = fmpz_poly(list(self.system.den))
+        for function in functions:
+            part = fmpz_poly(list(System.of(function).den))
+            for known in (own, den):
+                while (common := part.gcd(known)).degree() > 0:
+                    part //= common
+            den *= part
         return System((), tuple(int(c) for c in den.coeffs()))
 
     @cached_property
@@ -139,9 +146,15 @@ class NumericProblem:
             return self.embedded.polynomials()
         return self.system.polynomial("num"), self.system.polynomial("den")
 
+    def check_segment(self, a: ExactPoint, b: ExactPoint) -> None:
+        """Raise InputError if the closed segment contains a singular point of the user's equation."""
+        check_segment(self.system, a, b)
+        if len(self.further_poles.den) > 1:
+            check_segment(self.further_poles, a, b)
+
     def singular_points(self, prec: int) -> list[ExactPoint]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
-        return [*self.system.singular_points(prec), *self.gauge_poles.singular_points(prec)]
+        return [*self.system.singular_points(prec), *self.further_poles.singular_points(prec)]
 
 
 def as_problem(

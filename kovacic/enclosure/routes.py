@@ -1,5 +1,7 @@
 """Which way a value is computed: what Taylor's method, the closed form of case 1 and FLINT's functions cost, by foreseen work.
 
+No choice depends on earlier calls.
+
 The prices stand in `kovacic.special.prices`.  How many discs Taylor's method needs is foreseen by a walk in small balls that
 looks at the distances of singular points and at |S|^(1/2), and ends as soon as the answer is known.  A search for a closed form
 is given up where Taylor's method would be through; an equation given as text has to be decided for case 1.  No clock decides.
@@ -7,24 +9,25 @@ is given up where Taylor's method would be through; an equation given as text ha
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.classical import Closed
+from kovacic.enclosure.classical import Classical, Closed, classical_of
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.journey import ChosenForm, Journey
+from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.precision import Method, start_bits
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import middle
 from kovacic.enclosure.transport import growth_of_disc
+from kovacic.enclosure.way import position
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, check_time
 from kovacic.special import prices
@@ -40,66 +43,77 @@ _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
 _HELPS = 0.9  # to half a step the growth falls by more
 _MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
-_SEARCH = 0.6  # what it may take of them where the equation was decided before it
 _BITS = 64
+Ways = tuple[tuple[ExactPoint, ExactPoint], ...]
 
 
-def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ChosenForm | None:
+@dataclass(frozen=True)
+class ClosedRoute:
+    """A closed form, for which so many `bits` are the first precision: enough where both solutions grow to the start."""
+
+    closed: Closed
+    bits: int = 0
+
+
+def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ClosedRoute | None:
     """The closed form, where it is asked for or the cheaper way; None for Taylor's method.
 
-    What was chosen for the journey before is taken again, as long as it pays for all targets together.
-    Raises InputError where it is asked for and there is none.
+    The choice depends on the horizons of the farthest targets and on the size of their number alone.  Raises InputError where
+    a closed form is asked for and there is none.
     """
-    if method == "taylor":
+    if method == "taylor" or not targets:
         return None
-    count = len(targets)
-    known = journey.choices.get((method, digits))
-    if known is None:
-        known = _chosen(journey, targets, method, digits)
-    elif not known.pays(count):
-        known.most = Foreseen(journey, targets, digits, known.served).most(known.price)
-    if known is None or not known.pays(count):
-        journey.choices.pop((method, digits), None)
-        return None
-    known.served += count
-    journey.choices[method, digits] = known
-    return known
-
-
-def _chosen(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ChosenForm | None:
-    """The choice for the first targets of a journey."""
     if method is not None:
         return _asked_for(journey, digits)
     problem = journey.problem
-    if problem.right is not None or problem.S is None:
+    if problem is None or problem.right is not None or problem.S is None:
         return None
-    foreseen = Foreseen(journey, targets, digits)
-    if not isinstance(journey.start.place, Singular):
-        closed = _case_1(problem, foreseen)
-        if closed is not None and closed.is_cheap(digits):
-            choice = foreseen.choice(closed, closed.price(digits))
-            if choice.pays(len(targets)):
-                return choice
-    return _functions(journey, foreseen)
+    count = 1 << (len(targets) - 1).bit_length()
+    ways = tuple(_ways(journey, targets))
+    key = ways, count, digits
+    if key not in journey.routes:
+        journey.routes[key] = _chosen(journey, problem, Foreseen(journey, problem, ways, count, digits))
+    found: ClosedRoute | None = journey.routes[key]
+    return found
 
 
-def _asked_for(journey: Journey, digits: int) -> ChosenForm:
+def _asked_for(journey: Journey, digits: int) -> ClosedRoute:
     """The closed form, whatever it costs."""
     problem = journey.problem
-    if problem.right is not None:
+    if problem is None or problem.right is not None:
         raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
     known = None if problem.S is None else decided(problem, DEFAULT_LIMITS.unknown_degree)
-    start = journey.start.place
-    if known is not None and not isinstance(start, Singular):
-        closed = closed_form_of(known)
-        if closed is not None and closed.is_elementary:
-            return ChosenForm(closed)
-    classical = journey.classical(None)
+    closed = None if known is None else closed_form_of(known)
+    if closed is not None and closed.is_elementary and isinstance(journey.place, ExactPoint):
+        return ClosedRoute(closed)
+    classical = None if problem.S is None else classical_of(problem.S, None)
     if classical is None:
         raise InputError(NO_CLOSED_FORM, hint=TAYLOR)
-    if isinstance(start, Singular):
-        return ChosenForm(classical)
-    return ChosenForm(classical, bits=start_bits(digits + classical.lost_digits(middle(start))))
+    lost = _lost_digits(classical, journey)
+    return ClosedRoute(classical, start_bits(digits + lost))
+
+
+def _lost_digits(classical: Classical, journey: Journey) -> float:
+    """About so many; none from a singular point on."""
+    return 0.0 if isinstance(journey.place, Singular) else classical.lost_digits(journey.place)
+
+
+def _chosen(journey: Journey, problem: NumericProblem, foreseen: Foreseen) -> ClosedRoute | None:
+    """That of case 1, or FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on
+    the functions always pay."""
+    from_zero = isinstance(journey.place, Singular)
+    if not from_zero:
+        closed = _case_1(problem, foreseen)
+        if closed is not None and closed.is_cheap(foreseen.digits) and foreseen.pays(closed.price(foreseen.digits)):
+            return ClosedRoute(closed)
+        if not foreseen.reaches(_WORTH):
+            return None
+    assert problem.S is not None
+    classical = classical_of(problem.S, int(foreseen.price(_MOST_SEARCH) / prices.UNIT))
+    if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
+        return None
+    digits = foreseen.digits + _lost_digits(classical, journey)
+    return ClosedRoute(classical, start_bits(digits)) if from_zero or foreseen.pays(classical.price(digits)) else None
 
 
 def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
@@ -115,35 +129,17 @@ def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
     return None if known is None else closed_form_of(known)
 
 
-def _functions(journey: Journey, foreseen: Foreseen) -> ChosenForm | None:
-    """FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on they always pay."""
-    start = journey.start.place
-    from_zero = isinstance(start, Singular)
-    if not (from_zero or foreseen.reaches(_WORTH)):
-        return None
-    share = 1.0 if from_zero else _SEARCH
-    classical = journey.classical(int(share * foreseen.price(_MOST_SEARCH) / prices.UNIT))
-    if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
-        return None
-    if isinstance(start, Singular):
-        return ChosenForm(classical)
-    digits = foreseen.digits + classical.lost_digits(middle(start))
-    choice = foreseen.choice(classical, classical.price(digits))
-    choice.bits = start_bits(digits)
-    return choice
-
-
 class Foreseen:
-    """What Taylor's method takes to the targets, about, in milliseconds; its discs are counted no further than somebody asks.
+    """What Taylor's method takes on these ways to so many targets, about, in milliseconds; its discs are counted no further
+    than somebody asks."""
 
-    So many targets were `served` before by a closed form, for which the discs aren't there.
-    """
-
-    def __init__(self, journey: Journey, targets: Sequence[Number], digits: int, served: int = 0) -> None:
+    def __init__(self, journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> None:
         self.digits = digits
-        self._count = served + len(targets)
-        self._discs = _discs(journey, targets, start_bits(digits))
-        self._price = prices.BEGIN + self._count * prices.TARGET(digits)
+        self._count = count
+        place = journey.place
+        corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
+        self._discs = _discs(problem, [*pairwise(corners), *ways], start_bits(digits))
+        self._price = prices.BEGIN + count * prices.TARGET(digits)
 
     def price(self, most: float) -> float:
         """What it takes, or `most`."""
@@ -159,31 +155,15 @@ class Foreseen:
             self._price += each
         return True
 
-    def choice(self, closed: Closed, price: float) -> ChosenForm:
-        """A closed form; for how many targets of this price it pays is known as far as it is asked."""
-        self.reaches(prices.FIRST + self._count * price)
-        return ChosenForm(closed, price, self._limit(price))
-
-    def most(self, price: float) -> float:
-        """For how many targets it pays, known for twice as many as there are: so that this is seldom asked."""
-        self.reaches(prices.FIRST + self._count * (2 * price - prices.TARGET(self.digits)))
-        return self._limit(price)
-
-    def _limit(self, price: float) -> float:
-        """Where so many targets cost as much as the discs and their targets."""
-        each = prices.TARGET(self.digits)
-        discs = self._price - self._count * each
-        return math.inf if price <= each else (discs - prices.FIRST) / (price - each)
+    def pays(self, price: float) -> bool:
+        """Does a closed form take less, with this price for each target?"""
+        return self.reaches(prices.FIRST + self._count * price)
 
 
-def _discs(journey: Journey, targets: Sequence[Number], prec: int) -> Iterator[arb]:
+def _discs(problem: NumericProblem, ways: Sequence[tuple[ExactPoint, ExactPoint]], prec: int) -> Iterator[arb]:
     """The radii of the discs of a walk in small balls, about."""
-    problem = journey.problem
-    growth = growth_of_disc(prec, len(targets)) * 0.69  # log 2: from bits
-    place = journey.start.place
-    here = place.near if isinstance(place, Singular) else middle(place)
-    stops = [middle(vertex) for vertex in journey.vertices]
-    for a, b in (*pairwise([here, *stops]), *_ways([here, *stops][-1], targets, journey.chain)):
+    growth = growth_of_disc(prec, alone=False) * 0.69  # log 2: from bits
+    for a, b in ways:
         with working_precision(_BITS):
             num, den = problem.polynomials()
             poles = [root for root, _ in problem.poles(_BITS)]
@@ -232,14 +212,18 @@ def _rate(num: acb_poly, den: acb_poly, x: acb) -> arb:
     return arb(abs(num(x) / den(x)).sqrt().mid())
 
 
-def _ways(here: ExactPoint, targets: Sequence[Number], chain: bool) -> Iterator[tuple[ExactPoint, ExactPoint]]:
-    """The straight ways to the targets: to the farthest ones of the real axis, and to each of the others."""
+def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPoint, ExactPoint]]:
+    """The straight ways to the horizons of the targets: of the farthest real ones and the farthest other one."""
+    place = middle(journey.vertices[-1]) if journey.vertices else journey.place
+    here = place.near if isinstance(place, Singular) else place
     stops = [middle(target) for target in targets]
-    if chain:
+    if journey.chain:
         yield from pairwise([here, *stops])
         return
     real = [stop for stop in stops if stop.is_real() and here.is_real()]
-    if real:
-        yield here, max(real, key=lambda stop: stop.x)
-        yield here, min(real, key=lambda stop: stop.x)
-    yield from ((here, stop) for stop in stops if not (stop.is_real() and here.is_real()))
+    others = [stop for stop in stops if not (stop.is_real() and here.is_real())]
+    farthest = {max(real, key=lambda stop: stop.x), min(real, key=lambda stop: stop.x)} if real else set()
+    if others:
+        farthest.add(max(others, key=lambda stop: position(here, stop)))
+    for stop in sorted(farthest - {here}, key=lambda stop: (stop.x, stop.y)):
+        yield here, journey.way.horizon(here, stop)

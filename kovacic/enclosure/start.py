@@ -22,15 +22,14 @@ from dataclasses import dataclass
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
-from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
+from kovacic.enclosure.way import Way
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numerals import plain_text
 
@@ -47,17 +46,14 @@ class Start:
     data: tuple[Number, Number]
     decaying: bool = False
 
-    def state(self, problem: NumericProblem, prec: int) -> State:
+    def state(self, way: Way) -> State:
         """The numbers at the working precision in force, y' of the decaying solution among them."""
         y, dy = map(to_ball, self.data)
+        if isinstance(self.place, Singular):
+            return y, dy
         if self.decaying:
-            assert not isinstance(self.place, Singular)
-            x = middle(self.place)
-            slope = logarithmic_derivative(problem.system, x, prec)
-            if problem.gauge is not None:
-                slope += value(problem.gauge, None, to_acb(x))
-            dy = y * slope
-        return spread(problem, self.place, (y, dy))
+            dy = y * way.decay_rate(middle(self.place))
+        return way.spread(self.place, (y, dy))
 
 
 def middle(number: Number) -> ExactPoint:
@@ -65,35 +61,25 @@ def middle(number: Number) -> ExactPoint:
     return number if isinstance(number, ExactPoint) else number.point()
 
 
-def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
-    """The state at a number in a ball from that at its midpoint."""
-
-    def coefficients(ball: acb) -> tuple[acb, acb, acb, bool]:
-        if problem.embedded is not None:
-            b, c = problem.embedded.coefficients(ball)
-        else:
-            top, first, last = (acb_poly(poly)(ball) for poly in problem.equation)
-            b, c = first / top, last / top
-        forcing = forcing_of(problem)
-        f = acb(0) if forcing is None else forcing.value(ball)
-        return b, c, f, problem.is_real and are_real([f])
-
-    return spread_by(coefficients, number, state)
+def steepness_of(b: acb, c: acb) -> tuple[arb, arb]:
+    """s > 0 and K >= max(1/s, |b| + s |c|), K about as small as can be."""
+    steepness = (abs(b) + abs(c).sqrt()).upper()
+    s = (1 / steepness).mid() if steepness > 0 else arb(1)
+    return s, (1 / s).max(abs(b) + s * abs(c))
 
 
 def spread_by(coefficients: Callable[[acb], tuple[acb, acb, acb, bool]], number: object, state: State) -> State:
-    """As `spread`, for y'' + b y' + c y = f with these b, c and f on a ball, and True if they are proven to be real there.
+    """The state at a number in a ball from that at its midpoint: `coefficients` gives b, c and f of y'' + b y' + c y = f on a
+    ball, and True if they are proven to be real there.
 
-    For any s > 0 the vector (y, s y') has the derivative (s y'/s, -b (s y') - s c y + s f).  With r the radius of the ball and
-    K >= max(1/s, |b| + s |c|) it changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K) [Gronwall].
+    With the s and K of `steepness_of` and the radius r of the ball (y, s y') changes by at most
+    (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K) [equation (1) of `kovacic.enclosure.analytic`].
     """
     if not isinstance(number, Constant):
         return state
     ball = number.value()
     b, c, f, real = coefficients(ball)
-    steepness = (abs(b) + abs(c).sqrt()).upper()
-    s = (1 / steepness).mid() if steepness > 0 else arb(1)
-    K = (1 / s).max(abs(b) + s * abs(c))
+    s, K = steepness_of(b, c)
     largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
     change = (K * abs(ball - to_acb(middle(number)))).expm1() * largest
     real = real and are_real([ball, *state])

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from flint import arb
 
@@ -16,13 +17,17 @@ from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, to_acb
-from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision, start_bits
-from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision
+from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
+from kovacic.enclosure.rational import RationalWay
 from kovacic.enclosure.routes import TAYLOR, route_of
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import read_start
-from kovacic.errors import InputError
+from kovacic.enclosure.start import Start, read_start
+from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, limits_of
+
+if TYPE_CHECKING:
+    from kovacic.enclosure.through import Through
 
 _LOG = logging.getLogger(__name__)
 
@@ -33,59 +38,43 @@ _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from
 
 @dataclass(frozen=True)
 class AskedSolution:
-    """One solution, of which values are asked for: the journey keeps what was computed for them."""
+    """One solution, of which values are asked for: the journey keeps what was computed for them.
+
+    `through` is the same journey in another variable, in which the coefficients are rational.
+    """
 
     journey: Journey
     digits: int
     method: Method | None
     limits: Limits
+    through: Through | None = None
 
     def states(self, points: Sequence[object]) -> tuple[PointValue, ...]:
         """y and y' with the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
-        return self.states_at(tuple(as_number(p, "x") for p in points))
-
-    def states_at(self, targets: Sequence[Number]) -> tuple[PointValue, ...]:
-        """The same for numbers that were read."""
-        _check_regular(self.journey.problem, targets)
+        targets = tuple(as_number(p, "x") for p in points)
+        if self.journey.problem is not None:
+            _check_regular(self.journey.problem, targets)
         with Budget(self.limits).watched():
-            if self.method is None and self.journey.knows(targets, start_bits(self.digits)):
-                _LOG.info("route: Taylor's method, on discs that are known")
-                return raise_precision(self.journey, targets, None, self.digits, self.limits)
-            found = self._on_kept_ways(targets)
-            if found is not None:
-                return found
-            choice = route_of(self.journey, targets, self.method, self.digits)
-            if choice is None:
-                _LOG.info("route: Taylor's method")
-            else:
-                _LOG.info("route: %s", choice.closed)
-                try:
-                    return raise_precision(
-                        self.journey, targets, choice.closed, self.digits, self.limits, begin=choice.bits
-                    )
-                except NotServed:
-                    if self.method is not None:
-                        said = "the closed form doesn't prove its values on this path"
-                        raise InputError(said, hint=TAYLOR) from None
-                    _LOG.info("it doesn't prove its values on this path: Taylor's method")
-            return raise_precision(self.journey, targets, None, self.digits, self.limits)
+            if self.through is not None and self.through.change.is_real(targets):
+                with suppress(InputError, LimitExceeded):  # whose reasons would speak of t
+                    return self._states(self.through, targets)
+            return self._states(self.journey, targets)
 
-    def _on_kept_ways(self, targets: Sequence[Number]) -> tuple[PointValue, ...] | None:
-        """The values of an equation with a right-hand side by power series; None on all others."""
-        if self.journey.problem.right is None or self.method is not None:
-            return None
-        from kovacic.enclosure.forced_ways import forced_journey, is_straight  # imports SymPy
-
-        forced = forced_journey(self.journey)
-        if forced is None or not is_straight(self.journey, targets):
-            return None
-        try:
-            found = raise_precision(forced, targets, None, self.digits, self.limits)
-        except InputError:
-            # A right-hand side such as sqrt(x) from 0 on is integrated there, and has no power series.
-            return None
-        _LOG.info("route: power series of the coefficients and the right-hand side, on ways that are kept")
-        return found
+    def _states(self, travel: Journey | Through, targets: Sequence[Number]) -> tuple[PointValue, ...]:
+        if isinstance(travel, Journey):
+            route = route_of(travel, targets, self.method, self.digits)
+        else:
+            route = route_of(travel.journey, travel.images(targets), self.method, self.digits)
+        if route is not None:
+            _LOG.info("route: %s", route.closed)
+            try:
+                return raise_precision(travel, targets, route.closed, self.digits, self.limits, begin=route.bits)
+            except NotServed:
+                if self.method is not None:
+                    raise InputError("the closed form doesn't prove its values on this path", hint=TAYLOR) from None
+                _LOG.info("it doesn't prove its values on this path")
+        _LOG.info("route: Taylor's method")
+        return raise_precision(travel, targets, None, self.digits, self.limits)
 
 
 def question_of(
@@ -106,10 +95,20 @@ def question_of(
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
     check_method(method)
-    problem = as_problem(equation, params, forced=True, constants=True)
     start = [comparable(value) for value in (x0, y0, dy0)]
-    given = problem, *start, comparables(frobenius, "frobenius"), which, comparables(path, "path")
-    return AskedSolution(looked_up(journey_of, *given), digits, method, limits)
+    given = *start, comparables(frobenius, "frobenius"), which, comparables(path, "path")
+    if change_of(equation) is None and not isinstance(equation, Coefficients):
+        try:
+            problem = as_problem(equation, params, forced=True, constants=True)
+            return AskedSolution(looked_up(journey_of, problem, *given), digits, method, limits)
+        except NotRational:
+            pass
+    from kovacic.enclosure.functions import coefficients_of_any  # imports SymPy
+
+    coefficients = coefficients_of_any(equation, params, limits)
+    _check_analytic(y0, dy0, method, which, frobenius)
+    journey, through = looked_up(_analytic_journeys, coefficients, *given)
+    return AskedSolution(journey, digits, method, limits, through)
 
 
 def evaluate_states(equation: object, points: Sequence[object], **given: Any) -> tuple[PointValue, ...]:
@@ -127,12 +126,54 @@ def journey_of(
     which: str | None,
     path: Path,
 ) -> Journey:
-    """What doesn't depend on the targets; kept, so that a call for one more point begins where the last one did."""
+    """What doesn't depend on the targets; kept, so that a call for one more point finds the discs that are there."""
     vertices = _vertices_of(path)
     start = read_start(problem, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
     side = path if path in ("above", "below") else None
-    return Journey(problem, start, vertices, chain=path == "chain", side=side)
+    way: Any = RationalWay(problem)
+    if problem.right is not None:
+        from kovacic.enclosure.analytic import way_of  # imports SymPy
+
+        way = way_of(problem)
+    return Journey(way, start, vertices, chain=path == "chain", side=side, problem=problem)
+
+
+@lru_cache(maxsize=32, typed=True)
+def _analytic_journeys(
+    coefficients: Coefficients, x0: object, y0: object, dy0: object, frobenius: object, which: object, path: Path
+) -> tuple[Journey, Through | None]:
+    """The same where coefficients are functions of x: in x and, if the path is straight, in t."""
+    if path in ("above", "below"):
+        hint = "path=[v1, v2, ...] goes through these vertices"
+        raise InputError(f"path={path!r} isn't for equations whose coefficients are functions of x", hint=hint)
+    vertices = _vertices_of(path)
+    place = as_number(x0, "x0")
+    data = as_number(y0, "y0"), as_number(dy0, "dy0")
+    from kovacic.enclosure.analytic import AnalyticWay
+    from kovacic.enclosure.jets import CoefficientField
+    from kovacic.enclosure.through import Change, Through
+
+    chain = path == "chain"
+    journey = Journey(AnalyticWay(CoefficientField(coefficients)), Start(place, data), vertices, chain)
+    change = None if vertices else Change.of(coefficients)
+    if change is None or not change.is_real([place]):
+        return journey, None
+    start = change.start(place, data)
+    in_t = journey_of(change.problem, start.place, *start.data, None, None, path)
+    return journey, Through(change, in_t)
+
+
+def _check_analytic(y0: object, dy0: object, method: str | None, which: object, frobenius: object) -> None:
+    """Raise InputError for what needs rational coefficients."""
+    if method == "closed form":
+        raise InputError("the method 'closed form' is for rational coefficients", hint="leave the method out")
+    name = "which" if which is not None else "frobenius"
+    if which is not None or frobenius is not None:
+        said = f"{name} isn't for equations whose coefficients are functions of x"
+        raise InputError(said, hint="give y0 and dy0 at a regular point")
+    if y0 is None or dy0 is None:
+        raise InputError("both y0 and dy0 are needed where coefficients are functions of x")
 
 
 def _vertices_of(path: Path) -> tuple[Number, ...]:

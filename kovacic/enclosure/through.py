@@ -10,86 +10,86 @@ What a wave exp(i k x) makes of a segment is no segment; its discs in x serve as
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
+from flint import acb
 
 from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.constants import Constant, Number, in_balls, to_ball
 from kovacic.enclosure.journey import Journey
+from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import are_real
-from kovacic.enclosure.precision import Method, PointValue
-from kovacic.enclosure.problem import Coefficients, as_problem
+from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem
 from kovacic.enclosure.start import Start
-from kovacic.enclosure.states import AskedSolution
 from kovacic.errors import NotRational
-from kovacic.limits import Limits
 from kovacic.reading.change_of_variable import function_of_x, without_change
 
 _BITS = 64
 
 
 @dataclass(frozen=True)
-class Through:
-    """The solution Y in t, and t as a function of x."""
+class Change:
+    """t as a function of x, and the equation in t."""
 
-    journey: Journey
     t: Any
-    variable: Any
+    x: Any
+    problem: NumericProblem
 
     @classmethod
-    def of(
-        cls, coefficients: Coefficients, x0: Number, data: tuple[Number, Number], *, chain: bool = False
-    ) -> Through | None:
-        """The solution with these values of y and y'; None unless t is real and the equation rational in t."""
+    def of(cls, coefficients: Coefficients) -> Change | None:
+        """None unless the equation is rational in an exponential of x."""
         changed: Any = coefficients.changed
         if changed is None or getattr(changed, "letters", None):
             return None
-        t = function_of_x(coefficients.changed.equation)
-        x = coefficients.variable
-        if t.func is not sympy.exp or t.free_symbols != {x} or not _are_real(t, x, [x0]):
+        t = function_of_x(changed.equation)
+        if t.func is not sympy.exp or t.free_symbols != {coefficients.variable}:
             return None
         values: dict[str, object] = dict(coefficients.values)
         try:
-            problem = as_problem(without_change(coefficients.changed), values or None, forced=True, constants=True)
+            problem = as_problem(without_change(changed), values or None, forced=True, constants=True)
         except NotRational:
             return None
+        return cls(t, coefficients.variable, problem)
+
+    def image(self, x: Number) -> Number:
+        """t at a number, to every precision that this has."""
+        return Constant(f"t({x})", lambda: in_balls(self.t, {self.x: to_ball(x)}), getattr(x, "fixed", False))
+
+    def slope(self, x: Number) -> acb:
+        """dt/dx at a number, at the working precision in force."""
+        return in_balls(self.t.diff(self.x), {self.x: to_ball(x)})
+
+    def start(self, x0: Number, data: tuple[Number, Number]) -> Start:
+        """The start in t with these values of y and y'."""
         y, dy = data
-        slope = t.diff(x)
-        fixed = _is_fixed(dy) or _is_fixed(x0)
-        start = Constant("y'/t'", lambda: to_ball(dy) / in_balls(slope, {x: to_ball(x0)}), fixed)
-        return cls(Journey(problem, Start(_image(t, x, x0), (y, start)), (), chain), t, x)
+        fixed = any(getattr(number, "fixed", False) for number in (dy, x0))
+        return Start(self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), fixed)))
 
-    def states(
-        self, targets: Sequence[Number], digits: int, method: Method | None, limits: Limits
-    ) -> tuple[PointValue, ...] | None:
-        """y and y' with the circumstances; None for targets that aren't real."""
-        if not _are_real(self.t, self.variable, targets):
-            return None
-        images = [_image(self.t, self.variable, target) for target in targets]
-        found = AskedSolution(self.journey, digits, method, limits).states_at(images)
-        return tuple(map(self._in_x, targets, found))
-
-    def _in_x(self, target: Number, value: PointValue) -> PointValue:
-        with working_precision(value.route.bits):
-            slope = in_balls(self.t.diff(self.variable), {self.variable: to_ball(target)})
-            y, dy = value.state
-            return replace(value, x=target, state=(y, dy * slope))
+    def is_real(self, numbers: Sequence[Number]) -> bool:
+        """True if these numbers, and t and its derivative there, are real."""
+        with working_precision(_BITS):
+            return are_real([f(x) for x in numbers for f in (to_ball, lambda x: to_ball(self.image(x)), self.slope)])
 
 
-def _image(t: Any, variable: Any, x: Number) -> Number:
-    """t at a number, to every precision that this has."""
-    return Constant(f"t({x})", lambda: in_balls(t, {variable: to_ball(x)}), _is_fixed(x))
+@dataclass(frozen=True, eq=False)
+class Through:
+    """A journey in t, seen from x."""
 
+    change: Change
+    journey: Journey
 
-def _are_real(t: Any, variable: Any, numbers: Sequence[Number]) -> bool:
-    """True if these numbers, and t and its derivative there, are real."""
-    with working_precision(_BITS):
-        balls = [to_ball(number) for number in numbers]
-        images = [in_balls(part, {variable: ball}) for part in (t, t.diff(variable)) for ball in balls]
-        return are_real([*balls, *images])
+    def is_exact(self, targets: Sequence[Number]) -> bool:
+        """True if a higher precision makes every ball smaller."""
+        return self.journey.is_exact(self.images(targets))
 
+    def images(self, targets: Sequence[Number]) -> list[Number]:
+        """Where these are in t."""
+        return [self.change.image(target) for target in targets]
 
-def _is_fixed(number: Number) -> bool:
-    return isinstance(number, Constant) and number.fixed
+    def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:
+        """The states at the targets, at about so many bits."""
+        found = self.journey.states(self.images(targets), closed, prec)
+        return [(y, dy * self.change.slope(target)) for target, (y, dy) in zip(targets, found, strict=True)]

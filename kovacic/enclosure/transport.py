@@ -40,9 +40,7 @@ _LOG = logging.getLogger(__name__)
 # Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
 _RATIO = 0.625
 _GROWTH = 0.2  # growth of the solutions in one disc, as a share of the working precision
-_MANY = 50
-# For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs
-_FEWER_BITS = 12.0
+_KEPT_GROWTH = 30.0
 _LARGEST_EXPONENT = 900  # of the scale of a disc whose size a double can be
 _ROUNDED = 1e-15  # more than the relative errors of doubles
 _EDGE = 1 + 2.0**-17  # a target so far from the centre, in scales, is surely within the reach of the bounds
@@ -102,7 +100,13 @@ class Disc:
 
 def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
-    return [leg.matrix for leg in walk(system, a, b, prec)]
+    check_segment(system, a, b)
+    ahead = forecast(system, a, b, prec)
+    found = []
+    for number, leg in enumerate(walk(system, a, b, prec, split=is_split(system, prec)), 1):
+        found.append(leg.matrix)
+        ahead.check(number)
+    return found
 
 
 @dataclass(frozen=True)
@@ -147,16 +151,20 @@ class Leg:
         return local_solution(self.expansion, state)
 
 
-def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:
-    """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
-    split = is_split(system, prec) and not targets
-    growth = growth_of_disc(prec, targets)
+def forecast(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Forecast:
+    """What the discs of the straight way from a to b will take; raises LimitExceeded if they are far too many."""
     # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
-    in_a_disc = 2 * (_allowed_growth(prec) + 10) * math.log(2)
-    forecast = Forecast(a, b, lambda: least_growth(system, a, b), in_a_disc)
+    found = Forecast(a, b, lambda: least_growth(system, a, b), 2 * (_allowed_growth(prec) + 10) * math.log(2))
     e = largest_exponent(system, a)
     if e is not None and power_of_two(2 * e) * MAX_DISCS**2 < (b - a).norm_squared():
-        forecast.refuse()  # too many steps, were all as short as the first one has to be
+        found.refuse()  # too many steps, were all as short as the first one has to be
+    return found
+
+
+def walk(
+    system: System, a: ExactPoint, b: ExactPoint, prec: int, *, growth: float | None = None, split: bool = False
+) -> Iterator[Leg]:
+    """The discs of the straight way from a to b, in which solutions may grow by so many bits; `split`: by binary splitting."""
     how = ", by binary splitting" if split else ""
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
@@ -167,12 +175,11 @@ def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int =
             yield Leg(disc, None, multiply(stop, adjugate(start)))
         else:
             yield Leg(disc, expand(disc.frame, prec))
-        forecast.check(number)
 
 
-def growth_of_disc(prec: int, targets: int) -> float:
-    """The bits by which the solutions may grow in a disc on a way with so many targets beside it."""
-    return max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else _allowed_growth(prec)
+def growth_of_disc(prec: int, *, alone: bool) -> float:
+    """The bits by which the solutions may grow in a disc: less where it is kept, for shorter polynomials at its targets."""
+    return _allowed_growth(prec) if alone else max(_KEPT_GROWTH, prec * _GROWTH)
 
 
 def _allowed_growth(prec: int) -> float:
@@ -182,10 +189,9 @@ def _allowed_growth(prec: int) -> float:
 
 def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float | None = None) -> Iterator[Disc]:
     """The discs that cover the straight piece from a to b, in order: O(log(far/near)) of them for each singular point at a
-    distance between near and far."""
+    distance between near and far.  Towards a singular point on it they never end."""
     if a == b:
         return
-    check_segment(system, a, b)
     if growth is None:
         growth = _allowed_growth(prec)
     piece = StraightPiece(system, a, b, growth)

@@ -1,24 +1,29 @@
-"""Straight ways that are kept: a solution along a ray, disc after disc, as far as somebody has asked.
+"""Ways: how the solutions of an equation are carried along straight lines, disc after disc.
 
-A value in a disc that was passed is that of a polynomial; farther ones continue the way from where it ends.  The second
-question continues farther than to its own point, so that many questions in a row don't make a disc each.
+A `Way` is an equation at some precision.  Its coefficients may be rational (`kovacic.enclosure.rational`) or analytic
+(`kovacic.enclosure.analytic`), or its solutions known in closed form; a right-hand side is part of the state that is carried.
+
+A `Ray` keeps the discs of one straight line.  Which discs these are depends on where the line begins and on its `horizon`, the
+power of two beyond the target, and on nothing else: no value depends on what was asked for before.
 """
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from bisect import bisect_left
-from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.constants import Number
+from kovacic.enclosure.frobenius import limit
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
+from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import watched_seconds
 
@@ -27,7 +32,8 @@ _WORTH = 0.2
 """Discs and seconds after which the time of the others is known well enough to be foreseen."""
 MAX_DISCS = 200_000
 _MOST_DISCS = 4000
-"""Discs that a way keeps: some kilobytes each at 15 digits."""
+"""Discs that a ray keeps: some kilobytes each at 15 digits."""
+NOTHING: State = (acb(0), acb(0))
 
 
 @dataclass(frozen=True)
@@ -74,7 +80,7 @@ def _square(radius: arb) -> acb:
     return acb(arb(0, radius), arb(0, radius))
 
 
-class WayStep(Protocol):
+class Step(Protocol):
     """A disc of a way."""
 
     @property
@@ -129,91 +135,245 @@ class Forecast:
             raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
 
 
+class Way(ABC):
+    """An equation at some precision, whose solutions are carried along straight lines.
+
+    The state that is carried may be another one than the user's (y, y'): `into` and `out_of` change it.
+    """
+
+    @property
+    @abstractmethod
+    def is_exact(self) -> bool:
+        """True if a higher precision makes every ball smaller."""
+
+    @abstractmethod
+    def at(self, prec: int) -> Way:
+        """The same at about so many bits."""
+
+    @abstractmethod
+    def check(self, a: ExactPoint, b: ExactPoint) -> None:
+        """Raise InputError unless the coefficients are analytic on the straight line, as far as is known beforehand."""
+
+    @abstractmethod
+    def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
+        """What the discs from a to b will take; raises LimitExceeded if it is clear that they are too many."""
+
+    @abstractmethod
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
+        """The discs from a towards b; `alone` says that only the end is asked for."""
+
+    @abstractmethod
+    def spread(self, number: Number, state: State) -> State:
+        """The state at a number in a ball from that at its midpoint."""
+
+    def into(self, x: ExactPoint) -> Matrix | None:
+        """From the user's (y, y') at x to what is carried; None where this is the same."""
+        return None
+
+    def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix | None:
+        """Back to the user's (y, y') at x, at the end of the straight line from a."""
+        return None
+
+    def horizon(self, here: ExactPoint, stop: ExactPoint) -> ExactPoint:
+        """The end of the ray that serves this target and nearer ones: at the next power of two."""
+        distance = position(here, stop)
+        e = int(distance.p.bit_length() - distance.q.bit_length()) - 1
+        while power_of_two(e) < distance:
+            e += 1
+        return here + (stop - here).scaled(power_of_two(e) / distance)
+
+    def carried(
+        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
+    ) -> tuple[MatrixProduct, State]:
+        """The maps to the user's state at b from those to the one at a."""
+        self.check(a, b)
+        ahead = self.forecast(a, b)
+        product, particular = _after(self.into(a), product, particular)
+        for number, step in enumerate(self.walk(a, b, alone=True), 1):
+            product, particular = _after(step.matrix, product, particular, step.added)
+            ahead.check(number)
+        return _after(self.out_of(a, b), product, particular)
+
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        """The states at the ends of straight lines from where the traveller is, which is none of them."""
+        return traveller.along_rays(stops)
+
+    def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:
+        """Where the neighbourhood of a singular point is left, and the user's (y, y') there from coordinates at the point."""
+        raise InputError(f"{point} is a singular point: values start at a regular one")
+
+    def decay_rate(self, x: ExactPoint) -> acb:
+        """y'/y at x of the solution that decays for large x."""
+        raise InputError("the decaying solution needs rational coefficients", hint="give y0 and dy0")
+
+
+def _after(
+    matrix: Matrix | None, product: MatrixProduct, particular: State, added: State = NOTHING
+) -> tuple[MatrixProduct, State]:
+    """One more map v -> M v + added on the left."""
+    if matrix is None:
+        return product, particular
+    y, dy = apply(matrix, particular)
+    return product.after(matrix), (y + added[0], dy + added[1])
+
+
 def position(here: ExactPoint, x: ExactPoint) -> Any:
     """How far x is from here, for points of one ray."""
     step = x - here
     return max(abs(step.x), abs(step.y))
 
 
-def ray(here: ExactPoint, x: ExactPoint) -> ExactPoint:
-    """The direction, the same for all points of one ray."""
-    return (x - here).scaled(1 / position(here, x))
-
-
-def by_rays(here: ExactPoint, stops: Sequence[ExactPoint]) -> dict[ExactPoint, list[ExactPoint]]:
-    """The points but `here`, each once, by their directions, the nearest first."""
+def by_rays(here: ExactPoint, stops: Sequence[ExactPoint]) -> list[list[ExactPoint]]:
+    """The points but `here`, each once, those in one direction together, the nearest first."""
     found: dict[ExactPoint, list[ExactPoint]] = {}
     for stop in sorted({*stops} - {here}, key=lambda stop: position(here, stop)):
-        found.setdefault(ray(here, stop), []).append(stop)
-    return found
+        direction = (stop - here).scaled(1 / position(here, stop))
+        found.setdefault(direction, []).append(stop)
+    return [*found.values()]
+
+
+@dataclass(frozen=True)
+class _Passed:
+    """A disc that was passed, and the maps to the state where it was entered."""
+
+    step: Step
+    product: MatrixProduct
+    particular: State
+
+    def left(self) -> tuple[MatrixProduct, State]:
+        """The maps to the state where it is left."""
+        return _after(self.step.matrix, self.product, self.particular, self.step.added)
 
 
 @dataclass
-class Way:
-    """From `here` along one ray: `walk(a, b)` makes the discs from a to b, junctions on the ray.
+class Ray:
+    """The discs from `here` towards `far`, made as far as somebody has asked.
 
-    The state at `here` is `product` times the start, plus `particular`.
+    The user's state at `here` is `product` times the start, plus `particular`.
     """
 
+    way: Way
     here: ExactPoint
-    walk: Callable[[ExactPoint, ExactPoint], Iterator[WayStep]]
+    far: ExactPoint
     start: State
     product: MatrixProduct
-    particular: State = (acb(0), acb(0))
-    end: ExactPoint = field(init=False)
-    begin: Any = 0
-    _stops: list[Any] = field(default_factory=list)
-    _locals: list[Local] = field(default_factory=list)
+    particular: State = NOTHING
 
     def __post_init__(self) -> None:
-        self.end = self.here
+        self._begin()
 
-    def has(self, x: ExactPoint) -> bool:
-        """Is it not known that x lies before the part that is kept?"""
-        return bool(position(self.here, x) >= self.begin)
+    def _begin(self) -> None:
+        self._end = self.here
+        self._nearest: Any = 0  # what is nearer was forgotten
+        self._leave: list[Any] = []
+        self._passed: list[_Passed] = []
+        self._locals: dict[int, Local] = {}
+        self._steps = self.way.walk(self.here, self.far)
 
-    def contains(self, x: ExactPoint) -> bool:
-        """Is the point on the part that is kept?"""
-        return self.has(x) and bool(position(self.here, x) <= position(self.here, self.end))
+    def state(self, stop: ExactPoint) -> State:
+        """(y, y') at a point of the ray."""
+        place = position(self.here, stop)
+        if place < self._nearest:
+            self._begin()
+        if not self._leave or place > self._leave[-1]:
+            try:
+                self._advance(stop, place)
+            except BaseException:  # the discs can't be continued after an interruption
+                self._begin()
+                raise
+        k = bisect_left(self._leave, place)
+        if k not in self._locals:
+            passed = self._passed[k]
+            y, dy = passed.product.apply(self.start)
+            self._locals[k] = passed.step.local((y + passed.particular[0], dy + passed.particular[1]))
+        state = self._locals[k].state(stop)
+        outward = self.way.out_of(self.here, stop)
+        return state if outward is None else apply(outward, state)
 
-    def states(self, stops: Sequence[ExactPoint]) -> list[State]:
-        """(y, y') at points of the ray, the nearest first."""
-        reached = position(self.here, self.end)
-        known = [stop for stop in stops if position(self.here, stop) <= reached]
-        found = [self._locals[bisect_left(self._stops, position(self.here, stop))].state(stop) for stop in known]
-        waiting = deque(stops[len(known) :])
-        if waiting and self._stops:
-            far = self.here + (waiting[-1] - self.here).scaled(2)
-            with suppress(InputError, LimitExceeded):
-                self._go(far, waiting, found, spare=len(self._stops))
-        if waiting:
-            self._go(waiting[-1], waiting, found, spare=0)
-        return found
-
-    def _go(self, far: ExactPoint, waiting: deque[ExactPoint], found: list[State], *, spare: int) -> None:
-        """Towards `far`, past all that wait, whose states are found, and then so many discs more: but for the first time a way
-        goes on to twice the distance, for no more discs than there are, if nothing is in the way."""
-        for step in self.walk(self.end, far):
-            y, dy = self.particular
-            state = self.product.apply(self.start)
-            self._locals.append(step.local((state[0] + y, state[1] + dy)))
-            self._stops.append(position(self.here, step.leave))
-            y, dy = apply(step.matrix, self.particular)
-            self.product = self.product.after(step.matrix)
-            self.particular = y + step.added[0], dy + step.added[1]
-            self.end = step.leave
-            while waiting and position(self.here, waiting[0]) <= self._stops[-1]:
-                found.append(self._locals[-1].state(waiting.popleft()))
-            if not waiting:
-                spare = min(spare - 1, _MOST_DISCS - len(self._stops))
-            if spare < 0:
-                return
-            if len(self._stops) > _MOST_DISCS:
+    def _advance(self, stop: ExactPoint, place: Any) -> None:
+        """To the disc that contains the stop."""
+        self.way.check(self.here, stop)
+        ahead = self.way.forecast(self._end, stop)
+        number = 0
+        while not self._leave or self._leave[-1] < place:
+            if number:
+                ahead.check(number)
+            number += 1
+            step = next(self._steps)
+            if self._passed:
+                self._passed.append(_Passed(step, *self._passed[-1].left()))
+            else:
+                maps = _after(self.way.into(self.here), self.product, self.particular)
+                self._passed.append(_Passed(step, *maps))
+            self._leave.append(position(self.here, step.leave))
+            self._end = step.leave
+            if len(self._passed) > _MOST_DISCS:
                 self._forget()
 
     def _forget(self) -> None:
         """The first half of the discs."""
         half = _MOST_DISCS // 2
-        self.begin = self._stops[half - 1]
-        del self._stops[:half]
-        del self._locals[:half]
+        self._nearest = self._leave[half - 1]
+        self._locals = {k - half: local for k, local in self._locals.items() if k >= half}
+        del self._leave[:half]
+        del self._passed[:half]
+
+
+@dataclass(frozen=True, eq=False)
+class Traveller:
+    """Where we are, and the user's (y, y') there: `product` times the start, plus `particular`; with the rays from here.
+
+    The start is a state, or coordinates in the Frobenius basis at a singular point.
+    """
+
+    way: Way
+    here: ExactPoint | Singular
+    start: State
+    product: MatrixProduct = field(default_factory=MatrixProduct)
+    particular: State = NOTHING
+    rays: dict[ExactPoint, Ray] = field(default_factory=dict)
+
+    @property
+    def state(self) -> State:
+        """The user's (y, y') here."""
+        y, dy = self.product.apply(self.start)
+        return y + self.particular[0], dy + self.particular[1]
+
+    def moved(self, stop: ExactPoint) -> Traveller:
+        """Straight on to a point."""
+        if isinstance(self.here, Singular):
+            if self.here.is_at(stop):
+                said = f"the path doesn't leave the singular point {self.here}"
+                raise InputError(said, hint="go on to another point")
+            last, matrix = self.way.departure(self.here, stop, self.start)
+            return replace(self, here=last, product=self.product.after(matrix), rays={}).moved(stop)
+        if stop == self.here:
+            return self
+        product, particular = self.way.carried(self.here, stop, self.product, self.particular)
+        return replace(self, here=stop, product=product, particular=particular, rays={})
+
+    def fan(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        """The states at the ends of straight lines from here."""
+        at_rest = {stop for stop in stops if self.is_at(stop)}
+        others = [stop for stop in stops if stop not in at_rest]
+        found = self.way.fan(self, others) if others else {}
+        return found | {stop: self.resting() for stop in at_rest}
+
+    def is_at(self, stop: ExactPoint) -> bool:
+        """Is the point known to be this one?"""
+        return self.here.is_at(stop) if isinstance(self.here, Singular) else self.here == stop
+
+    def resting(self) -> State:
+        """The state here, at a singular point the limits of y and y'."""
+        return limit(self.here, self.start) if isinstance(self.here, Singular) else self.state
+
+    def along_rays(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        """In discs that are kept for the next call."""
+        assert isinstance(self.here, ExactPoint)
+        found: dict[ExactPoint, State] = {}
+        for on_it in by_rays(self.here, stops):
+            far = self.way.horizon(self.here, on_it[-1])
+            if far not in self.rays:
+                self.rays[far] = Ray(self.way, self.here, far, self.start, self.product, self.particular)
+            found |= {stop: self.rays[far].state(stop) for stop in on_it}
+        return found
