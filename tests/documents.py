@@ -12,7 +12,6 @@ import pytest
 from build import run
 
 import kovacic
-from kovacic.enclosure.states import journey_of
 
 ROOT = Path(kovacic.__file__).parent.parent
 README = ROOT / "README.md"
@@ -40,7 +39,6 @@ def sessions(*pages: Path) -> list[tuple[str, str, str]]:
 def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
     program, *arguments = shlex.split(command.removesuffix(STATUS))
     assert program == "kovacic"
-    journey_of.cache_clear()  # a command is a process of its own: an earlier one's precision would change the radius
     with warnings.catch_warnings(record=True, action="always") as noticed:
         status = run(arguments)
     shown = capsys.readouterr()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+import mpmath
 import pytest
 from build import bounded_work, parametrize, sample
 
@@ -67,6 +68,37 @@ def test_a_right_hand_side_that_is_singular_at_the_start_is_integrated() -> None
     """y'' = sqrt(x) from 0: 4 x^(5/2)/15."""
     found = kovacic.evaluate("y'' = sqrt(x)", [1, 4, 9, 16], x0=0, y0=0, dy0=0)
     assert [float(value) for value in found] == pytest.approx([4 * x**2.5 / 15 for x in (1, 4, 9, 16)], rel=1e-13)
+
+
+def test_a_coefficient_that_is_singular_at_the_start_is_integrated() -> None:
+    """y'' + sqrt(x) y = 0 from 0 has sqrt(x) J(2/5, 4/5 x^(5/4)), whose derivative there is (2/5)^(2/5)/Gamma(7/5)."""
+    with mpmath.workdps(60):
+        slope = mpmath.mpf("0.4") ** mpmath.mpf("0.4") / mpmath.gamma(mpmath.mpf("1.4"))
+        argument = mpmath.mpf("0.8") * mpmath.mpf("1.5") ** mpmath.mpf("1.25")
+        exact = mpmath.sqrt(mpmath.mpf("1.5")) * mpmath.besselj(mpmath.mpf("0.4"), argument)
+    value = kovacic.evaluate("y'' + sqrt(x)*y = 0", "3/2", x0=0, y0=0, dy0=slope, digits=30)
+    assert value.digits >= 30
+    assert abs(value.to_mpmath() - exact) < 1e-29
+
+
+@pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
+@parametrize(
+    ("equation", "x0", "x"),
+    [
+        ("y'' + sqrt(x)*y = 0", 0, 2),
+        ("y'' + sqrt(x)*y' + y = cos(x)", 0, 3),
+        ("y'' + sqrt(2)*y = sqrt(x - 1)", 1, 3),
+        ("y'' + sqrt(1 - x^2)*y = 0", -1, 1),
+        ("(x + I)*y'' + y = sqrt(x - I)", "I", 2),
+    ],
+    ordinary=2,
+)
+def test_there_and_back_from_an_end_without_power_series(equation: str, x0: Any, x: Any) -> None:
+    y, dy = kovacic.evaluate(equation, x, x0=x0, digits=15, derivative=True, y0="2/3", dy0="1/3")
+    back, slope = kovacic.evaluate(equation, x0, x0=x, y0=y, dy0=dy, digits=15, derivative=True)
+    assert back.overlaps("2/3")
+    assert slope.overlaps("1/3")
+    assert min(y.digits, back.digits) > 12
 
 
 @parametrize(

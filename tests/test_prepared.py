@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import random
 from typing import Any
 
 import numpy as np
 import pytest
+from build import parametrize
 
 import kovacic
+from kovacic.enclosure.states import analytic_journeys, journey_of
 
 CALLS: list[tuple[str, dict[str, Any]]] = [
     ("-1", {"x0": 0, "y0": 0, "dy0": 1}),
@@ -23,6 +26,33 @@ def test_a_call_far_away_changes_no_answer(equation: str, start: dict[str, Any])
     first = kovacic.evaluate(equation, "3/2", **start)
     kovacic.evaluate(equation, 10**60 if equation == "-1" else 12, **start)
     assert str(kovacic.evaluate(equation, "3/2", **start)) == str(first)
+
+
+OTHERS: list[tuple[str, dict[str, Any]]] = [
+    ("y'' + 10*y = sin(3*x)", {"x0": 0, "y0": 1, "dy0": "1/3"}),
+    ("y'' + sqrt(2)*y = sqrt(x)", {"x0": 1, "y0": 1, "dy0": 0}),
+    ("y'' + exp(x)*y = 0", {"x0": 0, "y0": 1, "dy0": 0}),
+    ("y'' + (2 + sin(x))*y = 0", {"x0": 0, "y0": 1, "dy0": 0}),
+    ("y'' + y/(x + 3) + y/(x^2 + 1) = 0", {"x0": 1, "y0": "1 + I", "dy0": "pi"}),
+    ("-(x^2 + 1)/(x^2 + 4)", {"x0": 0, "y0": 1, "dy0": 0}),
+    ("y'' + 100*y' + y = 0", {"x0": 0, "y0": 1, "dy0": 0}),
+]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@parametrize(("equation", "start"), [*CALLS, *OTHERS], ordinary=4, long=9)
+def test_no_value_depends_on_what_was_asked_before(equation: str, start: dict[str, Any], seed: int) -> None:
+    """Lists, single points, digits and orders: each ball is that of a solution of which nothing else was asked."""
+    rng = random.Random(f"{equation} {seed}")
+    places = ["3/2", "1/7", 2, "20/3", "sqrt(3)", "1 + I/2", *([12, 40] if equation == "-1" else [])]
+    calls = [(rng.sample(places, rng.randint(1, 4)), rng.choice([5, 15, 40])) for _ in range(6)]
+    together = kovacic.prepared(equation, **start)
+    found = [together(points, digits=digits, derivative=True) for points, digits in calls]
+    for (points, digits), values in zip(calls, found, strict=True):
+        for journeys in (journey_of, analytic_journeys):
+            journeys.cache_clear()
+        alone = kovacic.prepared(equation, **start)(points, digits=digits, derivative=True)
+        assert [*map(repr, alone)] == [*map(repr, values)]
 
 
 @pytest.mark.parametrize(("equation", "start"), CALLS)

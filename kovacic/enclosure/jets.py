@@ -98,8 +98,7 @@ class CoefficientField:
 
     def is_real(self, centre: ExactPoint, e: int) -> bool:
         """True if the coefficients, analytic in the disc with the scale 2^e, are proven to be real on its real diameter."""
-        with working_precision(_ROUGH):
-            return centre.is_real() and are_real(self.values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
+        return centre.is_real() and are_real(self.values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
 
     def is_regular(self, x: acb) -> bool:
         """Are the coefficients known to be analytic on the ball?"""
@@ -115,7 +114,10 @@ class CoefficientField:
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
         """The series for solutions to about 2^-prec; None where the disc of twice this scale has a singularity, lambda is above
         `steepest`, or a function grows so much that its series would be long or cancel."""
-        with working_precision(_ROUGH):
+        square = centre.norm_squared()
+        # Bits by which the centre is longer than what is to be seen around it.
+        longer = max(0, (square.p.bit_length() - square.q.bit_length()) // 2 - e)
+        with working_precision(_ROUGH + longer):
             h = arb((1, e))
             near = self.sizes(centre, h)
             if near is None or not _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
@@ -124,8 +126,11 @@ class CoefficientField:
             # Beside a solution of size 1 what is smaller needn't be followed.
             if inner is None or not near[2] * h * h <= (inner[2] * h * h).max(arb(1)) * arb(steepest).exp():
                 return None
-            growth = int(1.4427 * min(steepest, float(_rate(near[0] * h, near[1] * h * h))))  # log2(e): in bits
+            rate = _rate(near[0] * h, near[1] * h * h)
+            growth = int(1.4427 * min(steepest, float(rate)))  # log2(e): in bits
             bits = prec + growth + _SPARE
+            # An error of dy/du counts for y beyond the disc: over the size of the disc, where that is small.
+            lost = max(0, int(-log2(rate))) if rate > 0 else 0
             bounds = []
             for radius in _RADII:
                 sizes = self.sizes(centre, h * radius)
@@ -134,11 +139,13 @@ class CoefficientField:
                 bounds.append((radius, sizes))
             if not bounds:
                 return None
-            terms, rests = min((_terms(radius, sizes, h, bits) for radius, sizes in bounds), key=lambda found: found[0])
+            terms, rests = min(
+                (_terms(radius, sizes, h, bits + lost) for radius, sizes in bounds), key=lambda found: found[0]
+            )
             if terms > _TERMS * bits:  # the functions are as large as exp(bits) beside the way
                 return None
         precision = bits + growth + _SPARE
-        with working_precision(precision):
+        with working_precision(precision + longer):
             parts = self.series(centre, e, terms)
         if parts is None:
             return None
@@ -187,8 +194,9 @@ def _size(poly: Any) -> arb:
 def _terms(radius: int, sizes: Sequence[arb], h: arb, bits: int) -> tuple[int, tuple[arb, arb, arb]]:
     """So many terms of the series are to be known that the rests are below 2^-bits, and bounds of these."""
     scaled = [size * factor for size, factor in zip(sizes, (h, h * h, h * h), strict=True)]
-    largest = log2(max(max(scaled), arb(1)))
-    terms = max(4, int((largest + bits + 1) / log2(arb(radius))) + 2)
+    largest = max(scaled)
+    needed = log2(largest) + bits + 1 if largest > 0 else 0.0
+    terms = max(4, int(needed / log2(arb(radius))) + 2)
     share = arb(radius) ** (1 - terms) / (radius - 1)
     b, c, f = ((size * share).upper() for size in scaled)
     return terms, (b, c, f)

@@ -107,7 +107,7 @@ def question_of(
 
     coefficients = coefficients_of_any(equation, params, limits)
     _check_analytic(y0, dy0, method, which, frobenius)
-    journey, through = looked_up(_analytic_journeys, coefficients, *given)
+    journey, through = looked_up(analytic_journeys, coefficients, *given)
     return AskedSolution(journey, digits, method, limits, through)
 
 
@@ -140,7 +140,7 @@ def journey_of(
 
 
 @lru_cache(maxsize=32, typed=True)
-def _analytic_journeys(
+def analytic_journeys(
     coefficients: Coefficients, x0: object, y0: object, dy0: object, frobenius: object, which: object, path: Path
 ) -> tuple[Journey, Through | None]:
     """The same where coefficients are functions of x: in x and, if the path is straight, in t."""
