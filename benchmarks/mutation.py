@@ -64,6 +64,20 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("kovacic/closed_form/check.py", "kovacic/closed_form/real_pair.py"),
         ("tests/test_closed_form*.py",),
     ),
+    "answers": (("kovacic/general_solution/check.py",), ("tests/test_forged_answers.py", "tests/test_continuity.py")),
+    "batch": (("kovacic/batch/*.py",), ("tests/test_batch.py", "tests/test_scan.py")),
+    "cli": (("kovacic/cli/*.py",), ("tests/test_cli.py", "tests/test_help.py")),
+    "views": (
+        ("kovacic/views/*.py", "kovacic/writing/*.py"),
+        (
+            "tests/test_explain.py",
+            "tests/test_formulas.py",
+            "tests/test_json.py",
+            "tests/test_result_methods.py",
+            "tests/test_theorem.py",
+            "tests/test_enclosure_plot.py",
+        ),
+    ),
     "bounds": (
         tuple(f"kovacic/enclosure/{name}.py" for name in ("t*", "fr*", "exponential", "s*")),
         ("tests/test_enclosure*.py",),

@@ -100,16 +100,23 @@ def equation(text: Any, var: str | None = None) -> Equation:
 
 
 def parametrize(
-    names: str | tuple[str, ...], values: Iterable[Any], *, ordinary: int, long: int | None = None, **options: Any
+    names: str | tuple[str, ...],
+    values: Iterable[Any],
+    *,
+    ordinary: int,
+    long: int | None = None,
+    always: Sequence[Any] = (),
+    **options: Any,
 ) -> pytest.MarkDecorator:
     """`pytest.mark.parametrize` of which `ordinary` values, spread evenly, are in the ordinary suite; the others are `long`.
 
     For properties of which every member takes a while: a few say at once that something broke, all of them run in .ci/run.
-    Where that takes minutes, `long` is how many of the others, spread evenly, run there; the rest is `slow`.
+    Where that takes minutes, `long` is how many of the others, spread evenly, run there; the rest is `slow`.  A value that
+    alone covers a branch is ordinary `always`.
     """
     members = list(values)
     one_name = isinstance(names, str) and "," not in names
-    at_once = _spread(range(len(members)), ordinary)
+    at_once = _spread(range(len(members)), ordinary) | {members.index(member) for member in always}
     others = [index for index in range(len(members)) if index not in at_once]
     in_ci = _spread(others, len(others) if long is None else long)
     marked = []

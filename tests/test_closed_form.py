@@ -294,6 +294,7 @@ def _with_square(g: str, factor: str = "1", exponent: str = "1/4") -> str:
     ],
     ordinary=1,
     long=6,
+    always=[("(x**2 + 1)*(x**2 - 2*x + 2)", "1", "1/4", "f", -0.3)],
 )
 def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kinds: str, at: float) -> None:
     S = _with_square(g, factor, exponent)

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from contextlib import suppress
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -15,7 +16,8 @@ import flint
 import mpmath
 import pytest
 import sympy
-from build import Atoms, jet, parametrize, read_expression, read_input
+import transform
+from build import QQ, Atoms, RatFunc, jet, parametrize, read_expression, read_input
 from clocks import controlled
 from sympy import I, Rational, cos, exp, log, sin, sqrt
 
@@ -265,6 +267,26 @@ def test_algebraic_solutions_of_degree_four() -> None:
     found = solve_riccati("(-32*x^2 + 27*x - 27)/(144*x^2*(x-1)^2)", 0, -1)
     assert found.all_algebraic
     assert sympy.degree(found.polynomial, w) == 4
+
+
+def test_algebraic_solutions_of_degree_twelve_of_a_pull_back() -> None:
+    """SL(2,5) with the exponent differences 1/5, 1/2, 1/3, pulled back by x^5, so that 0 is an ordinary point.
+
+    Where P(w) = 0 the slope of a root, S - w^2, is -P_x/P_w; P has no factor that is free of w.
+    """
+    X = RatFunc(QQ.poly([0, 1]))
+    S = transform.pull_back(transform.hypergeometric(Fraction(1, 5), Fraction(1, 2), Fraction(1, 3)), X**5)
+    found = solve_riccati(str(S), 0, -1)
+    assert found.all_algebraic
+    P = sympy.Poly(found.polynomial, w, x)
+    assert P.degree(w) == 12
+    assert P.content() == 1
+    assert P.LC() > 0
+    assert sympy.gcd_list(found.polynomial.as_poly(w).all_coeffs()) == 1
+    place = sympy.Rational(3, 2)
+    slope = sympy.sympify(str(S)).subs(x, place) - w**2
+    flow = (P.diff(x).as_expr() + P.diff(w).as_expr() * slope).subs(x, place)
+    assert sympy.rem(flow, P.as_expr().subs(x, place), w) == 0
 
 
 def test_the_solutions_of_a_constant_riccati_equation() -> None:

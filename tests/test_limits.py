@@ -503,3 +503,16 @@ def test_a_product_of_polynomials_is_no_long_expansion(outside: str) -> None:
     product = sympy.Mul(*[x + k for k in range(1, 31)]) * sympy.sympify(outside.replace("^", "**"))
     with controlled(), Budget(Limits(seconds=1)).watched():
         assert len(sympy.Add.make_args(prepared(product))) == 31
+
+
+def test_a_limit_of_zero_is_a_limit() -> None:
+    """Not the default: with `Limits(degree=0)` no product, quotient or power may contain the variable."""
+    constants = Limits(degree=0)
+    assert kovacic.solve("2/3", limits=constants).case == 1
+    for S in ("2*x", "x^2", "(x + 1)/(x + 2)", "a*x", "y'' = x*y"):
+        with pytest.raises(LimitExceeded, match="above the limit of 0"):
+            kovacic.solve(S, limits=constants)
+    for name, S in {"text_length": "2", "digits": "2", "exponent": "x^2", "bits": "3*x", "parameters": "a*x"}.items():
+        with pytest.raises(LimitExceeded, match="0") as caught:
+            kovacic.solve(S, limits=Limits(**{name: 0}))
+        assert caught.value.limit == name

@@ -799,3 +799,16 @@ def test_what_is_foreseen_isnt_less_than_what_there_is_nor_much_more() -> None:
         assert read_input(text, limits=Limits(terms=terms)).S.num.extent()[0] <= terms
         with pytest.raises(LimitExceeded, match="terms"):
             read_input(text, limits=Limits(terms=terms // 3))
+
+
+@pytest.mark.parametrize("text", ["y'' + y = e^ax", "y'' + y = e^-ax", "y'' - 2^ax*y = 0", "x^ax"])
+def test_two_letters_in_an_exponent_are_refused_with_the_product_as_the_hint(text: str) -> None:
+    """e^ax is e^(a x) to one reader and e^a x to another; what the hint says is read, where it is a function at all."""
+    with pytest.raises(ParseError, match="ax in an exponent can be read in two ways") as caught:
+        read_input(text)
+    assert caught.value.excerpt == "ax"
+    assert caught.value.hint == "write (a*x) for the product"
+
+
+def test_the_hint_for_two_letters_in_an_exponent_is_read() -> None:
+    assert kovacic.dsolve("y'' = e^(a*x)", ics={"y(0)": 0, "y'(0)": 0}).rhs.has(sympy.exp)

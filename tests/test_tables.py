@@ -91,6 +91,7 @@ BALL = "-3/(16*(x - 1)^2) - 3/(16*(x + 2)^2) + 17/(72*(x - 1)*(x + 2))"  # R/R1 
         ("x^2 + 3", (-1 - 1j, 2 + 1j)),
     ],
     ordinary=3,
+    always=[("-3/(16*x^2) - 3/(16*(x-1)^2) + 7/(16*x*(x-1))", (0, 1))],
 )
 @pytest.mark.parametrize("careful", [True, False])
 def test_derivatives_of_product_forms_are_those_of_evaluate(equation: str, interval: Any, careful: bool) -> None:

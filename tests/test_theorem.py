@@ -380,3 +380,13 @@ def test_a_case_for_two_regions_excludes_the_first_from_the_second() -> None:
     text = kovacic.conditions("(1+L*x)*y''+b*y'+c*y=0", var="x").theorem()
     assert "For c = 0, and L != 0:\n\n    y = (L*x + 1)^(1 - b/L)\n\n    y = 1\n" in text
     assert "Each of the two equations" in text
+
+
+def test_the_generic_case_is_stated_after_the_others_or_for_all_values() -> None:
+    bessel = kovacic.conditions("a/x - 3/(16*x^2)", var="x").theorem()
+    first = bessel.index("a = 0.")
+    assert "Otherwise it is case 2. The group is the infinite dihedral group." in bessel[first:]
+    assert "For all values" not in bessel
+    oscillator = kovacic.conditions("2/x^2 + a", var="x").theorem()
+    assert "For all values it is case 1." in oscillator
+    assert "Otherwise" not in oscillator
