@@ -66,7 +66,10 @@ def check_answer(
         if set(condition.points).isdisjoint(limits):
             unchecked += _check_condition(question, value, condition, numbers)
     a, b, c, f = map(question.own, _coefficients(question))
-    if jumps(value, question.x, [b / a, c / a, f / a]):
+    parts = [value, b / a, c / a, f / a]
+    if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
+        parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
+    if jumps(parts[0], question.x, parts[1:]):
         unchecked.append(
             "the formula jumps at an ordinary point of the equation: it is a solution between such points only"
         )

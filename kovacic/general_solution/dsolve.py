@@ -14,7 +14,7 @@ The steps, each in a module of this package:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import Any
@@ -32,14 +32,15 @@ from kovacic.general_solution.first_order import FirstOrderEquation, read_first_
 from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
-from kovacic.general_solution.question import Question, apart, has_floats, read_question
+from kovacic.general_solution.question import Question, apart, has_floats, positive_variable, read_question
 from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.systems import read_system, solved_system
-from kovacic.general_solution.textbook import by_end_points, shortest
+from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numerals import as_text
+from kovacic.parametric.assumptions import read_assumptions
 from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import declared
 from kovacic.reading.systems import read_equations
@@ -259,17 +260,18 @@ def _answered(
         try:
             question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
         except InputError as reason:
-            first_order = _first_order(eq, func, ics, var, budget.limits)
+            first_order = _first_order(eq, func, ics, var, budget.limits, declared(parameters), assume or {})
             if first_order is None:
                 raise reason from None
-            equation, conditions = first_order
+            equation, conditions, known = first_order
             if equation.is_linear:
                 found, notices = solved_linear(equation, conditions)
             else:
                 found, notices = solved_riccati(equation, conditions, partial(_answered, limits=limits))
+            found = found.xreplace({symbol: own for own, symbol in known.items()})
             if has_floats(eq, as_mapping(ics)):
                 found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
-            return found, notices
+            return found, [*equation.guesses, *notices]
         try:
             found, notices = _solved(question, budget, special=special)
             return found, [*question.guesses, *notices]
@@ -278,18 +280,27 @@ def _answered(
 
 
 def _first_order(
-    eq: Any, func: Any, ics: Any, var: str | None, limits: Limits
-) -> tuple[FirstOrderEquation, tuple[Condition, ...]] | None:
-    """The equation of first order and its conditions; None if it isn't one, or can't be read."""
+    eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, names: Collection[str], assume: Mapping[Any, Any]
+) -> tuple[FirstOrderEquation, tuple[Condition, ...], dict[Expr, Expr]] | None:
+    """The equation of first order and its conditions, with symbols that know what is assumed of the user's own, and these.
+
+    None if it isn't one, or can't be read.
+    """
     eq, ics = apart(eq, ics)
     try:
-        found = read_first_order(eq, func, var, limits)
+        found = read_first_order(eq, func, var, limits, names)
     except InputError:
         return None
     if found is None:
         return None
     reader = ConditionReader(found.function, str(found.function.func))
-    return found, tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
+    conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
+    known, assume = positive_variable(assume, found.x)
+    symbols = sympy.Tuple(*found.parts, *(c.value for c in conditions)).free_symbols - {found.x}
+    own = {symbol.name: symbol for symbol in symbols}
+    assumed = read_assumptions(assume, sympy.Tuple(*symbols), tuple(own)).symbols()
+    known |= {own[name]: symbol for name, symbol in assumed.items() if symbol != own[name]}
+    return found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions), known
 
 
 def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr, list[str]]:
@@ -312,9 +323,9 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
 def _general(question: Question, found: DecidedBasis) -> tuple[Expr, list[str]]:
     """C1 y1 + C2 y2 + y0, checked, and what is to be said beside."""
     basis = found.basis
-    particular = particular_solution(basis, None)
+    particular = without_homogeneous(particular_solution(basis, None), basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
-    value = combination(question, basis, particular, constants)
+    value = in_book_form(combination(question, basis, particular, constants), question.x, is_general=True)
     notices = _by_sign(question, found, particular, constants)
     return value, notices + check_answer(question, value, natural=found.natural)
 
@@ -331,9 +342,8 @@ def _determined(question: Question, found: DecidedBasis) -> tuple[Expr, list[str
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
     value = combination(question, basis, particular, generic.values)
-    if not set(names) & set().union(*(c.free_symbols for c in generic.values)):
-        y1, y2, y0 = (question.own(y) for y in (basis.y1, basis.y2, particular))
-        value = shortest([value, by_end_points(y1, y2, y0, question.conditions, question.x)])
+    is_general = bool(set(names) & set().union(*(c.free_symbols for c in generic.values)))
+    value = in_book_form(value, question.x, is_general=is_general)
     notices = _by_sign(question, found, particular, None)
     notices += check_answer(question, value, start, tuple(limits), natural=found.natural)
     return value, notices + [f"this holds unless {said}" for said in exceptions]

@@ -10,9 +10,9 @@ and one of Riccati's is made linear in `riccati_equation`.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence, Set
+from collections.abc import Collection, Mapping, Sequence, Set
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any, NamedTuple
 
@@ -34,7 +34,7 @@ from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.jumps import break_points, in_steps, on_piece
 from kovacic.general_solution.steps import JUMPING, taken_apart
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.textbook import in_book_form
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, is_zero, samples
 from kovacic.limits import Limits
@@ -43,6 +43,7 @@ from kovacic.reading.pieces import Paste
 from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import function_of
+from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
@@ -55,16 +56,26 @@ _NO_VALUE = "a part of it can't be evaluated"
 
 @dataclass(frozen=True)
 class FirstOrderEquation:
-    """w' = p + q w + r w^2; `function` is w(x)."""
+    """w' = p + q w + r w^2; `function` is w(x), `guesses` say what was guessed when a text was read."""
 
     function: Expr
     p: Expr
     q: Expr
     r: Expr
+    guesses: tuple[str, ...] = ()
+
+    def in_symbols(self, others: Mapping[Expr, Expr]) -> FirstOrderEquation:
+        """The same equation with other symbols."""
+        p, q, r = (e.xreplace(others) for e in self.parts)
+        return FirstOrderEquation(self.function.xreplace(others), p, q, r, self.guesses)
 
     @property
     def x(self) -> Expr:
         return self.function.args[0]
+
+    @property
+    def parts(self) -> tuple[Expr, Expr, Expr]:
+        return self.p, self.q, self.r
 
     @property
     def is_linear(self) -> bool:
@@ -72,12 +83,12 @@ class FirstOrderEquation:
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
-        own = self.p.free_symbols | self.q.free_symbols | self.r.free_symbols | taken
+        own = set().union(*(e.free_symbols for e in self.parts), taken)
         return next(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(symbol.name) for symbol in own]))
 
     def is_regular_at(self, point: Expr) -> bool:
         """True if the coefficients are finite at the point, so that a value there determines one solution."""
-        return all(is_finite(e.subs(self.x, point)) for e in (self.p, self.q, self.r))
+        return all(is_finite(e.subs(self.x, point)) for e in self.parts)
 
 
 class GivenValue(NamedTuple):
@@ -104,10 +115,15 @@ def value_of(conditions: Sequence[Condition]) -> GivenValue | None:
 # ------------------------------------------------------------------------------------------------------------ reading
 
 
-def read_first_order(eq: Any, func: Any, var: str | None, limits: Limits) -> FirstOrderEquation | None:
-    """The equation, None if it isn't of this kind.  Raises `InputError` for what can't be read."""
+def read_first_order(
+    eq: Any, func: Any, var: str | None, limits: Limits, names: Collection[str] = ()
+) -> FirstOrderEquation | None:
+    """The equation, None if it isn't of this kind; `names` are declared.  Raises `InputError` for what can't be read."""
+    guesses: tuple[str, ...] = ()
     if isinstance(eq, str | Paste):
-        eq = expression_of(source_of(eq, var, limits, equation=True), limits)
+        source = source_of(eq, var, limits, equation=True, names=names)
+        guesses = source.guesses
+        eq = expression_of(source, limits)
     if not isinstance(eq, sympy.Basic):
         return None
     if isinstance(eq, sympy.Equality):
@@ -116,7 +132,8 @@ def read_first_order(eq: Any, func: Any, var: str | None, limits: Limits) -> Fir
     function = func if isinstance(func, AppliedUndef) else function_of(whole)
     if len(function.args) != 1 or not function.args[0].is_Symbol:
         return None
-    return _in_powers(whole, function)
+    found = _in_powers(whole, function)
+    return found and replace(found, guesses=guesses)
 
 
 def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
@@ -163,6 +180,8 @@ def solved_linear(
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
     w = in_short(constant * h + particular, x)
+    if value is not None:
+        w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))
     return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
 
@@ -179,7 +198,7 @@ def in_short(w: Expr, x: Expr) -> Expr:
     forms = [w, expanded, by_function, sympy.factor_terms(by_function)]
     if w.is_rational_function(x):
         forms.append(sympy.cancel(w))
-    return min(forms, key=size)
+    return shortest(forms)
 
 
 def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr]) -> list[str]:
@@ -292,7 +311,7 @@ def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequenc
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong."""
     value = value_of(conditions)
     w = _concrete(w)
-    equation = FirstOrderEquation(equation.function, *map(_concrete, (equation.p, equation.q, equation.r)))
+    equation = FirstOrderEquation(equation.function, *map(_concrete, equation.parts))
     known = [w, equation.p, equation.q, equation.r, *(value or ())]
     symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
     sample = next(islice(samples(symbols), 1, None))
@@ -360,7 +379,7 @@ def _is_wrong(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr]) -
 def _is_wrong_near(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], place: Expr) -> bool | None:
     """The same beside steps, from what the functions are near a real point."""
     x = equation.x
-    coefficients = (on_piece(e.xreplace(sample), x, place) for e in (equation.p, equation.q, equation.r))
+    coefficients = (on_piece(e.xreplace(sample), x, place) for e in equation.parts)
     here = FirstOrderEquation(equation.function, *coefficients)
     return _is_wrong_at(here, on_piece(w.xreplace(sample), x, place), sample, acb(fmpq(place.p, place.q)))
 
@@ -368,7 +387,7 @@ def _is_wrong_near(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Exp
 def _is_wrong_at(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
     with suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
         value, slope, _ = jet(w, equation.x, point)
-        p, q, r = (jet(e.xreplace(sample), equation.x, point)[0] for e in (equation.p, equation.q, equation.r))
+        p, q, r = (jet(e.xreplace(sample), equation.x, point)[0] for e in equation.parts)
         terms = [slope, -p, -q * value, -r * value**2]
         return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
     return None

@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
@@ -19,6 +20,7 @@ from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import are_independent
+from kovacic.general_solution.textbook import of_chebyshev, with_waves
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
@@ -78,6 +80,12 @@ def _basis(question: Question, pair: Pair) -> Basis:
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair[0].xreplace(plain), pair[1].xreplace(plain)
     y1, y2 = (solution_in_x(question.equation, y).xreplace(NUMBERS) for y in pair)
+    S = question.equation.S
+    constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
+    if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):
+        y1, y2 = with_waves(y1, y2)
+    if not question.conditions:  # which may be outside of the interval where f is a cosine
+        y1, y2 = of_chebyshev(y1, y2)
     return Basis(y1, y2, question.x, question.equation, question.own)
 
 
@@ -105,7 +113,9 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
 
     By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
     """
-    how: dict[str, Any] = {"symbols": question.parameters, "joined": True}
+    is_positive = bool(question.function.args[0].is_positive)
+    is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
+    how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive}
     found: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
     is_asked = not question.conditions or bool(limit_points(question))
     is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
@@ -120,6 +130,10 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
         reason = f"{no_solution(solution, question.assumptions)}; {found}"
         raise NothingKnown(reason, is_proven=solution.status is Status.NONE_EXISTS)
     y1, y2 = found
+    if is_positive and is_asked:
+        y2 = y2.replace(
+            sympy.bessely, lambda nu, z: sympy.besselj(-nu, z) if nu.is_noninteger else sympy.bessely(nu, z)
+        )
     if special and not are_independent(y1, y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     return y1, y2

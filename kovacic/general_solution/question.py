@@ -105,6 +105,11 @@ def read_question(
     reader = ConditionReader(read.function, read.equation.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
+    function = read.function
+    if assume:
+        known, assume = positive_variable(assume, function.args[0])
+        function = function.xreplace(known)
+        renamed = renamed | known
     if assume:
         known = _with_assumptions(assume, read.equation, conditions, symbols)
         renamed = renamed | known
@@ -118,15 +123,32 @@ def read_question(
     return Question(
         equation=equation,
         given=read.equation,
-        function=read.function,
+        function=function,
         conditions=conditions,
         symbols=symbols,
         meanings=meanings,
         renamed=renamed,
-        assumptions=read_assumptions(None, sympy.Tuple(*symbols.values()), parameters_of(read.equation.S.field)),
+        assumptions=_about_S(assume or {}, symbols, parameters_of(read.equation.S.field)),
         has_floats=floats,
         guesses=read.guesses,
     )
+
+
+def positive_variable(assume: Mapping[Any, Any], x: Expr) -> tuple[dict[Expr, Expr], dict[Any, Any]]:
+    """A positive symbol for x, if x is assumed to be positive, and the assumptions about other names."""
+    others = {key: said for key, said in assume.items() if str(key) != x.name}
+    said = [str(assume[key]).replace(" ", "") for key in assume if key not in others]
+    if said and said[0] not in ("positive", ">0"):
+        raise InputError(
+            f"of the variable {x} it can only be assumed that it is positive", hint='assume={"x": "positive"}'
+        )
+    return {x: sympy.Symbol(x.name, positive=True)} if said else {}, others
+
+
+def _about_S(assume: Mapping[Any, Any], symbols: Mapping[str, Expr], names: Sequence[str]) -> Assumptions:
+    """What is known of the parameters of S."""
+    about = {key: said for key, said in assume.items() if str(key) in names}
+    return read_assumptions(about, sympy.Tuple(*symbols.values()), tuple(names))
 
 
 def _with_assumptions(

@@ -33,14 +33,23 @@ from kovacic.general_solution.expanded_size import expanded_size
 from kovacic.general_solution.first_order import FirstOrderEquation, GivenValue, check_first_order, value_of
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.textbook import in_book_form
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_zero, when_zero
+from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 #: The most terms of a numerator and a denominator, multiplied out, that are divided by their common divisor: about 0.1 s.
 _LONGEST = 400
 #: The largest sum of exponents with which E is integrated: partial fractions of order 1,000 take 20 s.
 _HIGHEST = 100
+#: C_(nu+s) from C_(nu-s) and 2 nu C_nu/z, for s = 1 and s = -1 [DLMF 10.6.1, 10.29.1].
+_NEIGHBOURS: dict[Any, Callable[[int, Expr, Expr], Expr]] = {
+    sympy.besselj: lambda s, other, term: term - other,
+    sympy.bessely: lambda s, other, term: term - other,
+    sympy.besseli: lambda s, other, term: other - s * term,
+    sympy.besselk: lambda s, other, term: other + s * term,
+}
 
 
 def _linear(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
@@ -79,7 +88,9 @@ def solved_riccati(
     if is_inverted:
         forms = [1 / w for w in forms]
     forms += [*_over_one_denominator(forms[0])]
-    w = min(forms, key=size).xreplace(dict.fromkeys(found.constants, equation.constant()))
+    w = shortest(forms).xreplace(dict.fromkeys(found.constants, equation.constant()))
+    if not found.u.has(*found.constants):
+        w = in_book_form(w, equation.x)
     unchecked = check_first_order(equation, w, conditions)
     return sympy.Eq(equation.function, w, evaluate=False), found.notices + unchecked
 
@@ -207,7 +218,9 @@ def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
     if u.has(*constants):
         c1, c2 = constants
         u = _wave(u.diff(c1), u.diff(c2), c1) or u.subs(c2, 1)
-    return sympy.Add(*(_rate(factor, x) for factor in sympy.Mul.make_args(u)))
+    if u.has(*_NEIGHBOURS):
+        return sympy.powsimp(sympy.factor_terms(_slope(u, x)) / u)
+    return sympy.Add(*(_rate(_single_wave(factor, x), x) for factor in sympy.Mul.make_args(u)))
 
 
 def _wave(u1: Expr, u2: Expr, constant: Expr) -> Expr | None:
@@ -216,6 +229,17 @@ def _wave(u1: Expr, u2: Expr, constant: Expr) -> Expr | None:
         if u1 / wave == u2 / sympy.sin(*wave.args):
             return u1 / wave * sympy.cos(wave.args[0] + constant)
     return None
+
+
+def _single_wave(factor: Expr, x: Expr) -> Expr:
+    """cos(z - atan(b/a)), of which a cos(z) + b sin(z) is a multiple; any other factor itself."""
+    for wave in factor.atoms(sympy.cos) if factor.is_Add else ():
+        sine = sympy.sin(*wave.args)
+        a, b = factor.coeff(wave), factor.coeff(sine)
+        is_wave = a != 0 and not (a.has(x) or b.has(x)) and sympy.expand(factor - a * wave - b * sine) == 0
+        if is_wave and sympy.expand(a**2 + b**2) != 0:
+            return sympy.cos(wave.args[0] - sympy.atan(sympy.cancel(b / a)))
+    return factor
 
 
 def _rate(factor: Expr, x: Expr) -> Expr:
@@ -230,3 +254,15 @@ def _rate(factor: Expr, x: Expr) -> Expr:
     if rate.is_rational_function(x):
         return sympy.cancel(rate)
     return sympy.powsimp(sympy.factor_terms(rate))
+
+
+def _slope(y: Expr, x: Expr) -> Expr:
+    """y', where z^nu J_nu has the slope z^nu J_(nu-1) z', and z^nu J_(-nu) has -z^nu J_(1-nu) z'; with Y, I, K likewise."""
+    slope = y.diff(x)
+    functions = y.atoms(*_NEIGHBOURS)
+    for f in functions:
+        nu, z = f.args
+        step = 1 if nu.is_positive else -1
+        other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)
+        slope = slope.xreplace({f.func(nu + step, z): other})
+    return sympy.expand(slope) if functions else slope

@@ -1,58 +1,220 @@
-"""The shortest of equal forms of an answer with values: hyperbolic functions of the distance from the ends, as in books.
+"""What a textbook prints: the shortest of equal forms of an answer, in the order that `special.choice` documents.
 
-For y'' = k^2 y and values at two points a, b, the solution u_a that satisfies the homogeneous condition at a is
-sinh(k (x - a)) for a given y(a), and cosh(k (x - a)) for a given y'(a).  With u_b likewise, and l_a, l_b the conditions,
+Each rule is an identity that holds on the whole plane, or on the real line where steps occur, and so for every value of the
+parameters; what it makes is taken where it is shorter.
 
-    y = v_a u_b/l_a(u_b) + v_b u_a/l_b(u_a),                                                                           (1)
+    c e^p + d e^q = e^m ((c + d) cosh h + (c - d) sinh h),   m = (p + q)/2,  h = (p - q)/2,                             (1)
 
-since l_a(u_a) = l_b(u_b) = 0.
+in numerators and denominators all of whose exponents lie symmetrically about one m: sinh(k x)/sinh(k a) for what the equations
+for constants give;
+
+    f + g H(x - a) = F(a + |x - a|),   F = f + g,   if f is F reflected in a;                                          (2)
+
+sin u cos v as a sum of waves, which is sin(x - a) beside a step at a; tan u for sin u/cos u; 1/sqrt(u) for sqrt(u)/u.
+A pair of solutions is changed before constants are given values:
+
+    e^(P + Q sqrt(u)), e^(P - Q sqrt(u))  span  e^P cos(Q sqrt(-u)), e^P sin(Q sqrt(-u));                               (3)
+    (f + sqrt(f^2 - 1))^(+-n)             span  cos(n acos f), sin(n acos f).                                           (4)
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import sympy
+from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh, tan, tanh
+from sympy.simplify.fu import TR8
 
-from kovacic.general_solution.conditions import Condition
-from kovacic.numerals import as_text
+from kovacic.general_solution.steps import place_of
+from kovacic.general_solution.substitution import size
+from kovacic.general_solution.zero import is_zero
+from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
+#: The longest expression, in subexpressions, for which other forms are looked for: some 20 ms.
+_LONGEST = 150
 
 
-def shortest(forms: Sequence[Expr | None]) -> Expr:
-    """The first of the forms that take the fewest characters."""
-    return min((form for form in forms if form is not None), key=lambda form: len(as_text(form)))
+def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
+    """The shortest form of an answer; in a general one the functions that the free constants belong to stay."""
+    for rule in _RULES_OF_GENERAL_SOLUTIONS if is_general else _RULES:
+        if size(value) <= _LONGEST and not value.has(sympy.Integral, sympy.RootSum):
+            value = shortest([value, *rule(value, x)])
+    return value
 
 
-def by_end_points(y1: Expr, y2: Expr, particular: Expr, conditions: Sequence[Condition], x: Expr) -> Expr | None:
-    """Form (1); None where the solutions aren't exp(k x) and exp(-k x), or the conditions aren't values at two points."""
-    k = _rate(y1, y2, x)
-    if k is None or len(conditions) != 2 or not all(c.is_value for c in conditions):
-        return None
-    a, b = (c.terms[0] for c in conditions)
-    if a.point == b.point or not (_is_finite(a.point) and _is_finite(b.point)) or particular.has(sympy.Integral):
-        return None
-    total = particular
-    for own, other, condition in ((a, b, conditions[0]), (b, a, conditions[1])):
-        rest = condition.value - particular.diff(x, own.order).subs(x, own.point)
-        distance = k * (x - other.point)
-        u = sympy.cosh(distance) if other.order else sympy.sinh(distance)
-        there = u.diff(x, own.order).subs(x, own.point)
-        if there == 0:
+def with_waves(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
+    """The pair (3) for solutions with u of an unknown sign, which is taken as that of a damping below 1; else these two."""
+    (c1, A1), (c2, A2) = (_exponent(y) for y in (y1, y2))
+    P = sympy.expand((A1 + A2) / 2)
+    Q = sympy.expand((A1 - A2) / 2)
+    roots = [power for power in Q.atoms(sympy.Pow) if power.exp == sympy.S.Half and power.free_symbols]
+    if c1 == c2 and P != 0 and len(roots) == 1 and roots[0].base.is_Add:
+        (root,) = roots
+        q = sympy.cancel(Q / root)
+        if not q.has(root):
+            angle = q * sympy.sqrt(sympy.expand(-root.base))
+            return c1 * exp(P) * cos(angle), c1 * exp(P) * sin(angle)
+    return y1, y2
+
+
+def _exponent(y: Expr) -> tuple[Expr, Expr]:
+    """c and A for c e^A."""
+    exponents, others = sympy.sift(sympy.Mul.make_args(y), lambda factor: isinstance(factor, exp), binary=True)
+    return sympy.Mul(*others), sympy.Add(*(factor.args[0] for factor in exponents))
+
+
+def of_chebyshev(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
+    """The pair (4) for (f + sqrt(f^2 - 1))^n and its inverse; else these two."""
+    if not y1.is_Pow or sympy.powsimp(y1 * y2) != 1 or not y1.base.is_Add:
+        return y1, y2
+    n = y1.exp
+    for f, rest in (y1.base.as_two_terms(), y1.base.as_two_terms()[::-1]):
+        if sympy.expand(rest**2 - f**2) == -1 and not n.is_number:
+            angle = n * sympy.acos(f)
+            return cos(angle), sin(angle)
+    return y1, y2
+
+
+def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
+    """The shortest of the particular solutions that differ from this one by a multiple of a term of its own."""
+    forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x)]
+    jumps = {step for step in particular.atoms(Heaviside) if step.has(x)}
+    if len(jumps) == 1:
+        (step,) = jumps
+        g = sympy.expand(particular.xreplace({step: sympy.S.One}) - particular.xreplace({step: sympy.S.Zero}))
+        own = [-term for term in sympy.Add.make_args(g) if any(_is_constant(term / y, x) for y in (y1, y2))]
+        for h in (0, *own, sympy.Add(*own) / 2):
+            forms += _absolute(particular + h, x)
+    return shortest(sorted(forms, key=lambda form: form.could_extract_minus_sign()))
+
+
+def _is_constant(quotient: Expr, x: Expr) -> bool:
+    return not sympy.powsimp(sympy.expand(quotient)).has(x)
+
+
+# ------------------------------------------------------------------------------------------------------------- rules
+
+
+def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
+    """(2), for steps at one point; sign(x - a) F where f is minus F reflected."""
+    steps = {step for step in value.atoms(Heaviside) if step.has(x)}
+    if len(steps) != 1 or value.has(sympy.DiracDelta):
+        return
+    (step,) = steps
+    place = place_of(step, x)
+    if place is None or place.slope != 1:
+        return
+    before, after = (sympy.expand(value.xreplace({step: sympy.Integer(k)})) for k in (0, 1))
+    u = sympy.Dummy()
+    before = sympy.powsimp(sympy.expand(before.subs(x, place.a - u)))
+    after = sympy.powsimp(sympy.expand(after.subs(x, place.a + u)))
+    if before != 0 and is_zero(before - after):
+        yield sympy.factor_terms(after).subs(u, Abs(x - place.a))
+
+
+def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
+    """(1) in the numerator and in the denominator."""
+    if not value.has(exp):
+        return
+    powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp)}
+    rates: dict[Expr, sympy.Integer] = {}
+    for exponent in powers.values():
+        for term in sympy.Add.make_args(exponent):
+            number, rate = term.as_coeff_Mul()
+            if not number.is_Rational:
+                return
+            rates[rate] = sympy.ilcm(rates.get(rate, 1), number.q)
+    letters = {rate: sympy.Dummy(positive=True) for rate in rates}
+    plain = {}
+    for e, exponent in powers.items():
+        parts = (term.as_coeff_Mul() for term in sympy.Add.make_args(exponent))
+        plain[e] = sympy.Mul(*(letters[rate] ** (number * rates[rate]) for number, rate in parts))
+    units = {letters[rate]: rate / q for rate, q in rates.items()}
+    above, below = sympy.fraction(sympy.cancel(sympy.together(value.xreplace(plain))))
+    numerator, denominator = (_symmetric(part, units) for part in (above, below))
+    if numerator is None or denominator is None:
+        return
+    m, top = numerator
+    n, bottom = denominator
+    scale = exp(sympy.expand(m - n)) / bottom
+    yield scale * top
+    yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
+
+
+def _symmetric(part: Expr, units: dict[Expr, Expr]) -> tuple[Expr, Expr] | None:
+    """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^unit; None if it isn't symmetric."""
+    terms = dict(sympy.Poly(part, *units).terms())
+    centre = [sympy.Rational(sum(column), len(terms)) for column in zip(*terms, strict=True)]
+    total = sympy.Integer(0)
+    for degrees, c in terms.items():
+        mirrored = tuple(2 * middle - degree for middle, degree in zip(centre, degrees, strict=True))
+        if mirrored not in terms:
             return None
-        total += rest * (u / there)
-    return total
+        h = sympy.Add(*((k - middle) * rate for k, middle, rate in zip(degrees, centre, units.values(), strict=True)))
+        if h == 0:
+            total += c
+        elif not h.could_extract_minus_sign():
+            d = terms[mirrored]
+            h = sympy.factor_terms(h)
+            total += (c + d) * cosh(h) + (c - d) * sinh(h)
+    m = sympy.Add(*(middle * rate for middle, rate in zip(centre, units.values(), strict=True)))
+    return m, sympy.factor_terms(total)
 
 
-def _rate(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
-    """k for exp(k x) and exp(-k x), up to constants, k without a minus sign; None for others, and for waves."""
-    rates = [sympy.cancel(y.diff(x) / y) for y in (y1, y2)]
-    if any(rate.has(x) or rate == 0 or rate.has(sympy.I) for rate in rates) or sympy.expand(rates[0] + rates[1]) != 0:
-        return None
-    return next(rate for rate in rates if not rate.could_extract_minus_sign())
+def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
+    """Products of waves as sums, term by term."""
+    if value.has(sin, cos):
+        found = sympy.powsimp(TR8(sympy.expand(value)))
+        yield found
+        yield sympy.factor_terms(found)
 
 
-def _is_finite(point: Expr) -> bool:
-    return point not in (sympy.oo, -sympy.oo)
+def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
+    """tan u for sin u/cos u, tanh u for sinh u/cosh u."""
+    if value.has(cos, cosh):
+        yield value.replace(lambda e: e.is_Mul, _with_tangents)
+
+
+def _with_tangents(product: Expr) -> Expr:
+    powers = product.as_powers_dict()
+    for sine, cosine, tangent in ((sin, cos, tan), (sinh, cosh, tanh)):
+        for wave in [base for base in powers if isinstance(base, sine)]:
+            n = powers[wave]
+            if n.is_positive and powers.get(cosine(wave.args[0]), 0) == -n:
+                product *= tangent(wave.args[0]) ** n * cosine(wave.args[0]) ** n / wave**n
+    return product
+
+
+def _single_roots(value: Expr, x: Expr) -> Iterator[Expr]:
+    """1/sqrt(u) for sqrt(u)/u, also where -u is written in the denominator."""
+    if any(power.exp == sympy.S.Half for power in value.atoms(sympy.Pow)):
+        yield value.replace(lambda e: e.is_Mul, _with_single_roots)
+
+
+def _with_single_roots(product: Expr) -> Expr:
+    for root in [factor for factor in product.args if factor.is_Pow and factor.exp == sympy.S.Half]:
+        u = root.base
+        for other in [factor for factor in product.args if factor.is_Pow and factor.exp == -1]:
+            number = sympy.cancel(other.base / u)
+            if number.is_Rational and number != 1:
+                return _with_single_roots(product / other * (1 / number) / u)
+    return product
+
+
+def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
+    """Over one denominator, and with common factors before the sum."""
+    yield sympy.factor_terms(value)
+    yield sympy.factor_terms(sympy.cancel(sympy.together(value)))
+
+
+_RULES: tuple[Callable[[Expr, Expr], Iterator[Expr]], ...] = (
+    _absolute,
+    _hyperbolic,
+    _single_roots,
+    _common_factors,
+    _single_waves,
+    _tangents,
+)
+_RULES_OF_GENERAL_SOLUTIONS = (_single_roots, _tangents)

@@ -11,7 +11,7 @@ than half of 30 digits in the middle of the domain, a form of at most twice its 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
@@ -36,6 +36,7 @@ from kovacic.closed_form.structure import ClosedStructure, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, bounded_work, check_time
+from kovacic.numerals import as_text
 from kovacic.special.gauge import GaugeTransform
 from kovacic.special.pullback import Pullback
 from kovacic.special.search import find, find_transform, written_pair
@@ -72,6 +73,13 @@ def best(forms: list[PairForm]) -> PairForm:
     """The preferred one by kind and length."""
     bound = max(SHORT, FACTOR * min(form.length for form in forms))
     return min((form for form in forms if form.length <= bound), key=lambda form: (form.kind, form.length))
+
+
+def shortest(forms: Sequence[Any]) -> Any:
+    """The preferred one of equal SymPy expressions: without an integral before those with one, then the shorter text."""
+    kinds = [FormKind.INTEGRAL if form.has(Integral) else FormKind.ELEMENTARY for form in forms]
+    given = [PairForm(kind, len(as_text(form)), lambda: None) for kind, form in zip(kinds, forms, strict=True)]
+    return forms[given.index(best(given))]
 
 
 def solutions(
