@@ -164,9 +164,11 @@ def _symmetric(part: Expr, units: dict[Expr, Expr]) -> tuple[Expr, Expr] | None:
 
 
 def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
-    """Products of waves as sums, term by term."""
-    if value.has(sin, cos):
-        found = sympy.powsimp(TR8(sympy.expand(value)))
+    """Products of waves as sums, where a term has two."""
+    expanded = sympy.expand(value) if value.has(sin, cos) else value
+    terms = (sympy.Mul.make_args(term) for term in sympy.Add.make_args(expanded))
+    if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
+        found = sympy.powsimp(TR8(expanded))
         yield found
         yield sympy.factor_terms(found)
 
