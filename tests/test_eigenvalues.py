@@ -1,6 +1,7 @@
 """`kovacic.eigenvalues`: proven enclosures of eigenvalues, against published digits and closed forms."""
 
 import pickle
+from fractions import Fraction
 
 import pytest
 
@@ -145,10 +146,14 @@ def test_answers_are_sequences_that_can_be_pickled():
 
 @pytest.mark.long
 def test_close_pairs_of_a_double_well_are_told_apart():
-    found = schroedinger("x^4 - 20*x^2", count=2, digits=20)
+    """Their distance is 1.03e-16: balls of 15 digits would contain both levels, and so would the numbers as printed."""
+    found = schroedinger("x^4 - 20*x^2", count=2)
     assert all(level.alone for level in found)
     assert not found[0].value.overlaps(found[1].value)
     assert 0 < float(found[1].value - found[0].value) < 2e-16
+    printed = [level.value.__str__().split(" ± ") for level in found]
+    gap = Fraction(printed[1][0]) - Fraction(printed[0][0])
+    assert gap > sum(Fraction(radius) for _, radius in printed)
 
 
 def test_spectrum_has_numeric_levels_beside_formulas_or_without():

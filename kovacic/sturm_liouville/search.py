@@ -30,6 +30,8 @@ _ROUGH = 4
 _DOUBLINGS = 24
 _APPROACHES = 7
 """Steps towards the essential spectrum, each to a quarter of the distance."""
+_ROOM = 16
+"""So many radii of a ball are free of other levels on both sides of it: balls of neighbours are disjoint, also as printed."""
 _SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
 """Where an interval is divided; another one is taken where a count fails, as it does at an eigenvalue."""
 
@@ -109,6 +111,12 @@ class Searcher:
         with working_precision(64):
             return (max(abs(a.E), abs(b.E), self.unit) / (4 * arb(10) ** digits)).mid()
 
+    def _radius_inside(self, E: Any, free: tuple[Any, Any], a: Count, b: Count) -> Any:
+        """Of a ball about E with all digits, far enough from the ends of an interval that is free of other levels."""
+        least, most = free
+        room = min(E - least, most - E) / _ROOM
+        return min(self.radius(a, b, self.digits), room).mid()
+
     def bracket(self, k: int, low: Count, high: Count) -> tuple[Count, Count]:
         """The nearest known counts around level k, halved until no other level is between, or they are too near."""
         known = [low, high, *(c for (_, upper), c in self._known.items() if not upper)]
@@ -128,13 +136,13 @@ class Searcher:
         a, b = self.bracket(k, low, high)
         if (a.count, b.count) != (k, k + 1):
             return None
-        least, most = a.E, b.E
+        free = a.E, b.E
         for _ in range(_PROOFS):
             guess, a, b = self._refined(k, a, b)
-            radius = self.radius(a, b, self.digits)
             with working_precision(2 * self.bits):
-                lower = max(least, self._rounded(guess - radius, radius))
-                upper = min(most, self._rounded(guess + radius, radius))
+                radius = self._radius_inside(guess, free, a, b)
+                lower = self._rounded(guess - radius, radius)
+                upper = self._rounded(guess + radius, radius)
             try:
                 below, above = self.at(lower), self.at(upper)
                 if below.count == k and above.count == k + 1:
@@ -153,6 +161,7 @@ class Searcher:
     def _refined(self, k: int, a: Count, b: Count) -> tuple[Any, Count, Count]:
         """A number near the zero of the mismatch in (a, b): regula falsi with the weights of Anderson and Bjorck."""
         fa, fb = a.mismatch, b.mismatch
+        free = a.E, b.E
         E = last = a.E
         side = 0
         with working_precision(2 * self.bits):
