@@ -8,6 +8,6 @@ In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api`
 3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E,
    `waves` writes the solutions and their norms, `ranges` the conditions; `darboux` and `periodic`
    bring other potentials to these;
-4. `quasi`: where no formula is known, levels one degree at a time; `liouvillian`: are these all with a closed form?
+4. `closed_forms`: where no formula is known, the levels with a closed form, from the conditions on E, and are these all?
 5. `levels`: what is returned.
 """

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 import sympy
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.bound_states.closed_forms import closed_forms
 from kovacic.bound_states.darboux import DarbouxStep, steps
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
@@ -23,21 +22,12 @@ from kovacic.bound_states.families import (
     no_families,
 )
 from kovacic.bound_states.first_levels import check_first_levels
-from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, Uncovered, frames, range_of
+from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, Uncovered, frames
 from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
-from kovacic.bound_states.liouvillian import with_closed_forms
-from kovacic.bound_states.norms import norm_of
 from kovacic.bound_states.numeric import unsolved, with_numbers
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
-from kovacic.bound_states.quasi import (
-    QuasiSolution,
-    constant_degrees,
-    degree_beyond,
-    found_at,
-    found_of_degree,
-)
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, read_question
 from kovacic.bound_states.ranges import tidied
 from kovacic.equation import ENERGY
@@ -47,7 +37,6 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limit
 from kovacic.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
-from kovacic.parametric.functions import over_parameters
 from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.formula import caret
@@ -219,16 +208,14 @@ def _spectrum(
     budget = Budget(limits)
     with budget.watched():
         try:
-            found = _answered(question, max_degree, budget)
+            examined = _examined(question)
         except (Uncovered, LimitExceeded) as reason:
-            found = _Examined(question).spectrum(reason=f"undecided: {reason}")
-        found = with_closed_forms(
-            found,
-            question.parsed,
-            question.known,
-            limits,
-            lambda polynomial: _is_no_level(question, polynomial, budget),
-        )
+            examined = _Examined(question)
+            found = examined.spectrum(reason=f"undecided: {reason}")
+        else:
+            found = _answered(examined, budget)
+        if not (found.complete or found.needs_boundary_condition):
+            found = _with_closed_forms(found, examined, max_degree, limits)
         if not meanings:
             with suppress(LimitExceeded):  # as far as time allows
                 check_first_levels(found, question.known)
@@ -237,16 +224,15 @@ def _spectrum(
 
 @dataclass(frozen=True)
 class _Examined:
-    """The question, its ends, and where a boundary condition would be needed: relations, or true."""
+    """The question with V as a function of a real t, the ends, and where a boundary condition would be needed.
+
+    `real` is None, and there are no ends, where they can't be examined.
+    """
 
     question: SpectralProblem
+    real: RealPotential | None = None
     ends: tuple[End, ...] = ()
     excluded: tuple[Any, ...] = ()
-
-    @property
-    def needs_boundary_condition(self) -> bool:
-        """For all values of the parameters?"""
-        return sympy.true in self.excluded
 
     def spectrum(self, **found: Any) -> Spectrum:
         """The answer, with what was `found`."""
@@ -268,70 +254,99 @@ class _Examined:
         )
 
 
-def _answered(question: SpectralProblem, max_degree: int, budget: Budget) -> Spectrum:
-    """What is found.  Raises `Uncovered` where the ends can't be examined, or t isn't real."""
+def _examined(question: SpectralProblem) -> _Examined:
+    """With Friedrichs' condition where one is needed and none was given, if the operator is bounded below.
+
+    Raises `Uncovered` where the ends can't be examined, or t isn't real, and `InputError` for a pole inside the domain.
+    """
     real = _in_real_variable(question)
-    is_endless = any(end.is_infinite for end in question.domain)
+    is_endless = any(at.is_infinite for at in question.domain)
     if real.original.is_periodic and is_endless:
         check_poles(real, question.signs)
-        return _on_periodic_line(question, real)
-    check_inside(real, question.domain, question.signs)
-    left = end_of(real, question.domain, question.signs, is_right=False)
-    right = end_of(real, question.domain, question.signs, is_right=True)
-    examined = _examined(question, [left, right])
-    if examined.needs_boundary_condition:
-        if not any(end.oscillates for end in examined.ends):
-            return _answered(question.with_friedrichs_condition(), max_degree, budget)
+    else:
+        check_inside(real, question.domain, question.signs)
+    ends = []
+    for is_right, at in enumerate(question.domain):
+        if real.original.is_periodic and at.is_infinite:
+            ends.append(End(at, False, f"{question.variable} -> {at}: V is periodic, at most one solution decays"))
+        else:
+            ends.append(end_of(real, question.domain, question.signs, is_right=bool(is_right)))
+    found = _Examined(question, real, tuple(ends), _excluded(question, ends))
+    if found.excluded and not question.friedrichs and not any(end.oscillates for end in ends):
+        return replace(_examined(question.with_friedrichs_condition()), real=real)
+    return found
+
+
+def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]:
+    """The relations where both solutions are square integrable at an end and none of them is chosen."""
+    signs = question.signs
+    excluded: dict[Any, None] = {}
+    for end in ends:
+        circle = end.oscillation if question.friedrichs and not end.oscillates else end.circle
+        if circle is False or signs.holds(circle) is False:
+            continue
+        circle = sympy.sympify(circle, strict=True)
+        relation = sympy.true if signs.holds(circle) else tidied([circle], signs)[0]
+        excluded[relation] = None
+    return tuple(excluded)
+
+
+def _answered(examined: _Examined, budget: Budget) -> Spectrum:
+    """All levels in one formula, or the reason why there is none."""
+    question = examined.question
+    assert examined.real is not None
+    if sympy.true in examined.excluded:
         # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
         return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
     oscillating = next((end for end in examined.ends if end.oscillates and end.circle is False), None)
     if oscillating is not None:
         reason = f"no solution is square integrable at {oscillating.at}"
         return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
+    if examined.real.original.is_periodic and any(at.is_infinite for at in question.domain):
+        if all(at.is_infinite for at in question.domain):
+            return examined.spectrum(complete=True, reason=NO_LEVELS)
+        reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
+        return examined.spectrum(reason=f"undecided: {reason}")
     try:
         families, name = _families(question, budget)
     except Uncovered as uncovered:
-        return _without_formula(examined, uncovered, max_degree, budget)
+        transformed = _transformed(examined, budget)
+        return transformed or examined.spectrum(reason=_why_no_formula(examined, uncovered))
     found = (_levels(question, family) for family in families)
     levels = [one for one in found if sympy.false not in one.conditions and one.members != ()]
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
 
 
-def _without_formula(examined: _Examined, why: Uncovered, max_degree: int, budget: Budget) -> Spectrum:
-    """Where the equation is no standard one: from another potential, or one level at a time."""
+def _why_no_formula(examined: _Examined, why: Uncovered) -> str:
+    """What there is instead of a formula at an ordinary point, or why there is none; "" where there may be single levels."""
     question = examined.question
-    transformed = _transformed(examined, max_degree, budget)
-    if transformed is not None:
-        return transformed
     wall = next((end.at for end in examined.ends if end.is_ordinary), None)
     if wall is not None:
         where = f"{question.variable} = {caret(str(question.plain(wall)))}"
-        reason = (
+        return (
             f"undecided: the levels are the energies for which a solution vanishes at {where}, an ordinary point; a formula "
             "is known where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
         )
-        return examined.spectrum(reason=reason)
-    if _is_circular(question):
-        raise why
-    return _one_by_one(examined, str(why), max_degree, budget)
+    return f"undecided: {why}" if _is_circular(question) else ""
 
 
-def _examined(question: SpectralProblem, ends: Sequence[End]) -> _Examined:
-    """With the relations where both solutions are square integrable at an end and none of them is chosen."""
-    signs = question.signs
-    excluded: dict[Any, None] = {}
-    for end in ends:
-        is_chosen = question.friedrichs and not end.oscillates
-        if is_chosen or end.circle is False or signs.holds(end.circle) is False:
-            continue
-        circle = sympy.sympify(end.circle, strict=True)
-        relation = sympy.true if signs.holds(circle) else tidied([circle], signs)[0]
-        excluded[relation] = None
-    return _Examined(question, tuple(ends), tuple(excluded))
+def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, limits: Limits) -> Spectrum:
+    """The same with the levels that have a closed form, and what is proven of these."""
+    question = examined.question
+    forms = closed_forms(question, examined.ends, examined.real, max_degree, limits)
+    reason = found.reason
+    if forms.complete or not reason:
+        reason = forms.reason(question.energy, max_degree)
+    hints = {}
+    if forms.higher is not None and not forms.complete and not found.reason:
+        may = "there may be levels with a polynomial of degree"
+        higher = f"{may} {forms.higher}"
+        hints = {"hint": f"{higher}: max_degree={forms.higher}", "shell": f"{higher}: --max-degree {forms.higher}"}
+    return replace(found, algebraic=forms.levels, closed_forms_complete=forms.complete, reason=reason, **hints)
 
 
-def _transformed(examined: _Examined, max_degree: int, budget: Budget) -> Spectrum | None:
+def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     """By Darboux' transformation from a potential without apparent singularities; None where there is none."""
     question = examined.question
     if question.parsed.equation is not None or examined.excluded:
@@ -340,7 +355,7 @@ def _transformed(examined: _Examined, max_degree: int, budget: Budget) -> Spectr
     for step in steps(V, question.x, question.domain, question.signs):
         simpler_V = sympy.cancel(sympy.together(V - 2 * sympy.diff(step.W, question.x)))
         try:
-            simpler = _answered(question.with_potential(simpler_V), max_degree, budget)
+            simpler = _answered(_examined(question.with_potential(simpler_V)), budget)
         except (Uncovered, InputError):
             continue
         if not simpler.complete or simpler.excluded or _is_removed(step, simpler, question):
@@ -391,97 +406,6 @@ def _lowest_level(step: DarbouxStep, question: SpectralProblem) -> tuple[Algebra
     return (Algebraic(0, sympy.Integer(0), E - energy, wave, (), states),)
 
 
-def _one_by_one(examined: _Examined, why: str, max_degree: int, budget: Budget) -> Spectrum:
-    """The levels with a polynomial of degree 0, 1, ..., `max_degree`; `why` there is no formula for all."""
-    question = examined.question
-    demands = Ends(question.signs, question.friedrichs)
-    found: list[Algebraic] = []
-    higher = None
-    try:
-        degrees = {*range(max_degree + 1)}
-        if not question.parameters:
-            degrees |= constant_degrees(question, budget)
-        for d in sorted(degrees):
-            solutions = found_of_degree(question, d, examined.ends, demands, budget)
-            levels = (_algebraic(question, solution) for solution in solutions)
-            found += [one for one in levels if sympy.false not in one.conditions]
-        found += _at_thresholds(examined, demands, budget)
-    except Uncovered as uncovered:
-        why = f"{why}; {uncovered}"
-    else:
-        higher = degree_beyond(question.parsed.S, max_degree, budget)
-    hints = {}
-    if higher is not None:
-        may = "there may be levels with a polynomial of degree"
-        hints = {"hint": f"{may} {higher}: max_degree={higher}", "shell": f"{may} {higher}: --max-degree {higher}"}
-    if not found:
-        reason = f"undecided: {why}; degrees up to {max_degree} were tried"
-        return examined.spectrum(reason=reason, **hints)
-    others = "whether others are Liouvillian isn't known"
-    if not question.parameters:
-        others = "a level with k zeros is number k (Sturm)"
-    reason = f"the levels with a polynomial of degree d <= {max_degree}; {others}"
-    return examined.spectrum(algebraic=tuple(found), reason=reason, **hints)
-
-
-def _at_thresholds(examined: _Examined, demands: Ends, budget: Budget) -> Iterator[Algebraic]:
-    """The levels at the edges of the continuous spectrum, where solutions are powers of x at an infinite end."""
-    question = examined.question
-    if question.parameters:
-        return
-    for threshold in dict.fromkeys(end.threshold for end in examined.ends):
-        if threshold is not None and threshold.is_Rational:
-            factor = _in_energy(question, sympy.Symbol(question.energy) - threshold)
-            for level in found_at(question, factor, examined.ends, demands, budget).levels:
-                yield _algebraic(question, level)
-
-
-def _is_no_level(question: SpectralProblem, polynomial: Any, budget: Budget) -> bool:
-    """True if the zeros of an irreducible polynomial in E are proven to be no levels, of a potential without parameters."""
-    with suppress(Uncovered, LimitExceeded):
-        real = _in_real_variable(question)
-        ends = [end_of(real, question.domain, question.signs, is_right=is_right) for is_right in (False, True)]
-        factor = _in_energy(question, polynomial)
-        found = found_at(question, factor, ends, Ends(question.signs, question.friedrichs), budget)
-        return found.is_excluded and not found.levels
-    return False
-
-
-def _in_energy(question: SpectralProblem, polynomial: Any) -> FunctionPoly:
-    """A polynomial in E with rational coefficients, in the field of the equation."""
-    field = question.parsed.S.field
-    assert isinstance(field, FunctionField)
-    E = field.generator(question.energy)
-    total = 0 * E
-    for c in sympy.Poly(polynomial, sympy.Symbol(question.energy)).all_coeffs():
-        total = total * E + Fraction(int(c.p), int(c.q))
-    return over_parameters(total)
-
-
-def _algebraic(question: SpectralProblem, found: QuasiSolution) -> Algebraic:
-    """With the energies, and which levels they are, where there are no parameters."""
-    conditions = tuple(map(question.plain, tidied(found.conditions, question.signs)))
-    original = Original.of(question.parsed.equation, question.x, question.signs)
-    limits = None
-    with suppress(Uncovered):
-        if not original.turning_points(question.domain, question.signs):
-            limits = range_of(original, question.domain, question.signs)
-    levels = Algebraic(
-        found.degree,
-        found.constraint,
-        found.polynomial,
-        found.wave,
-        conditions,
-        P=sympy.Poly(found.P, sympy.Symbol(question.parsed.variable)),
-        range=limits,
-    )
-    if question.parameters:
-        return levels
-    x = sympy.Symbol(question.variable)
-    states = levels.states_at({}, question.energy)
-    return replace(levels, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
-
-
 def _in_real_variable(question: SpectralProblem) -> RealPotential:
     """V as a function of a real t.  Raises `LimitExceeded` where examining it would take too long."""
     parsed = question.parsed
@@ -507,26 +431,6 @@ def _check_branch_point(question: SpectralProblem) -> None:
             hint=f'{hint}: domain=(0, "oo")',
             shell=f"{hint}: --from 0",
         )
-
-
-def _on_periodic_line(question: SpectralProblem, real: RealPotential) -> Spectrum:
-    """The spectrum of a periodic potential without poles on the whole line, or on half of it."""
-    ends = []
-    for at in question.domain:
-        if at.is_infinite:
-            ends.append(End(at, False, f"{question.variable} -> {at}: V is periodic, at most one solution decays"))
-        else:
-            is_right = at == question.domain[1]
-            ends.append(end_of(real, question.domain, question.signs, is_right=is_right))
-    if all(at.is_infinite for at in question.domain):
-        return _Examined(question, tuple(ends)).spectrum(complete=True, reason=NO_LEVELS)
-    examined = _examined(question, ends)
-    if examined.needs_boundary_condition:
-        examined = _examined(question.with_friedrichs_condition(), ends)
-    reason = (
-        "undecided: V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
-    )
-    return examined.spectrum(reason=reason)
 
 
 def _is_circular(question: SpectralProblem) -> bool:

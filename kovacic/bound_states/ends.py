@@ -30,7 +30,8 @@ _STEP = sympy.Rational(1, 1000)
 class End:
     """One end: where both solutions are square integrable (`circle`, a relation, True or False), and what is said about it.
 
-    `oscillates` says that V falls without bound there, so that no boundary condition is distinguished.  `threshold` is where
+    `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
+    the solutions oscillate at a regular end, which has the same effect.  `threshold` is where
     the continuous spectrum begins at an infinite end; None where it doesn't.  The end is t = `point`, with
     (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.
     """
@@ -39,6 +40,7 @@ class End:
     circle: Any
     sentence: str
     oscillates: bool = False
+    oscillation: Any = False
     threshold: Any = None
     domain: tuple[Any, Any] = (-sympy.oo, sympy.oo)
     is_right: bool = True
@@ -225,8 +227,8 @@ def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_rig
         t = point + u
         dt_du_squared = sympy.Integer(1)
     slope = sympy.cancel(SLOPES[original.kind](t) * original.rate**2 / dt_du_squared)
-    mu, _ = _leading(slope, u)
-    order, strength = _leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
+    mu, _ = leading(slope, u)
+    order, strength = leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
     return _Place(
         at,
         original.x,
@@ -241,7 +243,7 @@ def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_rig
     )
 
 
-def _leading(function: Any, u: Any) -> tuple[int, Any]:
+def leading(function: Any, u: Any) -> tuple[int, Any]:
     """The order at u = 0 and the coefficient; (0, 0) for 0."""
     num, den = sympy.fraction(sympy.together(function))
     if sympy.Poly(num, u).is_zero:
@@ -335,11 +337,12 @@ def _finite(place: _Place, signs: Signs) -> End:
         return End(at, True, f"{where}: {said}", oscillates=True)
     said = f"y ~ {_powers(place.distance, square)}, both are square integrable (limit circle)"
     is_ordinary = square == sympy.Rational(1, 4)
+    oscillation = False if signs.is_nonnegative(square) else sympy.Lt(square, 0)
     if known:
-        return End(at, True, f"{where}: {said}", is_ordinary=is_ordinary)
+        return End(at, True, f"{where}: {said}", oscillation=oscillation, is_ordinary=is_ordinary)
     condition = tidied([circle], signs)[0]
     relation = f"{caret(as_text(condition.lhs))} {condition.rel_op} {caret(as_text(condition.rhs))}"
-    return End(at, circle, f"{where}: {said} where {relation}", is_ordinary=is_ordinary)
+    return End(at, circle, f"{where}: {said} where {relation}", oscillation=oscillation)
 
 
 def _nu_squared(place: _Place) -> Any:
@@ -350,7 +353,7 @@ def _nu_squared(place: _Place) -> Any:
     p = sympy.Rational(2, 2 - place.mu)
     coefficient = sympy.Integer(0)
     if place.pole == 2 - place.mu:
-        _, C = _leading(place.slope, place.u)
+        _, C = leading(place.slope, place.u)
         coefficient = sympy.factor(place.strength * p**2 / C)
     return sympy.factor(coefficient + sympy.Rational(1, 4))
 

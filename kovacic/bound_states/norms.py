@@ -12,6 +12,9 @@ from kovacic.closed_form.product import product
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.reading.read import read_input
 
+#: Functions in an antiderivative whose limits at the ends are found at once.
+_WITH_LIMITS = (sympy.exp, sympy.log, sympy.atan, sympy.erf)
+
 
 def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
     """The integral, None if the antiderivative isn't found, or its limits at the ends aren't.
@@ -29,7 +32,7 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
         found = integral(h, Atoms(x))
     except (InputError, LimitExceeded):
         return None
-    if found is None:
+    if found is None or not all(isinstance(f, _WITH_LIMITS) for f in found.atoms(sympy.Function)):
         return None
     scale, shown = factors(h, Atoms(x))
     constant = sympy.cancel(sympy.powsimp(square / (scale * sympy.Mul(*shown))))

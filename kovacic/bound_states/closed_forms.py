@@ -1,0 +1,384 @@
+"""Levels with a closed form, where no formula for all levels is known: from the conditions on E to the levels.
+
+`kovacic.conditions` says for which E and parameters y'' = (V - E) y has a Liouvillian solution, and gives solutions.  One of
+them is the function of a level if it is the square integrable one at both ends, which its exponents there tell.  With that:
+
+- no value admits a closed form: no level has one;
+- there are no parameters, and E is one of finitely many numbers: where each of them was found to give levels or none, these are
+  all levels with a closed form.  E gives none where a solution is the only square integrable one at an end (limit point), and
+  isn't square integrable at the other; where it isn't above the infimum of V, or above a threshold of the continuous spectrum;
+- each value is of case 1: each level with a closed form has a polynomial of some degree d.
+
+Which level it is says Sturm's theorem: a square integrable solution with k zeros is the k-th level; `zeros` counts them.
+
+References: A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467; A. G. Ushveridze, Quasi-exactly Solvable Models (1994);
+M. Razavy, Amer. J. Phys. 48 (1980) 285; M. F. Manning, J. Chem. Phys. 3 (1935) 136.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any, NamedTuple
+
+import sympy
+
+from kovacic.bound_states.ends import End, leading
+from kovacic.bound_states.families import Ends, possible
+from kovacic.bound_states.frame import Original, RealPotential, Spot, Uncovered, range_of
+from kovacic.bound_states.levels import Algebraic
+from kovacic.bound_states.norms import norm_of
+from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.ranges import tidied
+from kovacic.bound_states.signs import Signs
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Limits
+from kovacic.numerals import as_text
+from kovacic.parametric.api import conditions_of
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.parametric_answer import ParametricAnswer
+from kovacic.parametric.solutions import PolynomialSolution, translated
+from kovacic.parametric.statements import Statement, Vanishes, alternatives_of, both
+from kovacic.writing.formula import caret
+
+_NUMBERED = "a level with k zeros is number k (Sturm)"
+
+
+@dataclass(frozen=True)
+class ClosedForms:
+    """The levels with a closed form; `complete`: it is proven that these are all.
+
+    `excluded` are polynomials in E at whose zeros there is a closed form and no level, and `higher` is a degree that P may
+    have and that wasn't tried.  `conditions` is None where it isn't known when there are closed forms.
+    """
+
+    conditions: ParametricAnswer | None
+    levels: tuple[Algebraic, ...] = ()
+    complete: bool = False
+    excluded: tuple[Any, ...] = ()
+    higher: int | None = None
+
+    def reason(self, energy: str, max_degree: int) -> str:
+        """What is proven of the levels, and why; or why it is undecided."""
+        if self.conditions is None:
+            return "undecided: no formula for all levels is known"
+        theory = self.conditions.theory
+        others = ""
+        if self.excluded:
+            zeros = " or ".join(f"{caret(as_text(polynomial))} = 0" for polynomial in self.excluded)
+            others = f"at {zeros} the solution that is square integrable at one end isn't at the other; "
+        if self.complete and self.levels:
+            return f"{_NUMBERED}; {others}{theory}"
+        if self.complete:
+            energies = "the energy of a level" if self.conditions.regions else f"any {energy}"
+            if self.excluded:
+                energies = f"any other real {energy}"
+            return f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
+        if not self.levels:
+            return f"undecided: no formula for all levels is known; degrees up to {max_degree} were tried"
+        found = f"the levels with a polynomial of degree d <= {max_degree}"
+        if all(region.case == 1 for region in self.conditions.regions):
+            return f"{found}; each level with a closed form has a polynomial of some degree d: {theory}"
+        return f"{found}; whether others are Liouvillian isn't known"
+
+
+def closed_forms(
+    question: SpectralProblem, ends: Sequence[End], real: RealPotential | None, max_degree: int, limits: Limits
+) -> ClosedForms:
+    """Those of a potential; without `ends`, where it can't be told how solutions behave there, only that there are none."""
+    conditions = _conditions(question, limits)
+    if conditions is None:
+        return ClosedForms(None)
+    window = _Window()
+    if not question.parameters:
+        window = _Window.of(question, ends, real)
+    search = _Search(question, ends, conditions, window, max_degree)
+    return search.with_parameters() if question.parameters else search.of_numbers()
+
+
+def _conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
+    """For which E and parameters is there a Liouvillian solution?  None where that isn't proven, or holds in general.
+
+    The equation is that in t, so that solutions are functions of t.  With several conjugate pairs of poles it may take minutes.
+    """
+    parsed = question.parsed
+    try:
+        degrees = sorted(factor.degree for factor, _ in parsed.S.field.factor(parsed.S.den))
+        if degrees and (degrees[-1] > 2 or degrees.count(2) > 1):
+            return None
+        conditions = conditions_of(replace(parsed, equation=None), question.known, 0, limits)
+    except LimitExceeded:
+        return None
+    is_proven = conditions.complete is True and conditions.generic.known
+    return conditions if is_proven and conditions.generic.case is None else None
+
+
+class _Window(NamedTuple):
+    """Each level is above the first and at most the second number, which are rational; None where no such number is known."""
+
+    low: Any = None
+    high: Any = None
+
+    @classmethod
+    def of(cls, question: SpectralProblem, ends: Sequence[End], real: RealPotential | None) -> _Window:
+        """From the infimum of V, and the thresholds of the continuous spectrum."""
+        thresholds = [end.threshold for end in ends if end.threshold is not None and end.threshold.is_Rational]
+        high = min(thresholds, default=None)
+        low = None
+        with suppress(Uncovered):
+            if real is not None and not real.original.turning_points(question.domain, question.signs):
+                low = _number_below(real.V, real.t, range_of(real.original, question.domain, question.signs))
+        return cls(low, high)
+
+    def has_zero_of(self, polynomial: Any, E: Any) -> bool:
+        """True if a polynomial over Q has a real zero in it."""
+        roots = sympy.Poly(polynomial, E).real_roots()
+        return any((self.low is None or root > self.low) and (self.high is None or root <= self.high) for root in roots)
+
+    def last_number(self, function: Any, E: Any, d: Any) -> int | None:
+        """A d from which on no E with `function`(E, d) = 0 is in the window; None where that isn't known."""
+        polynomial = sympy.Poly(function, E)
+        if polynomial.degree() != 1 or self.low is None or self.high is None:
+            return None
+        energy = -polynomial.coeff_monomial(1) / polynomial.coeff_monomial(E)
+        # Beyond the zeros of its denominator, of E(d) - low and of E(d) - high, E(d) stays inside or outside.
+        parts = [part for end in self for part in sympy.fraction(sympy.cancel(energy - end))]
+        roots = [root for part in parts if part.has(d) for root in sympy.Poly(part, d).real_roots()]
+        last = max([0, *(int(sympy.ceiling(root)) for root in roots)]) + 1
+        return None if self.low < energy.subs(d, last) <= self.high else last
+
+
+def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
+    """A rational number below all values of a rational function over Q between two bounds; None where none is found."""
+    num, den = (sympy.Poly(part, t) for part in sympy.fraction(sympy.cancel(V)))
+    if not all(c.is_Rational for c in (*num.all_coeffs(), *den.all_coeffs())):
+        return None
+    low, high = bounds
+    slope = num.diff(t) * den - num * den.diff(t)
+    stationary = [] if slope.is_zero else sympy.Poly(slope, t).real_roots()
+    inside = [root for root in stationary if (low is None or root > low) and (high is None or root < high)]
+    at_the_ends = [sympy.limit(V, t, -sympy.oo if low is None else low, "+")]
+    at_the_ends.append(sympy.limit(V, t, sympy.oo if high is None else high, "-"))
+    values = [*(V.subs(t, root) for root in inside), *(value for value in at_the_ends if value != sympy.oo)]
+    if not values or -sympy.oo in values:
+        return None
+    number = min(sympy.floor(value) for value in values) - 1
+    # V is nowhere equal to it.
+    crossings = sympy.Poly(num - number * den, t).real_roots()
+    is_crossed = any((low is None or root > low) and (high is None or root < high) for root in crossings)
+    return None if is_crossed else number
+
+
+class _Listed(NamedTuple):
+    """Degrees, or None where there is none to choose, with irreducible polynomials in E; and are these all?"""
+
+    pairs: tuple[tuple[int | None, Any], ...]
+    are_all: bool
+
+
+@dataclass(frozen=True)
+class _Search:
+    """Through the regions of the conditions."""
+
+    question: SpectralProblem
+    ends: Sequence[End]
+    conditions: ParametricAnswer
+    window: _Window
+    max_degree: int
+
+    @property
+    def E(self) -> Any:
+        return sympy.Symbol(self.question.energy)
+
+    def of_numbers(self) -> ClosedForms:
+        """All E at which a potential without parameters has a closed form, one after the other."""
+        levels: list[Algebraic] = []
+        excluded: list[Any] = []
+        complete = True
+        higher = None
+        for region in self.conditions.regions:
+            listed = self._listed(region.statement)
+            complete = complete and listed.are_all
+            if not listed.are_all and region.case == 1:
+                higher = self.max_degree + 1
+            for number, polynomial in listed.pairs:
+                if not self.window.has_zero_of(polynomial, self.E):
+                    continue
+                solutions = [one for one in region.solution(number) if self._solves(one, polynomial)]
+                here = [level for one in solutions for level in self._levels(one, polynomial)]
+                levels += here
+                if not here and any(self._excludes(one, polynomial) for one in solutions):
+                    excluded.append(polynomial)
+                elif not here and not self._is_without_closed_form(polynomial):
+                    complete = False
+        return ClosedForms(self.conditions, tuple(levels), complete, tuple(excluded), higher)
+
+    def _listed(self, statement: Statement) -> _Listed:
+        """The E for which the statement may hold, and that are possible for a level."""
+        pairs: list[tuple[int | None, Any]] = []
+        are_all = True
+        d = sympy.Dummy("d")
+        for alternative in alternatives_of(statement):
+            functions = []
+            numbers: Sequence[int | None] = (None,)
+            for part in both(alternative).parts:
+                if isinstance(part, Natural) and part.factors is not None:
+                    factors = [factor.to_sympy(d) for factor in part.factors]
+                    lasts = [self.window.last_number(factor, self.E, d) for factor in factors]
+                    are_all = are_all and None not in lasts
+                    numbers = range(max([self.max_degree + 1, *(last for last in lasts if last is not None)]))
+                    functions.append(sympy.Mul(*factors))
+                elif isinstance(part, Vanishes):
+                    functions.append(part.function.to_sympy(d))
+                else:
+                    are_all = False
+            for number in numbers if functions else ():
+                together = reduce(sympy.gcd, (function.subs(d, number or 0) for function in functions))
+                factors = [factor for factor, _ in sympy.factor_list(together)[1] if factor.has(self.E)]
+                pairs += [(number, sympy.Poly(factor, self.E).monic().as_expr()) for factor in factors]
+        return _Listed(tuple(pairs), are_all)
+
+    def _solves(self, solution: PolynomialSolution, polynomial: Any) -> bool:
+        """Do the conditions under which it is a solution hold at the zeros of the polynomial?"""
+        return all(sympy.rem(sympy.numer(c), polynomial, self.E) == 0 for c in map(sympy.together, solution.conditions))
+
+    def _levels(self, solution: PolynomialSolution, polynomial: Any) -> Iterator[Algebraic]:
+        """The levels at the zeros, if the solution is square integrable there."""
+        if not self._are_examined:
+            return
+        if all(self._holds(self._demands(solution, end), polynomial) for end in self.ends):
+            yield self._level(solution, polynomial, sympy.Integer(0), [])
+
+    @property
+    def _are_examined(self) -> bool:
+        """Can it be told what is square integrable at the ends?  At an ordinary point that is a condition on E."""
+        return bool(self.ends) and not any(end.is_ordinary for end in self.ends)
+
+    def _excludes(self, solution: PolynomialSolution, polynomial: Any) -> bool:
+        """Is it the only square integrable solution at one end, and not square integrable at the other?"""
+        if not self._are_examined:
+            return False
+        first, last = (self._holds(self._demands(solution, end), polynomial) for end in self.ends)
+        if None in (first, last) or first == last:
+            return False
+        end = self.ends[0] if first else self.ends[1]
+        return end.circle is False
+
+    def _holds(self, demands: list[Any], polynomial: Any) -> bool | None:
+        """Are the demands fulfilled at all real zeros of the polynomial, or not at any of them?  None where neither is so."""
+        E = self.question.E
+        verdicts = set()
+        for root in sympy.Poly(polynomial, self.E).real_roots():
+            verdicts.add(all(bool(demand.subs(E, root)) for demand in demands))
+        return verdicts.pop() if len(verdicts) == 1 else None
+
+    def _is_without_closed_form(self, polynomial: Any) -> bool:
+        """Is there no Liouvillian solution where it vanishes?"""
+        if sympy.degree(polynomial, self.E) > 1:
+            return False
+        return self.conditions.case_at({self.question.energy: -polynomial.subs(self.E, 0)}) is None
+
+    def with_parameters(self) -> ClosedForms:
+        """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
+        levels: dict[Algebraic, None] = {}
+        higher = None
+        for region in self.conditions.regions:
+            parts = both(region.statement).parts
+            numbers: Sequence[int | None] = (None,)
+            if isinstance(parts[-1], Natural):
+                numbers = range(self.max_degree + 1)
+                higher = self.max_degree + 1 if region.case == 1 else higher
+            functions = [part.function.to_sympy(sympy.Dummy()) for part in parts if isinstance(part, Vanishes)]
+            is_known = len(functions) + isinstance(parts[-1], Natural) == len(parts)
+            for number in numbers if is_known and self._are_examined else ():
+                for solution in region.solution(number):
+                    levels.update(dict.fromkeys(self._under_conditions(solution, functions)))
+        return ClosedForms(self.conditions, tuple(levels), not self.conditions.regions, higher=higher)
+
+    def _under_conditions(self, solution: PolynomialSolution, functions: list[Any]) -> Iterator[Algebraic]:
+        """The levels where the functions and those in the conditions of the solution vanish, of which one may be free of E."""
+        numerators = [sympy.numer(sympy.together(function)) for function in (*functions, *solution.conditions)]
+        polynomial = reduce(sympy.gcd, (one for one in numerators if one.has(self.E)), sympy.Integer(0))
+        others = {one for one in numerators if not one.has(self.E)}
+        if not polynomial.has(self.E) or len(others) > 1:
+            return
+        constraint = others.pop() if others else sympy.Integer(0)
+        if sympy.LC(polynomial, self.E).could_extract_minus_sign():
+            polynomial = -polynomial
+        signs = self.question.signs
+        bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
+        demands = [demand for end in self.ends for demand in self._demands(solution, end)]
+        if sympy.degree(polynomial, self.E) == 1:
+            (energy,) = sympy.solve(polynomial, self.E)
+            solution = replace(solution, y=solution.y.subs(self.E, energy))
+            demands = [demand.subs(self.question.E, signs.real(energy)) for demand in demands]
+        if bounds is not None and possible([*bounds, *demands], signs):
+            level = self._level(solution, polynomial, constraint, [*bounds, *demands])
+            if sympy.false not in level.conditions:
+                yield level
+
+    def _demands(self, solution: PolynomialSolution, end: End) -> list[Any]:
+        """When a function v of t, whose v'/v is rational, is the square integrable one at an end: relations in real symbols."""
+        signs = self.question.signs
+        t = sympy.Symbol(self.question.parsed.variable)
+        u = sympy.Dummy("u")
+        rate = sympy.cancel(sympy.together(sympy.diff(solution.y, t) / solution.y))
+        is_far = end.point == sympy.oo
+        local = (
+            1 / u - rate.subs(t, 1 / u) / u**2 if is_far else rate.subs(t, end.point + u)
+        )  # of u v(1/u), of v(c + u)
+        order, strength = leading(signs.real(sympy.together(local)), u)
+        if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
+            decay = strength * end.direction ** (-order - 1)
+            return [sympy.false if decay.is_real is False else sympy.Gt(decay, 0)]
+        exponent = strength if order == -1 else sympy.Integer(0)
+        role = "right" if end.is_right else "left"
+        spot = Spot(end.point, None, sympy.Integer(end.mu), (role,))
+        return Ends(signs, self.question.friedrichs).conditions(end.domain, spot, sympy.simplify(2 * exponent - 1))
+
+    def _level(
+        self, solution: PolynomialSolution, polynomial: Any, constraint: Any, conditions: Sequence[Any]
+    ) -> Algebraic:
+        """With the energies, and which levels they are, where there are no parameters."""
+        question = self.question
+        parsed = question.parsed
+        original = Original.of(parsed.equation, question.x, question.signs)
+        bounds = None
+        with suppress(Uncovered):
+            if not original.turning_points(question.domain, question.signs):
+                bounds = range_of(original, question.domain, question.signs)
+        level = Algebraic(
+            int(solution.degree),
+            constraint,
+            sympy.factor(polynomial),
+            solution.y if parsed.equation is None else translated(solution.y, parsed.equation),
+            tuple(map(question.plain, tidied(conditions, question.signs))),
+            P=_polynomial_in(solution.y, sympy.Symbol(parsed.variable), self.ends),
+            range=bounds,
+        )
+        if question.parameters:
+            return level
+        x = sympy.Symbol(question.variable)
+        states = level.states_at({}, question.energy)
+        return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
+
+
+def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any] | None:
+    """What is known of the parameter that the constraint gives, said of its value; None where it can't have that value."""
+    if constraint == 0:
+        return []
+    used = signs.real(solution.y).free_symbols
+    for symbol in sorted(constraint.free_symbols, key=lambda s: (s in used, str(s))):
+        if sympy.degree(constraint, symbol) == 1:
+            value = sympy.factor(-constraint.coeff(symbol, 0) / constraint.coeff(symbol, 1))
+            return signs.bounds_of(symbol.name, value) if signs.admits(symbol.name, value) else None
+    return None
+
+
+def _polynomial_in(v: Any, t: Any, ends: Sequence[End]) -> Any:
+    """The product of the factors of v that are polynomials in t, but for those that vanish at an end: it has the zeros of v."""
+    factors = [power.base if power.is_Pow else power for power in sympy.Mul.make_args(v) if power.is_polynomial(t)]
+    inside = (factor for factor in factors if not any(factor.subs(t, end.point) == 0 for end in ends))
+    return sympy.Poly(sympy.Mul(*inside), t)
