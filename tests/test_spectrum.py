@@ -361,6 +361,7 @@ def test_names_of_parameters_and_variables_are_free() -> None:
 def test_a_sympy_expression_and_values() -> None:
     b = sympy.Symbol("b", positive=True)
     found = kovacic.spectrum(sympy.exp(-2 * x) - 2 * b * sympy.exp(-x))
+    assert found.potential.free_symbols == {x, sympy.Symbol("b")}
     assert [state.energy for state in found.states({"b": 3})] == [sympy.Rational(k, 4) for k in (-25, -9, -1)]
     at = kovacic.spectrum("exp(-2*x) - 2*b*exp(-x)", assume={"b": 3})
     assert at.states() == found.states({"b": 3})

@@ -338,12 +338,11 @@ def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, li
     reason = found.reason
     if forms.complete or not reason:
         reason = forms.reason(question.energy, max_degree)
-    hints = {}
-    if forms.higher is not None and not forms.complete and not found.reason:
-        may = "there may be levels with a polynomial of degree"
-        higher = f"{may} {forms.higher}"
-        hints = {"hint": f"{higher}: max_degree={forms.higher}", "shell": f"{higher}: --max-degree {forms.higher}"}
-    return replace(found, algebraic=forms.levels, closed_forms_complete=forms.complete, reason=reason, **hints)
+    found = replace(found, algebraic=forms.levels, closed_forms_complete=forms.complete, reason=reason)
+    if forms.complete or forms.higher is None or not examined.ends:
+        return found
+    higher = f"there may be levels with a polynomial of degree {forms.higher}"
+    return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")
 
 
 def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:

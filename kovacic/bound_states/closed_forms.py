@@ -225,7 +225,7 @@ class _Search:
             numbers: Sequence[int | None] = (None,)
             for part in both(alternative).parts:
                 if isinstance(part, Natural) and part.factors is not None:
-                    factors = [factor.to_sympy(d) for factor in part.factors]
+                    factors = [sympy.numer(sympy.together(factor.to_sympy(d))) for factor in part.factors]
                     lasts = [self.window.last_number(factor, self.E, d) for factor in factors]
                     are_all = are_all and None not in lasts
                     numbers = range(max([self.max_degree + 1, *(last for last in lasts if last is not None)]))

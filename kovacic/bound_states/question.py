@@ -223,7 +223,8 @@ def _as_written(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _
     expression = V
     if not hasattr(V, "free_symbols"):
         expression = read_expression(exact_text(V, "the potential"))
-    return _Potential(expression, expression - sympy.Symbol(energy))
+    plain = expression.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in expression.free_symbols})
+    return _Potential(plain, expression - sympy.Symbol(energy))
 
 
 def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:

@@ -138,7 +138,7 @@ class Searcher:
             return None
         free = a.E, b.E
         for _ in range(_PROOFS):
-            guess, a, b = self._refined(k, a, b)
+            guess, a, b = self._refined(k, a, b, free)
             with working_precision(2 * self.bits):
                 radius = self._radius_inside(guess, free, a, b)
                 lower = self._rounded(guess - radius, radius)
@@ -158,10 +158,9 @@ class Searcher:
             return True
         return self.at(lower, high=True).count == k and self.at(upper, high=True).count == k + 1
 
-    def _refined(self, k: int, a: Count, b: Count) -> tuple[Any, Count, Count]:
+    def _refined(self, k: int, a: Count, b: Count, free: tuple[Any, Any]) -> tuple[Any, Count, Count]:
         """A number near the zero of the mismatch in (a, b): regula falsi with the weights of Anderson and Bjorck."""
         fa, fb = a.mismatch, b.mismatch
-        free = a.E, b.E
         E = last = a.E
         side = 0
         with working_precision(2 * self.bits):
@@ -175,7 +174,7 @@ class Searcher:
                 is_steep = number < 4 and not abs(fa) / 1000 < abs(fb) < abs(fa) * 1000
                 if is_slow or is_steep or not a.E < E < b.E:
                     E = ((a.E + b.E) / 2).mid()
-                radius = self.radius(a, b, self.digits)
+                radius = self._radius_inside(E, free, a, b)
                 if abs(E - last) < radius / 16 or width < radius:
                     break
                 last = E

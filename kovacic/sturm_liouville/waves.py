@@ -13,8 +13,8 @@ from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.count import SeparatedCounter
 from kovacic.sturm_liouville.discs import Step
+from kovacic.sturm_liouville.ends import end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem
-from kovacic.sturm_liouville.solve import Eigenproblem
 
 _BITS = 160
 _PARTS = 32
@@ -27,7 +27,8 @@ def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float
         raise InputError("functions of periodic problems aren't drawn")
     with working_precision(_BITS):
         E = problem.sign * ball_to_flint(value).real.mid()
-        counter = SeparatedCounter(problem, Eigenproblem(problem, "E").ends, Span(E, abs(E) + 1), digits=8)
+        ends = end_of(problem, 0), end_of(problem, 1)
+        counter = SeparatedCounter(problem, ends, Span(E, abs(E) + 1), digits=8)
         sides = [_side(counter, side, E) for side in (0, 1)]
         left, right = sides
         k = 1 if abs(right[-1][1]) > abs(right[-1][2]) else 2  # Y or Y' is made continuous, whichever is larger
