@@ -125,8 +125,10 @@ def read_eigenproblem(
     wrap, wishes = _wishes(given, ends)
     pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
     problem = SturmProblem(linear.x, pieces, wishes, wrap, B, sign)
-    if wrap:
-        _check_periodic(problem)
+    if wrap and any(end.is_infinite for end in problem.ends):
+        raise InputError("periodic conditions need a finite interval")
+    if wrap and problem.B != 0 and sympy.simplify(sympy.integrate(problem.B, (problem.x, *problem.ends))) != 0:
+        raise InputError("with p(a) different from p(b) periodic conditions don't belong to a symmetric problem")
     return Eigenproblem(problem, parameter)
 
 
@@ -292,12 +294,3 @@ def _wrap(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
         "conditions on both ends together are periodic or antiperiodic ones",
         hint=f"y({a}) = y({b}), y'({a}) = y'({b}), or both with a minus sign",
     )
-
-
-def _check_periodic(problem: SturmProblem) -> None:
-    """Raises `InputError` where the ends aren't regular, or p isn't the same at both of them."""
-    low, high = problem.ends
-    if low.is_infinite or high.is_infinite:
-        raise InputError("periodic conditions need a finite interval")
-    if problem.B != 0 and sympy.simplify(sympy.integrate(problem.B, (problem.x, low, high))) != 0:
-        raise InputError("with p(a) different from p(b) periodic conditions don't belong to a symmetric problem")

@@ -41,7 +41,13 @@ n = Symbol("n", integer=True, positive=True)
 y = Function("y")
 
 STEP = Heaviside(x - 1)
-WITH_COS, WITH_SIN = (Integral(wave(s) * g(s), (s, 0, x)) for wave in (cos, sin))
+
+
+def from_(start: int, integrand: Any) -> Any:
+    return Integral(integrand, (s, start, x))
+
+
+WITH_COS, WITH_SIN = (from_(0, wave(s) * g(s)) for wave in (cos, sin))
 #: Equations whose right-hand side has pieces, a right answer, forged ones.
 PIECES: list[tuple[Any, Any, list[Any]]] = [
     # A step: wrong before it, wrong behind it, a jump of y, a jump of y'.
@@ -78,6 +84,16 @@ PIECES: list[tuple[Any, Any, list[Any]]] = [
         Heaviside(x) * x**2 / 2 - STEP * (x - 1) ** 2 / 2,
         [Heaviside(x) * x**2 / 2, x**2 / 2 - STEP * (x - 1) ** 2 / 2, Heaviside(x) * x**2 / 2 + STEP * (x - 1) ** 2],
     ),
+    # Integrals that begin at the step, and others.
+    (
+        "y'' = Heaviside(x - 1)*exp(x^2)",
+        STEP * (x * from_(1, exp(s**2)) - from_(1, s * exp(s**2))),
+        [
+            STEP * (x * from_(0, exp(s**2)) - from_(1, s * exp(s**2))),
+            STEP * (x * from_(1, exp(s**2)) - from_(0, s * exp(s**2))),
+            STEP * (x * from_(1, exp(s**2)) + from_(1, s * exp(s**2))),
+        ],
+    ),
     # A cusp of the right-hand side.
     ("y'' - y = Abs(x)", -sympy.Abs(x) + sympy.exp(-sympy.Abs(x)) * -1, [-sympy.Abs(x), -x, sympy.Abs(x)]),
     # A function that is given by its name: another sign, another kernel, another function, half of the answer.
@@ -87,7 +103,7 @@ PIECES: list[tuple[Any, Any, list[Any]]] = [
         [
             sin(x) * WITH_COS + cos(x) * WITH_SIN,
             sin(x) * WITH_SIN - cos(x) * WITH_COS,
-            sin(x) * Integral(cos(s) * g(s) ** 2, (s, 0, x)) - cos(x) * WITH_SIN,
+            sin(x) * from_(0, cos(s) * g(s) ** 2) - cos(x) * WITH_SIN,
             sin(x) * WITH_COS,
             g(x),
         ],
@@ -114,6 +130,8 @@ ANSWERS: list[tuple[Any, Any, Any, list[Any]]] = [
         [sin(x), sin(exp(2 * x)), sin(exp(-x)), exp(x)],
     ),
     ("y'' - y' + exp(2*x)*y = exp(2*x)", None, sin(exp(x)) + 1, [sin(exp(x)), sin(exp(x)) + 2, sin(exp(x)) + exp(x)]),
+    # Beside exp(2 x) the right-hand side has x, which is no rational function of it.
+    ("y'' - y' + exp(2*x)*y = x*exp(2*x) - 1", None, x, [-x, x + 1, x * exp(x), 2 * x]),
     # Values of y and y', sums of them, conditions with letters; answers that satisfy the equation, and only that.
     ("y'' + y = 0", {"y(0)": 1, "y'(0)": 2}, cos(x) + 2 * sin(x), [cos(x), 2 * sin(x), cos(x) - 2 * sin(x)]),
     ("y'' + y = 0", {"y(0)": k, "y(pi/2)": m}, k * cos(x) + m * sin(x), [m * cos(x) + k * sin(x), k * cos(x)]),

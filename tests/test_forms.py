@@ -101,6 +101,9 @@ def test_code_of_other_systems() -> None:
             "Int(exp(t^2), t = 0 .. n)",
             "Julia has no Integral, or one with another meaning",
         ),
+        sympy.Integral(t * n, (t, 0, 1), (n, 0, 1)): tuple(
+            f"{name} has no Integral, or one with another meaning" for name in ("Mathematica", "Maple", "Julia")
+        ),
         sympy.assoc_legendre(n, m, t): (
             "LegendreP[n, m, t]",
             *(f"{name} has no assoc_legendre, or one with another meaning" for name in ("Maple", "Julia")),

@@ -106,7 +106,9 @@ class FunctionField(Field):
                 if factor.degrees()[0] > 0
             ]
         else:  # without parameters
-            factors = [(self.embed(factor), k) for factor, k in QQ.factor(_over_q(polynomial.num))]
+            numbers = {int(exponents[0]): int(c) for exponents, c in polynomial.num.to_dict().items()}
+            over_q = QQ.poly([numbers.get(k, 0) for k in range(max(numbers, default=-1) + 1)])
+            factors = [(self.embed(factor), k) for factor, k in QQ.factor(over_q)]
         return sorted(factors, key=lambda pair: (pair[0].degree, str(pair[0])))
 
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
@@ -329,12 +331,6 @@ def _substitute(polynomial: Any, values: Sequence[Poly], field: Field) -> Poly:
         columns[power] = columns[power] + term if power in columns else term
     zero = field.poly([])
     return field.poly([columns.get(k, zero) for k in range(max(columns, default=-1) + 1)])
-
-
-def _over_q(polynomial: Any) -> Poly:
-    """A polynomial without parameters as one over Q."""
-    coefficients = {int(exponents[0]): int(c) for exponents, c in polynomial.to_dict().items()}
-    return QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)])
 
 
 def _from_key(field: FunctionField, num: tuple[Any, ...], den: tuple[Any, ...]) -> FunctionPoly:

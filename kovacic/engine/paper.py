@@ -144,9 +144,14 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     roots = Roots(problem.field)
     *poles, infinity = problem.places
     points = (SingularPoint(infinity), *chain.from_iterable(_points(place, roots) for place in poles))
-    choices = _all_choices(points, m, roots)
-    if choices is None:
-        return None
+    chosen_at = []
+    for point in points:
+        check_time()
+        chosen = _choices(point, m, roots)
+        if chosen is None:
+            return None
+        chosen_at.append(chosen)
+    choices = tuple(chosen_at)
     total = prod(len(chosen) ** point.count for chosen, point in zip(choices, points, strict=True))
     if prod(map(len, choices)) > _MOST_FAMILIES:
         return Search(m, points, choices, total, natural=_naturals(choices, points, m), families=None)
@@ -158,18 +163,6 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     shown = every if m == 1 and total <= _FEW_FAMILIES else hopeful
     trial = _Trial(problem, points, m, roots.field, Symbol(variable))
     return Search(m, points, choices, total, natural, _tried(shown, trial))
-
-
-def _all_choices(points: Sequence[SingularPoint], m: int, roots: Roots) -> tuple[tuple[Choice, ...], ...] | None:
-    """Step 1 at every point."""
-    found = []
-    for point in points:
-        check_time()
-        chosen = _choices(point, m, roots)
-        if chosen is None:
-            return None
-        found.append(chosen)
-    return tuple(found)
 
 
 def _families(

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvariant, Structure
 from kovacic.verify.dihedral import has_holomorphic_rest, is_least_power
@@ -97,18 +96,6 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
 
     At the ordinary points y2 is analytic, so that 1/F has no residue there.
     """
-    num, den = _as_quotient(F)
-    for point in inspector.points[:-1]:
-        rest, order = num.remove(point.factor)
-        if order:
-            modulus = point.factor**order
-            if residue(den * inverse(rest, modulus) % modulus, point.factor, order):
-                return False
-    return True
-
-
-def _as_quotient(F: SemiInvariant) -> tuple[Poly, Poly]:
-    """Numerator and denominator of a rational form."""
     num = F.P
     den = F.P.field.poly([1])
     for p, value in rational_residues(F.theta) or []:
@@ -116,7 +103,13 @@ def _as_quotient(F: SemiInvariant) -> tuple[Poly, Poly]:
             num = num * p ** int(value)
         else:
             den = den * p ** int(-value)
-    return num, den
+    for point in inspector.points[:-1]:
+        rest, order = num.remove(point.factor)
+        if order:
+            modulus = point.factor**order
+            if residue(den * inverse(rest, modulus) % modulus, point.factor, order):
+                return False
+    return True
 
 
 # ------------------------------------------------------------------------------------------- imprimitive groups
@@ -162,23 +155,10 @@ def _imprimitive(inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynom
 
 
 def _curve(inspector: Inspector, f: SemiInvariant) -> FormCurve | None:
-    """None if the valuations of g = f^2 aren't whole numbers, or g has zeros or poles that aren't singular points.
+    """The curve z^2 = g from the valuations of g = f^2: twice the residues of theta, and at infinity by their sum, which is 4.
 
-    P has simple zeros at ordinary points, where the difference is 1.
+    None if a valuation isn't a whole number, or g has zeros or poles that aren't singular points.
     """
-    valuations = _valuations_of_square(inspector, f)
-    if valuations is None:
-        return None
-    pairs = [*zip(inspector.points, valuations, strict=True)]
-    branches = sum(point.factor.degree for point, valuation in pairs if valuation % 2)
-    differences = {point.difference for point, valuation in pairs if valuation == 2}
-    if f.P.degree:
-        differences.add(Fraction(1))
-    return FormCurve(branches, frozenset(d for d in differences if d is not None))
-
-
-def _valuations_of_square(inspector: Inspector, f: SemiInvariant) -> list[int] | None:
-    """Of g = f^2 at all singular points, from the residues of theta; at infinity by their sum, 4 for a form of degree 4."""
     residues = dict(rational_residues(f.theta) or [])
     finite = inspector.points[:-1]
     valuations = [2 * residues.pop(point.factor, Fraction(0)) for point in finite]
@@ -186,7 +166,12 @@ def _valuations_of_square(inspector: Inspector, f: SemiInvariant) -> list[int] |
     valuations.append(Fraction(4 - 2 * f.P.degree) - degree)
     if residues or any(value.denominator > 1 for value in valuations):
         return None
-    return [int(value) for value in valuations]
+    pairs = [*zip(inspector.points, valuations, strict=True)]
+    branches = sum(point.factor.degree for point, valuation in pairs if valuation % 2)
+    differences = {point.difference for point, valuation in pairs if valuation == 2}
+    if f.P.degree:  # simple zeros of P at ordinary points, double ones of g
+        differences.add(Fraction(1))
+    return FormCurve(branches, frozenset(d for d in differences if d is not None))
 
 
 def _on_curve_of_positive_genus(

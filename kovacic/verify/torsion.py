@@ -91,25 +91,20 @@ def _class_of_poles(eta: Differential, residues: set[Fraction]) -> Points:
     """D: with 2 P for P - P', the sum of the 2 l Delta P."""
     curve = Curve(eta.h)
     l = lcm(*(residue.denominator for residue in residues))  # noqa: E741 - as in the module's text
-    by_square = _by_square(residues, eta.h.modulus())
+    p = eta.h.modulus()
+    by_square = {}  # the residues by their squares modulo p, which have to be different
+    for residue in residues:
+        if residue.denominator % p == 0:
+            raise BadPrimeError("a residue isn't integral")
+        by_square[residue.numerator**2 * pow(residue.denominator, -2, p) % p] = residue
+    if len(by_square) < len(residues):
+        raise BadPrimeError("residues agree up to their signs")
     total = curve.zero
     for q, multiplicity in eta.M.factor()[1]:
         if multiplicity == 2:
             points, residue = _pole(eta, q, by_square)
             total = curve.sum(total, curve.multiple(int(2 * l * residue), points))
     return total
-
-
-def _by_square(residues: set[Fraction], p: int) -> dict[int, Fraction]:
-    """The residues by their squares modulo p, which have to be different."""
-    found = {}
-    for residue in residues:
-        if residue.denominator % p == 0:
-            raise BadPrimeError("a residue isn't integral")
-        found[residue.numerator**2 * pow(residue.denominator, -2, p) % p] = residue
-    if len(found) < len(residues):
-        raise BadPrimeError("residues agree up to their signs")
-    return found
 
 
 def _pole(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[Points, Fraction]:

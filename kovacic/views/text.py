@@ -23,7 +23,6 @@ from kovacic.views.sentences import (
     omega_of,
     reason,
     solutions_of,
-    unknown_of,
     verdict_of,
 )
 from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
@@ -133,21 +132,15 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     except LimitExceeded as limit:
         yield f"the solutions weren't written out: {limit}"
         return
-    yield from _named(answer, [value.text for _, value in found])
-    yield from (f"note: {note}" for note in notes)
-
-
-def _named(answer: Answer, solutions: Iterable[str]) -> Iterator[str]:
-    """`y1 = ...`, line by line; where none is Liouvillian, under a title, or which functions were looked for in vain."""
-    y = unknown_of(answer)
-    named = [f"{y}{k} = {shortened(text)}" for k, text in enumerate(solutions, start=1)]
+    named = [f"{name.text} = {shortened(value.text)}" for name, value in found]
     if answer.case is not None:
         yield from named
     elif named:
         yield "in special functions, verified:"
         yield from _indented(named)
-    else:
+    else:  # the classes of functions that were searched in vain
         yield str(derived.special(answer))
+    yield from (f"note: {note}" for note in notes)
 
 
 def _exclusions(answer: Answer) -> list[str]:

@@ -49,8 +49,8 @@ _PATTERNS: dict[str, dict[str, str]] = {
     "mathematica": {
         "lowergamma": "Gamma[{0}, 0, {1}]",
         "Heaviside": "UnitStep[{0}]",
-        "Integral/1": "Integrate[{0}, {1}]",
-        "Integral/3": "Integrate[{0}, {{1}, {2}, {3}}]",
+        "Integral/2": "Integrate[{0}, {1}]",
+        "Integral/4": "Integrate[{0}, {{1}, {2}, {3}}]",
         "RootSum": "RootSum[Function[{2}, {0}], Function[{2}, {1}]]",
     },
     "maple": {
@@ -64,8 +64,8 @@ _PATTERNS: dict[str, dict[str, str]] = {
         "elliptic_e/2": "EllipticE(sin({0}), sqrt({1}))",
         "elliptic_pi/2": "EllipticPi({0}, sqrt({1}))",
         "elliptic_pi/3": "EllipticPi(sin({1}), {0}, sqrt({2}))",
-        "Integral/1": "Int({0}, {1})",
-        "Integral/3": "Int({0}, {1} = {2} .. {3})",
+        "Integral/2": "Int({0}, {1})",
+        "Integral/4": "Int({0}, {1} = {2} .. {3})",
         "RootSum": "sum({1}, {2} = RootOf({0}, {2}))",
     },
     "julia": {"lowergamma": "(gamma({0}) - gamma({0}, {1}))"},
@@ -177,9 +177,10 @@ def _printer(language: _Language) -> Any:
     class Printer(language.printer):  # type: ignore[misc, name-defined]
         def _print(self, expr: Expr, **options: Any) -> str:
             kind = type(expr).__name__
-            own = known.get(kind) or known.get(f"{kind}/{_count(expr)}")
+            arguments = _arguments(expr)
+            own = known.get(kind) or known.get(f"{kind}/{len(arguments)}")
             if own is not None:
-                return _filled(own, [self._print(part) for part in _arguments(expr)], language)
+                return _filled(own, list(map(self._print, arguments)), language)
             if isinstance(expr, sympy.Tuple):
                 before, after = language.lists
                 if language.name == "Julia" and expr.args:  # a tuple, in which a single element needs the comma
@@ -196,21 +197,16 @@ def _printer(language: _Language) -> Any:
     return Printer({"contract": False} if language.name == "Julia" else {})
 
 
-def _count(expr: Expr) -> int:
-    """The number of arguments; of an integral that of the variable and the ends."""
-    return len(expr.limits[0]) if isinstance(expr, sympy.Integral) else len(getattr(expr, "args", ()))
-
-
 def _arguments(expr: Expr) -> tuple[Expr, ...]:
-    """An integral has the variable, or it and the ends; a sum over roots p, f(a) and a, which is no letter of f."""
-    if isinstance(expr, sympy.Integral):
-        (limits,) = expr.limits
-        return (expr.function, *limits)
+    """The arguments for a pattern: of a simple integral the integrand, the variable, and the ends if it has any; of a sum over
+    roots p, f(a) and a, which is no letter of f."""
+    if isinstance(expr, sympy.Integral) and len(expr.limits) == 1:
+        return (expr.function, *expr.limits[0])
     if isinstance(expr, sympy.RootSum):
         used = {symbol.name for symbol in expr.free_symbols}
         a = next(sympy.Symbol(name) for name in "abcrst" if name not in used)
         return expr.poly.as_expr().xreplace({expr.poly.gen: a}), expr.fun(a), a
-    return tuple(expr.args)
+    return tuple(getattr(expr, "args", ()))
 
 
 def _filled(own: str, arguments: list[str], language: _Language) -> str:
