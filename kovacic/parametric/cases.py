@@ -11,14 +11,12 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any
 
-from kovacic.algebra.function_field import FunctionPoly
 from kovacic.limits import check_time
-from kovacic.parametric.charts import covered, everything, field_of, holds_on, within
-from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
+from kovacic.parametric.charts import covered, everything, within
+from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
-from kovacic.parametric.restriction import over_all
 from kovacic.parametric.statements import (
     ALWAYS,
     Both,
@@ -32,8 +30,6 @@ from kovacic.parametric.statements import (
 
 #: Regions above which not all are compared: general Heun has some hundreds.
 _MANY = 100
-#: Raised where a statement isn't about functions of the parameters of a chart, or one isn't defined there.
-_NOT_ON_CHART = (TypeError, ValueError, ZeroDivisionError)
 
 
 @dataclass(frozen=True)
@@ -91,14 +87,9 @@ def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
 def _exceptions(
     statement: Statement, unsolvable: Iterable[Statement], before: Sequence[Statement]
 ) -> tuple[Statement, ...]:
-    """The unsolvable ones that a statement meets outside of the cases before, without what it says itself; each once."""
+    """The unsolvable ones that a statement meets outside of the cases before."""
     charts = within(statement, everything(statement))
-    left: dict[Statement, set[Statement]] = {}
-    for other in unsolvable:
-        if not covered(within(statement, within(other, charts)), before):
-            said = _left_to_say(other, charts)
-            left[said] = {*both(said).parts}
-    return tuple(said for said, own in left.items() if not any(parts < own for parts in left.values()))
+    return tuple(other for other in unsolvable if not covered(within(statement, within(other, charts)), before))
 
 
 def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
@@ -163,7 +154,7 @@ def _is_redundant(
         is_apart = region.case is None and _proves_a_solution(other)
         if says_the_same or is_apart:
             continue
-        if not all(_is_said(known, other.statement, chart) for chart in within(other.statement, charts)):
+        if not covered(within(other.statement, charts), known):
             return False
     return is_generic
 
@@ -182,52 +173,6 @@ def _proves_a_solution(region: ParameterRegion) -> bool:
     Those about Delta_d are decided at each point by the equation there.
     """
     return region.case is not None and any(isinstance(part, Natural) for part in both(region.statement).parts)
-
-
-def _left_to_say(other: Statement, charts: list[ParameterPoint]) -> Statement:
-    """What the other statement says of the values of a single chart: its parts that don't hold there anyway, or nowhere."""
-    field = field_of(other)
-    if len(charts) != 1 or field is None:
-        return other
-    left: list[Statement] = []
-    for part in both(other).parts:
-        value = charts[0].at(part.function) if isinstance(part, Vanishes) else None
-        if not isinstance(value, FunctionPoly):
-            left += [part] * (value is None or bool(value))
-        elif factors := irreducible_factors(value):
-            left.append(over_all(either(*map(Vanishes, factors)), field))
-    return all_of(left) if left else other
-
-
-def _is_said(known: Sequence[Statement], statement: Statement, chart: ParameterPoint) -> bool:
-    """Does one of the known statements hold at all values of the chart at which this one does?"""
-    first: Callable[[Statement], Statement | None] = lambda one: next(iter(both(one).parts), None)  # noqa: E731
-    # One that begins with a function that vanishes at some values of the chart at most says nothing of all.
-    known = [one for one in known if not isinstance(first(one), Vanishes) or holds_on(first(one) or ALWAYS, chart)]
-    if covered([chart], known):
-        return True
-    try:
-        said = {*_parts_on(statement, chart)}
-    except _NOT_ON_CHART:
-        return False
-    return any(_is_among(said, one, chart) for one in known)
-
-
-def _is_among(said: set[Statement], statement: Statement, chart: ParameterPoint) -> bool:
-    """Is all that a statement says on the chart said?"""
-    try:
-        return all(part in said for part in _parts_on(statement, chart))
-    except _NOT_ON_CHART:
-        return False
-
-
-def _parts_on(statement: Statement, chart: ParameterPoint) -> Iterator[Statement]:
-    """What it says on the chart: all of these statements.  Raises `_NOT_ON_CHART`."""
-    for part in both(statement).parts:
-        on_chart = part.rewritten(lambda function: over_parameters(chart.at(function)))
-        is_true = isinstance(on_chart, Vanishes) and not on_chart.function
-        if not is_true:
-            yield on_chart
 
 
 # ------------------------------------------------------------------------------- what is said in one sentence
