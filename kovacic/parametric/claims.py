@@ -157,7 +157,7 @@ class Free:
 
 @dataclass(frozen=True)
 class IntegerFamily(Claim):
-    """`parameter = value` for a number n of which one of the `forms` in it, n itself by default, is one of the numbers.
+    """`parameter = value`, a function of n, for an n that is one of the numbers.
 
     `poles` are what is said of the n at which the value isn't defined.
     """
@@ -166,7 +166,6 @@ class IntegerFamily(Claim):
     value: RatFunc
     letter: str
     numbers: Classes
-    forms: tuple[FunctionPoly, ...] = ()
     poles: tuple[Free, ...] = ()
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -174,25 +173,16 @@ class IntegerFamily(Claim):
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Poly]:
         """The n for which it is true at the point, those of which a pole speaks among them."""
-        n = over_parameters(self.value.num).field.poly([0, 1])
-        for form in self.forms or (over_parameters(n),):
-            yield from self._with_form(form, point)
-
-    def _with_form(self, form: FunctionPoly, point: ParameterPoint) -> Iterator[Poly]:
-        """The n for which the form, linear in n, is one of the numbers m: n = (m - form(0))/slope."""
-        at_point = point.at(form)
-        m = point.field.poly([0, 1])
-        n = (m - at_point[0]) / at_point[1]
         for zero in self.poles:
             root = point.at(zero.root)
-            number = rational(at_point(root))
+            number = rational(root)
             if number is not None and self.numbers.contain(number) and not point.at(zero.zero):
                 yield root
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
-        equation = (above - below * point.values[point.names.index(self.parameter)])(n)
-        for number in rational_roots(equation):
-            if self.numbers.contain(number) and below(n)(point.field.poly([number])):
-                yield n(point.field.poly([number]))
+        for number in rational_roots(above - below * point.values[point.names.index(self.parameter)]):
+            n = point.field.poly([number])
+            if self.numbers.contain(number) and below(n):
+                yield n
 
 
 @dataclass(frozen=True)

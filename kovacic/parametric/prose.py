@@ -15,7 +15,6 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.parametric.claims import (
     INTEGERS,
-    NATURALS,
     AllOf,
     Alternatives,
     AnyOf,
@@ -269,27 +268,13 @@ def _in_parentheses(notes: Sequence[Words]) -> Words:
     return (" (", *_joined(notes, ", "), ")")
 
 
-def numbers_of(family: IntegerFamily) -> Words:
-    """` for an odd integer n`, ` for a number n with n + l in Z`."""
-    letter = family.letter
-    if not family.forms:
-        return (" for ", *kind(family.numbers, letter))
-    return (" for a number ", formula(letter), " with ", *_forms_of(family))
-
-
-def _forms_of(family: IntegerFamily) -> Words:
-    """What is said of another number than an integer."""
-    first = family.forms[0]
-    if family.numbers == INTEGERS:
-        return (_integral(first, family.letter),)
-    if family.numbers == NATURALS:
-        plus, minus = (formula(function(form, family.letter)) for form in family.forms)
-        return (plus, " or ", in_set(minus, "N"))
-    return (formula(function(first, family.letter)), " ", *kind(family.numbers))
+def numbers_of(family: IntegerFamily | EquationFor) -> Words:
+    """` for an odd integer n`."""
+    return (" for ", *kind(family.numbers, family.letter))
 
 
 def _equation_for(claim: EquationFor) -> Words:
-    return (_unsolved(claim), " for ", *kind(claim.numbers, claim.letter))
+    return (_unsolved(claim), *numbers_of(claim))
 
 
 def _unsolved(claim: EquationFor) -> Math:
@@ -359,16 +344,10 @@ def _sides_of_one_value(parts: Sequence[Claim]) -> list[SidesOfEquation] | None:
 def _of_common_numbers(parts: Sequence[Claim]) -> Words | None:
     """`E = f or E = g for an integer n`."""
     families = [part for part in parts if isinstance(part, IntegerFamily | EquationFor)]
-    ends = {_numbers_of_any(part) for part in families}
+    ends = {numbers_of(part) for part in families}
     if len(families) != len(parts) or len(ends) != 1:
         return None
     return (*_joined([*map(_head_of_any, families)], " or "), *ends.pop())
-
-
-def _numbers_of_any(part: IntegerFamily | EquationFor) -> Words:
-    if isinstance(part, IntegerFamily):
-        return numbers_of(part)
-    return (" for ", *kind(part.numbers, part.letter))
 
 
 def _head_of_any(part: IntegerFamily | EquationFor) -> Words:

@@ -51,8 +51,7 @@ from kovacic.parametric.statements import Setting
 #: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
 _WEIGHT = 3
 _LATER = 10
-#: What it costs that n is another number than an integer, and each stratum of which something has to be said.
-_NO_INTEGER = 25
+#: What it costs, for each stratum of which something has to be said.
 _STRATUM = 20
 
 
@@ -74,7 +73,7 @@ class SolvedCondition:
 
     def family(self, letter: str, numbers: Classes) -> IntegerFamily:
         """The first stratum and the poles, for n among these numbers."""
-        return IntegerFamily(self.parameter, self.value, letter, numbers, (), possible(self.poles, numbers))
+        return IntegerFamily(self.parameter, self.value, letter, numbers, possible(self.poles, numbers))
 
 
 def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
@@ -184,23 +183,16 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     for k, solved in enumerate(energies or known):
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _choices(equation, solved, numbers, letter):
-            cost = _LATER * k + _STRATUM * len(strata) + _cost(family)
+            length = _WEIGHT * shortest_length(family.value, family.letter) + prose.length_of(prose.numbers_of(family))
+            cost = _LATER * k + _STRATUM * len(strata) + length
             if best is None or cost < least:
                 best = IntegerCondition(family, strata, is_solved=True)
                 least = cost
     return best
 
 
-def _cost(family: IntegerFamily) -> int:
-    """Of reading it, in characters."""
-    length = _WEIGHT * shortest_length(family.value, family.letter) + prose.length_of(prose.numbers_of(family))
-    if family.forms:
-        length += _NO_INTEGER
-    return length
-
-
 def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str) -> Iterator[IntegerFamily]:
-    """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters."""
+    """f(N) with N = n; and with N = s n + r, n an integer."""
     N = equation.field.poly([0, 1])
     is_mirrored = equation(-N) == (-1) ** equation.degree * equation
     is_single = numbers.are_one(up_to_sign=is_mirrored)
@@ -208,10 +200,9 @@ def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, 
         yield solved.family(letter, numbers)
     if is_single and (numbers.modulus < 3 or not is_mirrored):
         for line in _lines(numbers, N):
-            yield _moved(solved, line, letter, INTEGERS)
-    center = _center(equation, solved.value)
-    if center is not None:
-        yield from _about_center(solved, center, numbers, letter, is_single=is_single)
+            poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
+            value = solved.value(RatFunc(line))
+            yield IntegerFamily(solved.parameter, value, letter, INTEGERS, possible(poles, INTEGERS))
 
 
 def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
@@ -222,59 +213,6 @@ def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
         pairs = list(product((1, -1), (0, -1, 1)))
     for sign, shift in pairs:
         yield N * (sign * modulus) + numbers.residues[0] + modulus * shift
-
-
-def _moved(
-    solved: SolvedCondition, line: Poly, letter: str, numbers: Classes, forms: tuple[FunctionPoly, ...] = ()
-) -> IntegerFamily:
-    """The family with N = `line`, slope n + shift, for n among the numbers, or of which one of the forms is."""
-    value = solved.value(RatFunc(line))
-    poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
-    if not forms:
-        poles = possible(poles, numbers)
-    return IntegerFamily(solved.parameter, value, letter, numbers, forms, poles)
-
-
-def _about_center(
-    solved: SolvedCondition, c: Poly, numbers: Classes, letter: str, *, is_single: bool
-) -> Iterator[IntegerFamily]:
-    """f(s n + c), where n + (c - r)/s is an integer; and f(n + c), where n + c is one of the numbers."""
-    N = solved.value.field.poly([0, 1])
-    u = over_parameters((c - numbers.residues[0]) / numbers.modulus)
-    if is_single:
-        line = N * numbers.modulus + c
-        yield _moved(solved, line, letter, *_about(solved.value(RatFunc(line)), u, N))
-    has_fraction = constant_term(c).denominator > 1 or int(u.den.content()) > 1
-    if has_fraction or not is_single:
-        yield _moved(solved, N + c, letter, numbers, (over_parameters(N + c),))
-
-
-def _about(f: RatFunc, u: FunctionPoly, N: Poly) -> tuple[Classes, tuple[FunctionPoly, ...]]:
-    """n + u is an integer; where only n^2 matters: n + u or n - u - 1 is a natural number."""
-    constant = constant_term(u)
-    if constant.denominator == 1 and f(RatFunc(-N)) == f:
-        return NATURALS, (over_parameters(N + u - constant), over_parameters(N - u + constant - 1))
-    return INTEGERS, (over_parameters(N + u),)
-
-
-def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:
-    """Where f has its only pole, or the mean of the equation's roots; None where that is a number."""
-    if equation.degree < 2:
-        return None
-    center = _only_pole(f)
-    if center is None:
-        center = _mean_of_roots(equation)
-    return center if equation.field.rational_value(center) is None else None
-
-
-def _only_pole(f: RatFunc) -> Poly | None:
-    """The root of the denominator where there is one, in the field of f."""
-    if not f.den.degree:
-        return None
-    factors = [factor for factor, _ in f.field.factor(f.den)]
-    if len(factors) > 1 or factors[0].degree > 1:
-        return None
-    return -factors[0][0]
 
 
 def _mean_of_roots(equation: Poly) -> Poly:
