@@ -33,7 +33,7 @@ from kovacic.enclosure.matrices import Matrix, State, apply, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import Coefficients, NumericProblem
 from kovacic.enclosure.start import spread_by, steepness_of
-from kovacic.enclosure.way import Forecast, Local, Step, Way
+from kovacic.enclosure.way import Forecast, Local, Way, WayStep
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 
@@ -195,7 +195,7 @@ class AnalyticWay(Way):
 
         return spread_by(coefficients, number, state)
 
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         edge = power_of_two(-self.prec - _EDGE)
         length = b - a
         first = a if self.functions.is_regular(to_acb(a)) else a + length.scaled(edge)
@@ -206,7 +206,7 @@ class AnalyticWay(Way):
         if last != b:
             yield Edge.of(self.functions, last, b)
 
-    def _discs(self, a: ExactPoint, b: ExactPoint) -> Iterator[Step]:
+    def _discs(self, a: ExactPoint, b: ExactPoint) -> Iterator[WayStep]:
         """The discs from a to b, where the coefficients are analytic."""
         length = b - a
         square = length.norm_squared()

@@ -29,7 +29,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
 from kovacic.enclosure.transport import Stop, forecast, growth_of_disc, walk
-from kovacic.enclosure.way import NOTHING, Forecast, Step, Traveller, Way
+from kovacic.enclosure.way import NOTHING, Forecast, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
 
 
@@ -62,7 +62,7 @@ class RationalWay(Way):
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
         return forecast(self.problem.system, a, b, self.prec)
 
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         system = self.problem.system
         split = alone and is_split(system, self.prec)
         return walk(system, a, b, self.prec, growth=growth_of_disc(self.prec, alone=alone), split=split)

@@ -152,11 +152,11 @@ def analytic_journeys(
     data = as_number(y0, "y0"), as_number(dy0, "dy0")
     from kovacic.enclosure.analytic import AnalyticWay
     from kovacic.enclosure.jets import CoefficientField
-    from kovacic.enclosure.through import Change, Through
+    from kovacic.enclosure.through import Substitution, Through
 
     chain = path == "chain"
     journey = Journey(AnalyticWay(CoefficientField(coefficients)), Start(place, data), vertices, chain)
-    change = None if vertices else Change.of(coefficients)
+    change = None if vertices else Substitution.of(coefficients)
     if change is None or not change.is_real([place]):
         return journey, None
     start = change.start(place, data)

@@ -31,7 +31,7 @@ _BITS = 64
 
 
 @dataclass(frozen=True)
-class Change:
+class Substitution:
     """t as a function of x, and the equation in t."""
 
     t: Any
@@ -39,7 +39,7 @@ class Change:
     problem: NumericProblem
 
     @classmethod
-    def of(cls, coefficients: Coefficients) -> Change | None:
+    def of(cls, coefficients: Coefficients) -> Substitution | None:
         """None unless the equation is rational in an exponential of x."""
         changed: Any = coefficients.changed
         if changed is None or getattr(changed, "letters", None):
@@ -78,7 +78,7 @@ class Change:
 class Through:
     """A journey in t, seen from x."""
 
-    change: Change
+    change: Substitution
     journey: Journey
 
     def is_exact(self, targets: Sequence[Number]) -> bool:

@@ -80,7 +80,7 @@ def _square(radius: arb) -> acb:
     return acb(arb(0, radius), arb(0, radius))
 
 
-class Step(Protocol):
+class WayStep(Protocol):
     """A disc of a way."""
 
     @property
@@ -159,7 +159,7 @@ class Way(ABC):
         """What the discs from a to b will take; raises LimitExceeded if it is clear that they are too many."""
 
     @abstractmethod
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         """The discs from a towards b; `alone` says that only the end is asked for."""
 
     @abstractmethod
@@ -236,7 +236,7 @@ def by_rays(here: ExactPoint, stops: Sequence[ExactPoint]) -> list[list[ExactPoi
 class _Passed:
     """A disc that was passed, and the maps to the state where it was entered."""
 
-    step: Step
+    step: WayStep
     product: MatrixProduct
     particular: State
 
