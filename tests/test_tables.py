@@ -132,6 +132,39 @@ def test_nan_stays_nan(make: str) -> None:
         f(np.array([math.nan, 4.0]))
 
 
+def test_what_is_masked_stays_masked_and_is_not_looked_at() -> None:
+    """NumPy's masked arrays, with a point beyond the interval under the mask."""
+    points = np.ma.array([[1.0, 99.0], [2.0, 0.5]], mask=[[False, True], [False, False]])
+    closed: Any = kovacic.solve("x^2 + 3").lambdify(interval=(0, 3))
+    sine: Any = kovacic.solve("-1").lambdify(interval=(0, 3), **SINE)
+    table = kovacic.tabulate("x", 0, 3, **SINE)
+    for function in (
+        closed,
+        closed.derivative,
+        sine,
+        sine.derivative,
+        table,
+        table.derivative,
+        *(lambda x, k=k: closed.log(x)[k] for k in (0, 1)),
+    ):
+        found = function(points)
+        assert found.mask.tolist() == points.mask.tolist()
+        assert found[~points.mask].tolist() == function(np.array([1.0, 2.0, 0.5])).tolist()
+    balls = kovacic.evaluate("x", points, **SINE)
+    assert balls.mask.tolist() == points.mask.tolist()
+    assert balls[1, 0] == kovacic.evaluate("x", [1, 2, "1/2"], **SINE)[1]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("equation", "interval"), [("x", (-1000, 0)), ("-x^2", (0, 300)), ("-1", (0, 30_000))])
+def test_tables_may_have_tens_of_thousands_of_pieces(equation: str, interval: tuple[int, int]) -> None:
+    table = kovacic.tabulate(equation, *interval, careful=False, **SINE)
+    places = [interval[0] + (interval[1] - interval[0]) * share for share in (0.0, 0.13, 0.48, 0.97, 1.0)]
+    exact = kovacic.evaluate(equation, places, **SINE)
+    size = max(abs(float(value)) for value in exact)
+    assert [table(float(place)) for place in places] == pytest.approx([float(v) for v in exact], abs=1e-9 * size)
+
+
 @pytest.mark.parametrize(
     ("equation", "interval", "start", "exact"),
     [

@@ -175,6 +175,9 @@ class ProductForm:
         1.0 5004.605170
         """
         points = self.region.points(x)
+        if np.ma.isMaskedArray(points):
+            unit, total = self.log(points.data)
+            return np.ma.array(unit, mask=points.mask), np.ma.array(total, mask=points.mask)
         with np.errstate(all="ignore"):
             parts = self._parts(points.reshape(-1), careful=True)
             growth = parts.growth

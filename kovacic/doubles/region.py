@@ -79,8 +79,11 @@ class Region:
         return self.low.imag == 0 == self.high.imag
 
     def points(self, x: Any) -> Any:
-        """The argument as an array of doubles or complex doubles; raises InputError where it leaves the region."""
-        points = np.asarray(x)
+        """The argument as an array of doubles or complex doubles; raises InputError where it leaves the region.
+
+        What is masked stays masked, and may be anything.
+        """
+        points: Any = np.asanyarray(x) if np.ma.isMaskedArray(x) else np.asarray(x)
         if not np.issubdtype(points.dtype, np.number):
             raise InputError(f"the argument isn't numerical ({points.dtype})")
         if self.is_real and np.iscomplexobj(points):
@@ -89,6 +92,9 @@ class Region:
             )
         kind = float if self.is_real else complex
         points = points.astype(kind, copy=False)
+        if np.ma.is_masked(points):
+            middle: Any = (self.low + self.high) / 2
+            points = np.ma.array(points.filled(middle.real if self.is_real else middle), mask=points.mask)
         if points.size and not self._contains(points):
             shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
             raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
@@ -117,6 +123,8 @@ def _between(low: float, values: Any, high: float) -> bool:
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
     """The function of the points, so many at a time: what is formed on the way stays in the processor's cache."""
+    if np.ma.isMaskedArray(points):
+        return np.ma.array(in_blocks(function, points.data, block), mask=points.mask)
     flat = points.reshape(-1)
     with np.errstate(all="ignore"):  # inf or 0 where a value is beyond the range of doubles
         first = function(flat[:block])

@@ -129,7 +129,8 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     Returns
     -------
     Ball, tuple or array
-        A tuple for a sequence, in the same order; an array of balls of the same shape for an array (NaN stays NaN).
+        A tuple for a sequence, in the same order; an array of balls of the same shape for an array (NaN stays NaN, and what is
+        masked masked).
 
     Raises
     ------
@@ -249,12 +250,17 @@ class Prepared:
         import numpy as np
 
         points = list(np.asarray(x, dtype=object).flat) if shape else [x]
-        holes = [point != point for point in points]  # NaN is no number
+        mask: Any = np.ma.getmaskarray(np.ma.asanyarray(x))
+        holes = [
+            bool(hidden) or point != point for point, hidden in zip(points, mask.flat, strict=True)
+        ]  # NaN is no number
         known = iter(self._at([point for point, hole in zip(points, holes, strict=True) if not hole], derivative))
         values = np.full(len(points), math.nan, dtype=object)
         for i, hole in enumerate(holes):
             if not hole:
                 values[i] = next(known)
+        if np.ma.isMaskedArray(x):
+            return np.ma.array(values.reshape(shape), mask=mask)
         return values.reshape(shape) if shape else values[0]
 
     def _at(self, points: list[Any], derivative: bool) -> list[Any]:
