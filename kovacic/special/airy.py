@@ -23,6 +23,7 @@ from kovacic.special.polar_parts import (
     irregular_places,
     leading_square,
     scales,
+    value_at,
 )
 from kovacic.special.pullback import Pullback, StandardEquation, standard_part, variable
 from kovacic.special.values import StandardForm, ValueAndSlope, rational
@@ -47,8 +48,7 @@ class Airy(StandardEquation):
         return RatFunc(variable(self.q.field) * self.q)
 
     @classmethod
-    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
-        S = problem.S
+    def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         places = irregular_places(problem)
         if any((place.order - 2) % 3 for place in places):
             return
@@ -58,8 +58,8 @@ class Airy(StandardEquation):
             if len(parts) < len(places):
                 continue
             f = sum(parts, RatFunc(q * 0))
-            c = standard_part(S, f) / q - f
-            if c.is_polynomial and c.num.degree <= 0:
+            c = value_at(standard_part(problem.S, f) / q - f, places[0].factor, at_infinity=places[0].at_infinity)
+            if c is not None:
                 yield Pullback(Airy(q), f + c)
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:

@@ -30,7 +30,7 @@ from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.limits import count_work
 from kovacic.special import prices
 from kovacic.special.numbers import HALF, Number, multiplicities
-from kovacic.special.polar_parts import irregular_places, leading_square, square, with_constant
+from kovacic.special.polar_parts import irregular_places, leading_square, square, zeros
 from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
 from kovacic.special.values import (
     StandardForm,
@@ -67,17 +67,16 @@ class Bessel(StandardEquation):
         return RatFunc(self.M - z * self.r, z * z)
 
     @classmethod
-    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+    def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         places = irregular_places(problem)
         one = problem.field.poly([1])
         if any(place.order % 2 == 0 for place in places):
-            yield from _by_zeros(problem, places)
+            if not shifted:  # the exponents at the zeros are needed
+                yield from _by_zeros(problem, places)
             return
-        polar_parts = sum((square(place) for place in places), RatFunc(one * 0))
-        found = with_constant(problem.S, polar_parts, one * 0, one)
-        if found is not None:
-            f, M = found
-            yield Pullback(Bessel(one, M), f)
+        polar = sum((square(place) for place in places), RatFunc(one * 0))
+        for f, nu_squared in zeros(problem, polar, shifted=shifted):
+            yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f)
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
         return written(writer, 4 * self.M + 1, f * self.r, singular)
@@ -111,12 +110,12 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
     poles = [(place, place.order - 2) for place in irregular]
     n = _count(poles)
     regular = [place for place in problem.places if place.kind is Kind.REGULAR and place.delta_squared is not None]
-    for zeros in _zeros(regular, n):
+    for points in _zeros(regular, n):
         count_work(TRIAL)
-        f = RatFunc(_product(zeros, one), _product(poles, one))
+        f = RatFunc(_product(points, one), _product(poles, one))
         scale = _scale(f, irregular[0])
         if scale is not None:
-            place, k = zeros[0]
+            place, k = points[0]
             assert place.delta_squared is not None
             nu_squared = place.delta_squared * Fraction(1, k * k)
             yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f * scale)
@@ -153,16 +152,16 @@ def _zeros(regular: list[Place], n: int) -> Iterator[Points]:
     logarithmic = [place for place in regular if not place.delta_squared]
     if logarithmic:  # nu = 0: all zeros are here, and the exponents don't tell the multiplicities
         for choice in product(*(range(1, n // place.degree + 1) for place in logarithmic)):
-            zeros = list(zip(logarithmic, choice, strict=True))
-            if _count(zeros) == n:
-                yield zeros
+            points = list(zip(logarithmic, choice, strict=True))
+            if _count(points) == n:
+                yield points
         return
     for nu_squared in _orders(regular, n):
         counts = [(place, _multiplicity(place, nu_squared)) for place in regular]
         found = [(place, k) for place, k in counts if k]
-        for zeros in (found, [(place, k) for place, k in found if not place.is_apparent]):
-            if zeros and _count(zeros) == n:
-                yield zeros
+        for points in (found, [(place, k) for place, k in found if not place.is_apparent]):
+            if points and _count(points) == n:
+                yield points
 
 
 def _orders(regular: list[Place], n: int) -> Iterator[Poly]:

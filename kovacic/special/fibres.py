@@ -19,12 +19,12 @@ from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
 
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
+from kovacic.engine.places import rational_square_root
 from kovacic.errors import LimitExceeded
-from kovacic.limits import count_work
+from kovacic.limits import Budget, count_work
+from kovacic.special.polar_parts import value_at
 
 #: What a function f costs, in pairs of fibres, about.
 _TRIAL = 20
@@ -44,24 +44,28 @@ class Covering:
     poles: Poly
 
 
-def coverings(problem: Problem, *, extended: bool, hidden: int = 0) -> Iterator[Covering]:
-    """Those that are possible, of small degree first.  With `extended`, conjugate places are separated over a larger field.
+@dataclass(frozen=True)
+class Point:
+    """All roots of a polynomial, or infinity, and the square of the exponent difference there."""
 
-    Up to `hidden` ramification points may lie at places that S doesn't show.
+    factor: Poly
+    at_infinity: bool
+    square: Poly
+
+    @property
+    def degree(self) -> int:
+        return self.factor.degree
+
+
+def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden: int = 0) -> Iterator[Covering]:
+    """Those that are possible for these singular points, of small degree first.
+
+    Apparent ones may lie anywhere; up to `hidden` ramification points may lie at places that S doesn't show.
     """
-    regular = [place for place in problem.places if place.kind is Kind.REGULAR]
-    places = [place for place in regular if not place.is_apparent]
-    different = [place.factor for place in places if place.delta_squared is None]
-    if different:
-        if extended and different[0].degree == 2:
-            field = AlgebraicField(problem.field, different[0])  # with a root of the factor
-            S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
-            yield from coverings(analyse(S, problem.budget), extended=extended, hidden=hidden)
+    if len(points) > _PLACES:
         return
-    if len(places) > _PLACES:
-        return
-    for zeros, poles, f in _functions(problem, regular, places, hidden):
-        ones = _difference_at_ones(f, zeros.degree, regular)
+    for zeros, poles, f in _functions(_Search(points, apparent, budget, hidden)):
+        ones = _difference_at_ones(f, zeros.degree, [*points, *apparent])
         if ones is not None:
             yield Covering(f, zeros.square, ones, poles.square)
 
@@ -71,33 +75,51 @@ def coverings(problem: Problem, *, extended: bool, hidden: int = 0) -> Iterator[
 
 @dataclass(frozen=True)
 class _Fibre:
-    """All points over one of 0, 1, infinity: places with multiplicities, and the square of the exponent difference."""
+    """All points over one of 0, 1, infinity with their multiplicities, and the square of the exponent difference."""
 
-    places: tuple[tuple[Place, int], ...]
+    multiplicities: tuple[tuple[Point, int], ...]
     square: Poly
     degree: int
     mask: int
 
     @property
     def points(self) -> int:
-        return _points(place for place, _ in self.places)
+        return _count(point for point, _ in self.multiplicities)
 
     @property
     def polynomial(self) -> Poly:
-        """The product over the finite places."""
+        """The product over the finite ones."""
         result = self.square.field.poly([1])
-        for place, k in self.places:
-            if not place.at_infinity:
-                result = result * place.factor**k
+        for point, k in self.multiplicities:
+            if not point.at_infinity:
+                result = result * point.factor**k
         return result
 
 
-def _functions(
-    problem: Problem, regular: list[Place], places: list[Place], hidden: int
-) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
+@dataclass(frozen=True)
+class _Search:
+    points: list[Point]
+    apparent: list[Point]
+    budget: Budget
+    hidden: int
+
+    @property
+    def among(self) -> list[Point]:
+        """The points that are distributed."""
+        found = [*self.points, *self.apparent]
+        return found if len(found) <= _WITH_APPARENT else self.points
+
+    @property
+    def least_degree(self) -> int:
+        """n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere."""
+        elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in self.apparent)
+        return _count(self.points) - 2 - elsewhere - self.hidden
+
+
+def _functions(search: _Search) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
     """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
     tried = set()
-    for zeros, poles, rest in _distributed(problem, regular, places, hidden):
+    for zeros, poles, rest in _distributed(search):
         for f in _scaled(zeros.polynomial, poles.polynomial, rest):
             if f in tried:
                 continue
@@ -108,125 +130,96 @@ def _functions(
             yield zeros, poles, f
 
 
-def _distributed(
-    problem: Problem, regular: list[Place], places: list[Place], hidden: int
-) -> Iterator[tuple[_Fibre, _Fibre, list[Place]]]:
-    """Fibres over 0 and infinity of one degree n that have no place in common, and the places that are left over 1."""
-    among = regular if len(regular) <= _WITH_APPARENT else places
-    for n, fibres in sorted(_by_degree(problem, regular, among, hidden).items()):
+def _distributed(search: _Search) -> Iterator[tuple[_Fibre, _Fibre, list[Point]]]:
+    """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
+    among = search.among
+    by_degree: dict[int, list[_Fibre]] = {}
+    for fibre in _fibres(among, 2 * _count(among) - 4):
+        search.budget.check()
+        count_work(1)
+        if fibre.degree >= search.least_degree:
+            by_degree.setdefault(fibre.degree, []).append(fibre)
+    for n, fibres in sorted(by_degree.items()):
         for zeros, poles in combinations(fibres, 2):
-            problem.budget.check()
+            search.budget.check()
             count_work(1)
             if zeros.mask & poles.mask:
                 continue
             used = zeros.mask | poles.mask
-            rest = [place for place in places if not used >> among.index(place) & 1]
-            over_one = _points(rest)
+            rest = [point for point in search.points if not used >> among.index(point) & 1]
+            over_one = _count(rest)
             multiple = (n - over_one) // 2  # at most: S doesn't show these
             if zeros.points + poles.points + over_one + multiple >= n + 2:
                 yield zeros, poles, rest
 
 
-def _points(places: Iterable[Place]) -> int:
-    """How many roots the places have together."""
-    return sum(place.degree for place in places)
+def _count(points: Iterable[Point]) -> int:
+    """How many points these are."""
+    return sum(point.degree for point in points)
 
 
-def _by_degree(problem: Problem, regular: list[Place], among: list[Place], hidden: int) -> dict[int, list[_Fibre]]:
-    """The fibres that can be, by the degree of f."""
-    points = _points(place for place in regular if not place.is_apparent)
-    elsewhere = hidden + sum(int(place.delta or 1) * place.degree for place in regular if place.is_apparent)
-    fibres: dict[int, list[_Fibre]] = {}
-    for fibre in _fibres(among, 2 * _points(among) - 4):
-        problem.budget.check()
-        count_work(1)
-        if fibre.degree >= points - 2 - elsewhere:
-            fibres.setdefault(fibre.degree, []).append(fibre)
-    return fibres
-
-
-def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
-    """Every set of places that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
-    for chosen, mask in _commensurable(places, most, 0, [], 0):
-        first = chosen[0].delta_squared
-        assert first is not None
+def _fibres(points: list[Point], most: int) -> Iterator[_Fibre]:
+    """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
+    for chosen, mask in _commensurable(points, most, 0, [], 0):
         least = _least_multiplicities(chosen)
-        size = sum(m * place.degree for m, place in zip(least, chosen, strict=True))
+        size = sum(m * point.degree for m, point in zip(least, chosen, strict=True))
         for k in range(1, most // size + 1):
-            points = tuple((place, k * m) for place, m in zip(chosen, least, strict=True))
-            square = first * Fraction(1, (k * least[0]) ** 2)
-            yield _Fibre(points, square, k * size, mask)
+            multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
+            square = chosen[0].square * Fraction(1, (k * least[0]) ** 2)
+            yield _Fibre(multiplicities, square, k * size, mask)
 
 
-def _least_multiplicities(chosen: list[Place]) -> list[int]:
+def _least_multiplicities(chosen: list[Point]) -> list[int]:
     """The smallest natural numbers in the proportion of the exponent differences.
 
     Where these are 0 the multiplicities are free, and only equal ones are tried.
     """
-    if not chosen[0].delta_squared:
+    if not chosen[0].square:
         return [1] * len(chosen)
-    found = (_ratio(place, chosen[0]) for place in chosen)
-    ratios = [ratio for ratio in found if ratio is not None]
+    ratios = [ratio for point in chosen if (ratio := _ratio(point, chosen[0])) is not None]
     unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
     return [int(ratio / unit) for ratio in ratios]
 
 
 def _commensurable(
-    places: list[Place], most: int, index: int, chosen: list[Place], mask: int
-) -> Iterator[tuple[list[Place], int]]:
+    points: list[Point], most: int, index: int, chosen: list[Point], mask: int
+) -> Iterator[tuple[list[Point], int]]:
     """Sets of `most` points or fewer with rational quotients of their exponent differences, as lists and as bits: what has been
     chosen before the index, and all that goes with it from there."""
     if chosen:
         yield chosen, mask
-    left = most - _points(chosen)
-    for k in range(index, len(places)):
-        place = places[k]
-        goes_with_others = not chosen or _ratio(place, chosen[0]) is not None
-        if goes_with_others and place.degree <= left:
-            yield from _commensurable(places, most, k + 1, [*chosen, place], mask | 1 << k)
+    left = most - _count(chosen)
+    for k in range(index, len(points)):
+        point = points[k]
+        goes_with_others = not chosen or _ratio(point, chosen[0]) is not None
+        if goes_with_others and point.degree <= left:
+            yield from _commensurable(points, most, k + 1, [*chosen, point], mask | 1 << k)
 
 
-def _ratio(place: Place, other: Place) -> Fraction | None:
+def _ratio(point: Point, other: Point) -> Fraction | None:
     """The quotient of the exponent differences if it is rational; 1 where both vanish."""
-    over = place.delta_squared
-    under = other.delta_squared
-    assert over is not None
-    assert under is not None
-    if over and under:
-        return rational_square_root(over / under)
-    return None if over or under else Fraction(1)
+    if point.square and other.square:
+        return rational_square_root(point.square / other.square)
+    return None if point.square or other.square else Fraction(1)
 
 
 # ------------------------------------------------------------------------------------------ fibres to f
 
 
-def _scaled(zeros: Poly, poles: Poly, rest: list[Place]) -> Iterator[RatFunc]:
-    """The multiples of zeros/poles that are 1 at the places of the rest, or have 1 for a critical value."""
+def _scaled(zeros: Poly, poles: Poly, rest: list[Point]) -> Iterator[RatFunc]:
+    """The multiples of zeros/poles that are 1 at the points of the rest, or have 1 for a critical value."""
     f = RatFunc(zeros, poles)
-    if not rest:
-        factors = _critical(f)
-    elif rest[0].at_infinity:
-        factors = []
-    else:
-        factors = [rest[0].factor]
-    values = [f.num * f.den.inverse_modulo(p) % p for p in factors if f.den.gcd(p).degree == 0]
-    is_known_at_infinity = f.degree == 0
-    if is_known_at_infinity and not (rest and factors):
-        values.append(f.num.lc)
-    for value in values:
-        if value.degree == 0:
-            yield f / value
-
-
-def _critical(f: RatFunc) -> list[Poly]:
-    """The irreducible polynomials at whose roots f' vanishes."""
+    factors = [point.factor for point in rest[:1] if not point.at_infinity]
     slope = f.derivative().num
-    if slope.degree <= 0:
-        return []
-    return [p for p, _ in slope.field.factor(slope)]
+    if not rest and slope.degree > 0:
+        factors = [p for p, _ in slope.field.factor(slope)]
+    values = [value_at(f, p, at_infinity=False) for p in factors]
+    if f.degree == 0 and not (rest and factors):
+        values.append(f.num.lc)
+    yield from (f / value for value in values if value)
 
 
-def _difference_at_ones(f: RatFunc, degree: int, regular: list[Place]) -> Poly | None:
+def _difference_at_ones(f: RatFunc, degree: int, points: list[Point]) -> Poly | None:
     """The square of the exponent difference over 1, from that and the multiplicity of one point there; None if f is 1.
 
     A point that isn't singular has the exponent difference 1.
@@ -234,14 +227,11 @@ def _difference_at_ones(f: RatFunc, degree: int, regular: list[Place]) -> Poly |
     over_one = f.num - f.den
     if over_one.degree < 0:
         return None
-    field = over_one.field
     m = degree - over_one.degree  # at infinity
     if m:
-        place = next((place for place in regular if place.at_infinity), None)
+        found = [point.square for point in points if point.at_infinity]
     else:
-        p, m = max(field.factor(over_one), key=lambda pair: pair[1])
-        place = next((place for place in regular if place.factor == p and not place.at_infinity), None)
-    square = None if place is None else place.delta_squared
-    if square is None:
-        square = field.poly([1])
+        p, m = max(over_one.field.factor(over_one), key=lambda pair: pair[1])
+        found = [point.square for point in points if point.factor == p and not point.at_infinity]
+    square = found[0] if found else over_one.field.poly([1])
     return square * Fraction(1, m * m)

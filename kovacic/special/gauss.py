@@ -33,15 +33,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import islice, product
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Problem
-from kovacic.special import fibres, prices
+from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
+from kovacic.limits import Budget
+from kovacic.special import prices
+from kovacic.special.fibres import Point, coverings
 from kovacic.special.numbers import HALF, Number
 from kovacic.special.pullback import Pullback, StandardEquation, variable
 from kovacic.special.values import (
@@ -58,6 +61,11 @@ from kovacic.special.values import (
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
     from kovacic.special.writer import Writer, WrittenFactor, WrittenTerm
+
+
+#: Sets of exponent differences for which coverings are sought, and ramification points of f that may be among apparent ones.
+_MOST_CHOICES = 32
+_HIDDEN = 3
 
 
 @dataclass(frozen=True)
@@ -84,8 +92,24 @@ class Gauss(StandardEquation):
         return RatFunc(w * w * (A - 1) + z * z * (B - 1) + z * w * (1 - A - B + C), z * z * w * w * 4)
 
     @classmethod
-    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
-        for covering in fibres.coverings(problem, extended=extended):
+    def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
+        regular = [place for place in problem.places if place.kind is Kind.REGULAR]
+        different = [place.factor for place in regular if place.delta_squared is None]
+        if different:
+            if extended and different[0].degree == 2:  # conjugate places are separated over a larger field
+                field = AlgebraicField(problem.field, different[0])
+                S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
+                yield from cls.candidates(analyse(S, problem.budget), extended=extended)
+            return
+        points: list[Point] = []
+        apparent: list[Point] = []
+        for place in regular:
+            found = apparent if place.is_apparent else points
+            found.append(Point(place.factor, place.at_infinity, place.delta_squared or problem.field.poly([])))
+        if shifted:
+            yield from _shifted(points, apparent, problem.budget)
+            return
+        for covering in coverings(points, apparent, problem.budget):
             yield Pullback(Gauss(covering.zeros, covering.ones, covering.poles), covering.f)
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
@@ -131,6 +155,31 @@ class Gauss(StandardEquation):
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
         return _values(_maps(n, d, *map(square_root, self.parameters))[coordinate])
+
+
+def _shifted(points: list[Point], apparent: list[Point], budget: Budget) -> Iterator[Pullback]:
+    """For exponent differences that are the same up to signs and integers: those between 0 and 1, and those of S."""
+    choices = islice(product(*map(_reduced, points)), _MOST_CHOICES)
+    hidden = min(sum(point.degree for point in apparent), _HIDDEN)
+    for chosen in dict.fromkeys([*choices, tuple(points)]):
+        for covering in coverings(list(chosen), [], budget, hidden):
+            found = Gauss(covering.zeros, covering.ones, covering.poles)
+            yield Pullback(found, covering.f)
+            # Contiguous functions have sums of all three that differ by even integers.
+            for name, square in (("A", found.A), ("B", found.B), ("C", found.C)):
+                root = square.field.sqrt(square) if square else square
+                if root is not None:
+                    yield Pullback(replace(found, **{name: (root - 1) ** 2}), covering.f)
+
+
+def _reduced(point: Point) -> list[Point]:
+    """With the differences from 0 to 1 that are the same up to sign and integers, the smaller one first."""
+    delta = rational_square_root(point.square)
+    if delta is None:
+        return [point]
+    near = abs(delta - round(delta))
+    values = [near, 1 - near] if near else [near]
+    return [replace(point, square=point.square * 0 + value**2) for value in dict.fromkeys(values)]
 
 
 # ------------------------------------------------------------------------------------------ written

@@ -7,7 +7,8 @@ The irregular places of S are the poles of f, where S = f'^2 S0(f) + O(order 2).
 - q = 0, r = 1: S = -f'^2/f + ..., so where all orders are odd all polar parts of f are determined;
 - S0 = q z (Airy's), q F'^2 F = S + ...: F is a cubic root, and all polar parts are determined.
 
-Then h = (S + {f, x}/2)/f'^2 is S0(f + c), whose only poles are the zeros of f + c: these give c.
+S0(f) has its only other pole at f = 0: so the zeros of f, which give its constant term, are the regular places of S, or
+critical points of f.
 What is found is tested by the exact identity; the theory shows that nothing of the first three kinds is overlooked but where a
 scale q or a root of unity lies in the residue field of a conjugate set of poles alone.
 
@@ -19,7 +20,7 @@ References: R. Debeerst, M. van Hoeij, W. Koepf, ISSAC 2008, 39-46; Q. Yuan, M. 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -30,15 +31,11 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.errors import LimitExceeded
-from kovacic.limits import check_duration, check_time
+from kovacic.limits import check_time
 from kovacic.special.numbers import root
-from kovacic.special.pullback import standard_part
 
 #: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
 _WITH_PARAMETERS = 2
-
-# FLINT's time for the gcd of a polynomial and its derivative, over the degree and the square of the bits of coefficients.
-_GCD_SECONDS = 3e-12
 
 
 def irregular_places(problem: Problem) -> list[Place]:
@@ -169,30 +166,54 @@ def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[
     return list(dict.fromkeys(scale for scale in scales if scale))
 
 
-def with_constant(S: RatFunc, f: RatFunc, q: Poly, r: Poly) -> tuple[RatFunc, Poly] | None:
-    """f + c and M with S0 = q - r/z + M/z^2: the constant c from the poles of S0(f + c) - q, which are zeros of f + c."""
-    check_time()
-    if not f.derivative():
-        return None
-    rest = standard_part(S, f) - q
-    c = _value_at_poles(f, rest.den)
-    if c is None or not rest:
-        return None
-    f = f - c
-    M = (rest * f + r) * f
-    return (f, M.num) if M.is_polynomial and M.num.degree <= 0 else None
+def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[RatFunc, Poly]]:
+    """f with its constant, and e^2 for the standard equation's exponent difference e at 0: a k-fold zero of f has k e.
+
+    Zeros of f are all places with exponents that integers don't explain; without such, apparent places or critical points.
+    With `shifted`, S has k e up to integers only.
+    """
+    if not polar.derivative():
+        return
+    regular = [place for place in problem.places if place.kind is Kind.REGULAR]
+    seen = [place for place in regular if not place.is_apparent]
+    points = [(place.factor, place.at_infinity, place.delta_squared) for place in seen or regular]
+    if not seen:
+        slope = polar.derivative().num
+        critical = slope.field.factor(slope) if slope.degree > 0 else []
+        one = slope.field.poly([1])
+        points += [*((p, False, one) for p, _ in critical), (slope.field.poly([0, 1]), True, one)]
+    for p, at_infinity, delta_squared in points:
+        value = value_at(polar, p, at_infinity=at_infinity)
+        if value is None or delta_squared is None:
+            continue
+        check_time()
+        f = polar - value
+        k = -f.degree if at_infinity else f.num.remove(p)[1]
+        yield f, delta_squared * Fraction(1, k * k)
+        if shifted:
+            yield from ((f, e_squared) for e_squared in _shifted_differences(delta_squared, k))
 
 
-def _value_at_poles(f: RatFunc, den: Poly) -> Poly | None:
-    """The one value of f at all roots of den, at infinity if there are none; None if there isn't one."""
-    if den.degree == 0:
-        if f.degree > 0:
-            return None
-        return f.num.lc if f.degree == 0 else f.num * 0
-    bits = den.height_bits()
-    check_duration(_GCD_SECONDS * den.degree * float(bits) ** 2, f"a gcd of polynomials with {bits} bits")
-    radical = den // den.gcd(den.derivative())
-    if radical.gcd(f.den).degree > 0:
+def value_at(f: RatFunc, p: Poly, *, at_infinity: bool) -> Poly | None:
+    """The value at all roots of p, or at infinity, if it is one and finite."""
+    if at_infinity:
+        if not f or f.degree < 0:
+            return f.num * 0
+        return f.num.lc / f.den.lc if f.degree == 0 else None
+    if f.den.gcd(p).degree > 0:
         return None
-    value = f.num * f.den.inverse_modulo(radical) % radical
+    value = f.num * f.den.inverse_modulo(p) % p
     return value if value.degree <= 0 else None
+
+
+def _shifted_differences(square: Poly, k: int) -> Iterator[Poly]:
+    """The squares of e with k e = Delta up to sign and integers, small ones first where they are rational."""
+    root = square.field.sqrt(square) if square else square
+    if root is None:
+        return
+    rational = root.field.rational_value(root)
+    centre = 0 if rational is None else round(rational)
+    found = [(root - centre + j) * Fraction(1, k) for j in range(-k, k + 1)]
+    if rational is not None:
+        found.sort(key=lambda e: abs(e.field.rational_value(e) or Fraction(0)))
+    yield from (e * e for e in found)

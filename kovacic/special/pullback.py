@@ -58,10 +58,11 @@ class StandardEquation(ABC):
 
     @classmethod
     @abstractmethod
-    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+    def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         """Pull-backs that are possible, the likely ones first; each of them has to be verified.
 
-        With `extended`, f may have coefficients in a larger field than S.
+        With `extended`, f may have coefficients in a larger field than S.  With `shifted`, S needn't be theirs, but has what a
+        gauge transformation keeps: the polar parts of its square root, and the exponent differences up to integers.
         """
 
     @abstractmethod

@@ -11,21 +11,15 @@ from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work
 from kovacic.numerals import as_latex, as_text
-from kovacic.special.airy import Airy
-from kovacic.special.bessel import Bessel
-from kovacic.special.gauge import GaugeTransform, transforms
-from kovacic.special.gauss import Gauss
+from kovacic.special.gauge import EQUATIONS, GaugeTransform, transforms
 from kovacic.special.polar_parts import irregular_places
 from kovacic.special.pullback import Pullback, StandardEquation
-from kovacic.special.whittaker import Whittaker
 
 if TYPE_CHECKING:
     from kovacic.algebra.poly import Poly
     from kovacic.closed_form.atoms import Expr
     from kovacic.special.writer import Writer
 
-#: In the order in which they are tried.
-EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
 #: What is sought where none of them is found.
 GAUGED = "a v + b v' over these"
 #: Units of work for that.
@@ -215,12 +209,10 @@ def written_pair(
 
     from kovacic.special.writer import Writer
 
-    singular = S.den if joined else None
-    writer = Writer(gauge, sympy.Symbol(variable), symbols)
-    if isinstance(source, GaugeTransform):
-        writer = source.writer(gauge, sympy.Symbol(variable), symbols)
-        source = source.pullback
-    found = source.equation.written(writer, source.f, singular)
+    transform = source if isinstance(source, GaugeTransform) else None
+    pullback = source.pullback if isinstance(source, GaugeTransform) else source
+    writer = Writer(gauge, sympy.Symbol(variable), symbols, transform)
+    found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
     for y in found or ():
         _check(y, writer.atoms.x, S, gauge)
     return None if found is None else _in_own_symbols(found, writer)

@@ -43,7 +43,7 @@ from kovacic.special.polar_parts import (
     irregular_places,
     scales,
     unit,
-    with_constant,
+    zeros,
 )
 from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
 from kovacic.special.values import (
@@ -86,7 +86,7 @@ class Whittaker(StandardEquation):
         return RatFunc(z * z * self.q - z * self.r + self.M, z * z)
 
     @classmethod
-    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+    def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         places = irregular_places(problem)
         if any(place.order % 2 for place in places):
             return
@@ -96,13 +96,13 @@ class Whittaker(StandardEquation):
             if len(parts) < len(places):
                 continue
             r = parts[0].residue * q * Fraction(2, parts[0].order)
-            for signs in signs_of(parts):
+            for signs in _signs(parts):
                 count_work(TRIAL)
-                f = sum((part.part * sign for part, sign in zip(parts, signs, strict=True)), RatFunc(q * 0))
-                found = with_constant(problem.S, f, q, r)
-                if found is not None:
-                    f, M = found
-                    yield Pullback(Whittaker(q, r, M), f)
+                polar = sum((part.part * sign for part, sign in zip(parts, signs, strict=True)), RatFunc(q * 0))
+                for f, square_of_e in zeros(problem, polar, shifted=shifted):
+                    M = (square_of_e - 1) * Fraction(1, 4)
+                    near = _near_zero(q, r) if shifted else []
+                    yield from (Pullback(Whittaker(q, value, M), f) for value in dict.fromkeys([*near, r]))
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
         if not self.r:
@@ -152,7 +152,16 @@ class Whittaker(StandardEquation):
         return StandardForm(n, d, (upper, upper), each(first, second), (slit, None), independent)
 
 
-def signs_of(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
+def _near_zero(q: Poly, r: Poly) -> list[Poly]:
+    """2 sqrt(q) kappa for the kappa between -1/2 and 1/2 that differs from r's by an integer, where it is rational."""
+    root = q.field.sqrt(q)
+    kappa = None if root is None else q.field.rational_value(r / (2 * root))
+    if root is None or kappa is None:
+        return []
+    return [root * (2 * (kappa - round(kappa)))]
+
+
+def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
     """The signs of the parts: their residues are proportional to the orders; all signs where the residues vanish."""
     rates = [part.residue * Fraction(1, part.order) for part in parts]
     if not any(rates):

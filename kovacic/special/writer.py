@@ -20,6 +20,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.exact import radical
+from kovacic.special.gauge import GaugeTransform, half_rate
 from kovacic.special.numbers import HALF, Number, multiplicities, root
 
 
@@ -41,10 +42,16 @@ WrittenTerm = tuple[WrittenFactor, Expr]
 
 
 class Writer:
-    """Writes in one variable; `symbols` are the user's own by name, with what is assumed about them."""
+    """Writes in one variable; `symbols` are the user's own by name, with what is assumed about them.
 
-    def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any]) -> None:
+    With a gauge transformation a v + b v' is written for what would be v without.
+    """
+
+    def __init__(
+        self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any], transform: GaugeTransform | None = None
+    ) -> None:
         self.gauge = gauge
+        self.transform = transform
         self.atoms = Atoms(x)
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
         self.known = self.symbols
@@ -99,6 +106,8 @@ class Writer:
 
     def pair(self, first: WrittenTerm, second: WrittenTerm, *, around_zero: bool = False) -> tuple[Expr, Expr]:
         """The two solutions, the one with fewer factors first; with `around_zero` roots of x^2 - a are those of a - x^2."""
+        if self.transform is not None:
+            return self._combined(self.transform, *first), self._combined(self.transform, *second)
         if second[0].size < first[0].size:
             first, second = second, first
         y1, y2 = (
@@ -106,6 +115,26 @@ class Writer:
             for f, function in (first, second)
         )
         return y1, y2
+
+    def _combined(self, transform: GaugeTransform, before: WrittenFactor, function: Expr) -> Expr:
+        """P sqrt(m) ((a + b P'/P) F + b F') for v = P F, F' = s F + t F1 with another function F1."""
+        x = self.atoms.x
+        b = self.atoms.ratio(transform.b)
+        rate = self.atoms.ratio(transform.a + transform.b * (before.product.logarithmic_derivative - self.gauge))
+        rate += b * sympy.Add(*(sympy.diff(sympy.log(other), x) for other in before.others))
+        s, t, root, other = _derivative(function, x)
+        of_F = sympy.cancel(sympy.together(rate + b * s))
+        of_other = sympy.cancel(sympy.together(b * t))
+        n, d = sympy.fraction(sympy.cancel(of_F / of_other))
+        total = before.product.logarithmic_derivative + half_rate(transform.m)
+        common = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
+        if total.field == QQ:  # its powers join those of the product
+            for part, sign in zip(common.as_numer_denom(), (1, -1), strict=True):
+                coefficients = sympy.Poly(part, x).all_coeffs()
+                p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(coefficients)])
+                total = total + RatFunc(p.derivative(), p) * sign
+            common = sympy.S.One
+        return Mul(display(product(total), self.atoms), *before.others, common, n * function + d * root * other)
 
     # ------------------------------------------------------------------------------------- constants
 
@@ -223,3 +252,26 @@ class Writer:
     def without_constant(self, polynomial: Expr) -> Expr:
         """Without the (-1)**N of P_N(-z)."""
         return polynomial.as_independent(self.atoms.x, as_Add=False)[1]
+
+
+def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:
+    """(s, t, w, F1) with F' = s F + t w F1: s and t rational functions, w a root of one or 1."""
+    z = F.args[-1]
+    rate = sympy.cancel(sympy.together(sympy.diff(z, x) / z))
+    root, slope = (sympy.S.One, sympy.cancel(rate * z)) if z.is_rational_function(x) else (z, rate)
+    if isinstance(F, sympy.besselj | sympy.bessely | sympy.besseli | sympy.besselk):
+        # C' = C_(nu-1) - (nu/z) C for J, Y and I, with -K_(nu-1) for K; C_0' = -C_1, and C_1 for I.
+        nu = F.args[0]
+        if nu == 0:
+            return sympy.S.Zero, slope if isinstance(F, sympy.besseli) else -slope, root, F.func(1, z)
+        sign = -1 if isinstance(F, sympy.besselk) else 1
+        return -nu * rate, sign * slope, root, F.func(nu - 1, z, evaluate=False)
+    if isinstance(F, sympy.airyai | sympy.airybi):
+        prime = sympy.airyaiprime if isinstance(F, sympy.airyai) else sympy.airybiprime
+        return sympy.S.Zero, slope, root, prime(z)
+    if isinstance(F, sympy.hyper):
+        factor = Mul(*F.ap) / Mul(*F.bq)
+        if factor != 0:
+            above, below = (tuple(value + 1 for value in values) for values in (F.ap, F.bq))
+            return sympy.S.Zero, factor * slope, root, hypergeometric(above, below, z)
+    return sympy.S.Zero, sympy.S.One, sympy.S.One, sympy.diff(F, x)
