@@ -66,10 +66,21 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "answers": (("kovacic/general_solution/check.py",), ("tests/test_forged_answers.py", "tests/test_continuity.py")),
     "batch": (("kovacic/batch/*.py",), ("tests/test_batch.py", "tests/test_scan.py")),
-    "cli": (("kovacic/cli/*.py",), ("tests/test_cli.py", "tests/test_help.py")),
+    "cli": (
+        ("kovacic/cli/*.py",),
+        (
+            "tests/test_cli.py",
+            "tests/test_help.py",
+            "tests/test_ball_command.py",
+            "tests/test_eigenvalues.py",
+            "tests/test_batch.py",
+            "tests/test_scan.py",
+        ),
+    ),
     "views": (
         ("kovacic/views/*.py", "kovacic/writing/*.py"),
         (
+            "tests/test_cli.py",
             "tests/test_explain.py",
             "tests/test_formulas.py",
             "tests/test_json.py",

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 import workers
@@ -84,6 +85,8 @@ def test_csv_with_and_without_header() -> None:
     ]
     assert found[2].error is not None
     assert found[2].number == 5
+    (_, wrong) = read(b"id,S\n 1 , x^2 \n 2 , x , y \n", "csv")
+    assert (wrong.text, str(wrong.error)) == ("2,x,y", "3 cells in a table of 2 columns")
     assert [item.text for item in read(b"x,1\nx^2+3,2\n", "csv")] == ["x", "x^2+3"]
 
 
@@ -330,6 +333,31 @@ def test_a_late_line_ends_and_costs_no_other() -> None:
         found = finished(lambda: list(pool.run(items(texts))))
         assert pool.replaced == 1
     assert [record.label for record in found] == ["none", "undecided", "none", "none"]
+
+
+@parametrize(
+    ("serve", "words", "replaced"),
+    [
+        (workers.leaves, "the worker process ended with exit status 0", 1),
+        (workers.is_killed, "the worker process ended with signal SIGKILL", 4),
+    ],
+    ordinary=1,
+    ids=["leaves", "is killed"],
+)
+def test_a_process_that_ends_costs_no_other_line(serve: Any, words: str, replaced: int) -> None:
+    """Ended by itself, the item isn't tried again; killed by somebody else it is, four times in all."""
+    with Pool(1, Job(), serve=serve) as pool:
+        found = finished(lambda: list(pool.run(items(["x", workers.FATAL, "x^2", "x^3"]))))
+        assert pool.replaced == replaced
+    assert [(record.number, record.label) for record in found] == [(1, "none"), (2, "failed"), (3, "none"), (4, "none")]
+    assert found[1].error == words
+
+
+def test_lines_that_need_no_process_have_their_records(single: Pool) -> None:
+    """All of them wrong: nothing is handed out, and nothing waits for an event."""
+    wrong = read(b'{"S": 1}\n[]\n{"T": "x"}\n', "jsonl")
+    records = finished(lambda: list(single.run(wrong)))
+    assert [(record.number, record.label) for record in records] == [(k, "bad input") for k in (1, 2, 3)]
 
 
 @parametrize("stream", [True, False], ordinary=1)

@@ -148,6 +148,26 @@ def test_a_wrong_command_leaves_no_watch_behind(capsys: pytest.CaptureFixture[st
     assert not logging.getLogger("kovacic").isEnabledFor(logging.INFO)
 
 
+def test_values_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "0,1", "--json"]) == 0
+    first, second = map(json.loads, capsys.readouterr().out.splitlines())
+    assert (first["schema"], first["input"], first["x"]) == (1, "x", "0")
+    assert (float(first["y"]["re"]), float(first["dy"]["re"])) == (1, 0)
+    assert second["x"] == "1"
+    assert second["y"]["re"].startswith("1.17229997005793")
+    assert second["dy"]["re"].startswith("0.53403483428347")
+    assert float(second["y"]["radius"]) < 1e-15
+
+
+def test_a_right_hand_side_without_solutions_of_the_homogeneous_equation_says_what_was_searched(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["solve", "y'' = (x^3 + 1)*y + exp(x)"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert any(line.startswith("  no special function was found; searched: Airy's equation") for line in lines)
+    assert not any("wasn't written out" in line for line in lines)
+
+
 def test_evaluate_prints_values_with_bounds(capsys: pytest.CaptureFixture[str]) -> None:
     """cosh, whose equation is y'' = y, at points in the given order."""
     assert run(["evaluate", "1", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,1/2", "--at", "-0.25"]) == 0

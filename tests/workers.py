@@ -36,18 +36,33 @@ def without_signals(end: str, channel: Channel) -> None:
 
 
 def late(channel: Channel) -> None:
-    """Ready at once; sleeps at the fatal item, and answers every other one."""
+    """Sleeps at the fatal item."""
+    _answer_all(partial(time.sleep, 600), channel)
+
+
+def leaves(channel: Channel) -> None:
+    """Ends without an exception at the fatal item."""
+    _answer_all(partial(os._exit, 0), channel)
+
+
+def is_killed(channel: Channel) -> None:
+    """Ends by a signal of somebody else at the fatal item, each time."""
+    _answer_all(partial(os.kill, os.getpid(), signal.SIGKILL), channel)
+
+
+def cannot_start(_: Channel) -> None:
+    sys.exit("no such module")
+
+
+def _answer_all(at_the_fatal_item: Any, channel: Channel) -> None:
+    """Ready at once, without the engine; answers every other item."""
     channel.receive()
     channel.send((0, "none", 0.0, "{}"))
     while True:
         (number, text, *_) = channel.receive()
         if text == FATAL:
-            time.sleep(600)
+            at_the_fatal_item()
         channel.send((number, "none", 0.0, "{}"))
-
-
-def cannot_start(_: Channel) -> None:
-    sys.exit("no such module")
 
 
 def _serve(end: Any, channel: Channel) -> None:
