@@ -38,7 +38,12 @@ from kovacic.verify.factors import is_a_field, is_irreducible
 from kovacic.verify.identity import form_numerators
 from kovacic.verify.normal_form import is_normal_form
 from kovacic.verify.primes import homomorphisms, roots_modulo
-from kovacic.verify.series import solutions_at_ordinary_point
+from kovacic.verify.series import (
+    rational_candidate,
+    solution_at_singular_point,
+    solutions_at_ordinary_point,
+    square_root,
+)
 from kovacic.verify.torsion import order_holds
 from kovacic.verify.zeros import largest_natural_sum, zero_counts
 
@@ -47,6 +52,43 @@ PRIMES = [101, 10007, (1 << 61) - 1]
 
 
 # ------------------------------------------------------------------------------------------- series
+
+
+SERIES = st.lists(st.integers(0, PRIMES[-1] - 1), min_size=1, max_size=9)
+
+
+@given(SERIES, SERIES, SERIES, st.integers(1, 130))
+def test_series_at_a_singular_point_solve_the_equation(
+    second: list[int], first: list[int], zeroth: list[int], count: int
+) -> None:
+    """second u'' + first u' + zeroth u = 0 as far as the terms go, over several blocks of terms."""
+    p = PRIMES[-1]
+    a, b, c = nmod_poly([0, 1, *second], p), nmod_poly([2, *first], p), nmod_poly(zeroth, p)
+    u = solution_at_singular_point(a, b, c, count)
+    assert int(u[0]) == 1
+    assert u.degree() < count
+    slope = u.derivative()
+    assert not (a * slope.derivative() + b * slope + c * u).truncate(count - 1)
+
+
+@given(st.lists(st.integers(-5, 5), max_size=5), st.integers(1, 100))
+def test_square_roots_of_series_have_their_squares(tail: list[int], count: int) -> None:
+    p = PRIMES[-1]
+    series = nmod_poly([9, *(c % p for c in tail)], p)
+    for root in (3, p - 3):
+        found = square_root(series, root, count)
+        assert int(found[0]) == root
+        assert not (found * found - series).truncate(count)
+
+
+@given(SERIES, SERIES)
+def test_a_rational_function_is_found_from_its_expansion(above: list[int], below: list[int]) -> None:
+    p = PRIMES[-1]
+    A, B = nmod_poly(above, p), nmod_poly([1, *below], p)
+    count = len(above) + len(below) + 3
+    found_A, found_B = rational_candidate(A.mul_low(B.inverse_series_trunc(count), count), count, len(above))
+    assert found_A * B == A * found_B
+    assert found_A.degree() <= A.degree()
 
 
 @given(
