@@ -32,7 +32,14 @@ from kovacic.general_solution.first_order import FirstOrderEquation, read_first_
 from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
-from kovacic.general_solution.question import Question, apart, has_floats, positive_variable, read_question
+from kovacic.general_solution.question import (
+    Question,
+    about_letters,
+    apart,
+    has_floats,
+    positive_variable,
+    read_question,
+)
 from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.systems import read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
@@ -260,7 +267,9 @@ def _answered(
         try:
             question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
         except InputError as reason:
-            first_order = _first_order(eq, func, ics, var, budget.limits, declared(parameters), assume or {})
+            first_order = _first_order(
+                eq, func, ics, var, budget.limits, declared(parameters, about_letters(assume, var)), assume or {}
+            )
             if first_order is None:
                 raise reason from None
             equation, conditions, known = first_order

@@ -9,7 +9,6 @@ and one of Riccati's is made linear in `riccati_equation`.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -34,7 +33,7 @@ from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.jumps import break_points, in_steps, on_piece
 from kovacic.general_solution.steps import JUMPING, taken_apart
-from kovacic.general_solution.textbook import in_book_form
+from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, is_zero, samples
 from kovacic.limits import Limits
@@ -179,26 +178,11 @@ def solved_linear(
     constant = equation.constant(taken)
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
-    w = in_short(constant * h + particular, x)
+    w = shortest([*sums(constant * h + particular, x)])
     if value is not None:
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))
     return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
-
-
-def in_short(w: Expr, x: Expr) -> Expr:
-    """The shortest of a few forms: with powers joined, multiplied out, and with one coefficient for each function of x."""
-    w = sympy.powsimp(w)
-    expanded = sympy.powsimp(sympy.expand(w))
-    coefficients: dict[Expr, list[Expr]] = defaultdict(list)
-    for term in sympy.Add.make_args(expanded):
-        coefficient, function = term.as_independent(x, as_Add=False)
-        coefficients[function].append(coefficient)
-    by_function = sympy.Add(*(sympy.factor(sympy.cancel(sympy.Add(*parts))) * f for f, parts in coefficients.items()))
-    forms = [w, expanded, by_function, sympy.factor_terms(by_function)]
-    if w.is_rational_function(x):
-        forms.append(sympy.cancel(w))
-    return shortest(forms)
 
 
 def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr]) -> list[str]:

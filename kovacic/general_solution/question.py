@@ -99,7 +99,7 @@ def read_question(
         eq = _in_symbols(eq, renamed)
         func = _in_symbols(func, renamed)
         values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
-    read = _read_equation(eq, func, var, limits, declared(parameters, assume))
+    read = _read_equation(eq, func, var, limits, declared(parameters, about_letters(assume, var)))
     if read.equation.variable in (PI, EULER):
         raise InputError(f"{read.equation.variable} is a number", hint="take another name for the variable")
     reader = ConditionReader(read.function, read.equation.unknown)
@@ -132,6 +132,11 @@ def read_question(
         has_floats=floats,
         guesses=read.guesses,
     )
+
+
+def about_letters(assume: Mapping[Any, Any] | None, var: str | None) -> dict[Any, Any]:
+    """What is assumed of other names than x and t, the usual variables, and `var`: these are parameters."""
+    return {key: said for key, said in (assume or {}).items() if str(key) not in ("x", "t", var)}
 
 
 def positive_variable(assume: Mapping[Any, Any], x: Expr) -> tuple[dict[Expr, Expr], dict[Any, Any]]:

@@ -25,14 +25,15 @@ from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     check_first_order,
     exceptions_of,
-    in_short,
     solved_linear,
 )
 from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.textbook import sums
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_zero, when_zero
+from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 #: `dsolve` for one equation: its answer, and the notices.
@@ -160,7 +161,7 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
         pair = pair[1], pair[0]
     if conditions:
         pair = _with_constants(system, pair, conditions)
-    pair = in_short(pair[0], system.t), in_short(pair[1], system.t)
+    pair = shortest([*sums(pair[0], system.t)]), shortest([*sums(pair[1], system.t)])
     entries = (*system.matrix[0], *system.matrix[1], *system.right)
     notices += exceptions_of(sympy.Tuple(*pair), system.t, entries)
     for number, solution in enumerate(pair):

@@ -5,8 +5,8 @@ parameters; what it makes is taken where it is shorter.
 
     c e^p + d e^q = e^m ((c + d) cosh h + (c - d) sinh h),   m = (p + q)/2,  h = (p - q)/2,                             (1)
 
-in numerators and denominators all of whose exponents lie symmetrically about one m: sinh(k x)/sinh(k a) for what the equations
-for constants give;
+in numerators and denominators whose exponents lie symmetrically about one m, the same up to constants: sinh(k x)/sinh(k a)
+for what the equations for constants give;
 
     f + g H(x - a) = F(a + |x - a|),   F = f + g,   if f is F reflected in a;                                          (2)
 
@@ -19,6 +19,7 @@ A pair of solutions is changed before constants are given values:
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -118,7 +119,7 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     """(1) in the numerator and in the denominator."""
     if not value.has(exp):
         return
-    powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp)}
+    powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
     rates: dict[Expr, sympy.Integer] = {}
     for exponent in powers.values():
         for term in sympy.Add.make_args(exponent):
@@ -138,6 +139,8 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
         return
     m, top = numerator
     n, bottom = denominator
+    if (m - n).has(x):  # decaying exponentials stay apart
+        return
     scale = exp(sympy.expand(m - n)) / bottom
     yield scale * top
     yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
@@ -205,18 +208,36 @@ def _with_single_roots(product: Expr) -> Expr:
     return product
 
 
+def sums(value: Expr, x: Expr) -> Iterator[Expr]:
+    """With powers joined, multiplied out, with one coefficient for each function of x, and rational ones in lowest terms."""
+    value = sympy.powsimp(value)
+    expanded = sympy.powsimp(sympy.expand(value))
+    coefficients: dict[Expr, list[Expr]] = defaultdict(list)
+    for term in sympy.Add.make_args(expanded):
+        coefficient, function = term.as_independent(x, as_Add=False)
+        coefficients[function].append(coefficient)
+    by_function = sympy.Add(*(sympy.factor(sympy.cancel(sympy.Add(*parts))) * f for f, parts in coefficients.items()))
+    yield from (value, expanded, by_function, sympy.factor_terms(by_function))
+    if value.is_rational_function(x):
+        yield sympy.cancel(value)
+
+
 def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
-    """Over one denominator, and with common factors before the sum."""
-    yield sympy.factor_terms(value)
-    yield sympy.factor_terms(sympy.cancel(sympy.together(value)))
+    """Over one denominator, and with common factors before the sum; different exponentials stay different."""
+    letters = {e: sympy.Dummy() for e in value.atoms(exp) if e.has(x)}
+    back = {letter: e for e, letter in letters.items()}
+    plain = value.xreplace(letters)
+    for form in (plain, sympy.cancel(sympy.together(plain))):
+        yield sympy.factor_terms(form).xreplace(back)
 
 
 _RULES: tuple[Callable[[Expr, Expr], Iterator[Expr]], ...] = (
     _absolute,
     _hyperbolic,
     _single_roots,
-    _common_factors,
     _single_waves,
+    _common_factors,
+    sums,
     _tangents,
 )
 _RULES_OF_GENERAL_SOLUTIONS = (_single_roots, _tangents)

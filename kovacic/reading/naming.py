@@ -292,8 +292,8 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     excluded = {*_NO_VARIABLES, y, *declared}
     names = [name for name in _letters(tokens, declared) if name not in excluded and is_letter(name)]
     default = tokens.variable or DEFAULT_VARIABLE
-    if default == y:
-        default = "t"
+    if default == y or default in declared:
+        default = next((name for name in "txsz" if name != y and name not in declared), default)
     for likely in (DEFAULT_VARIABLE, default, "t"):
         if likely in names:
             return likely, None
