@@ -227,6 +227,55 @@ def test_a_closed_form_at_one_end_alone_is_no_level(V: str, domain: Any) -> None
     assert "is square integrable at one end" in found.reason
 
 
+@parametrize(
+    ("V", "domain", "assume"),
+    [
+        ("6/x^2 + 1/x^4", HALF, {}),
+        ("l*(l+1)/x^2 + g/x^4", HALF, {"l": ">=1", "g": "positive"}),
+        ("1/(1 + x^2)", LINE, {}),
+        ("4/cosh(x)^2 + 1/cosh(x)^4", LINE, {}),
+        ("1/x^3 + 1/x", (2, "oo"), {}),
+        ("-1/(x^2 - 7*x + 13)^2", (4, "oo"), None),
+        ("-1/(1 + x^2)", LINE, None),
+        ("1/(1 + x^2) - 2/(2 + x^2)", LINE, None),
+    ],
+    ordinary=3,
+)
+def test_repulsive_potentials_have_no_eigenvalues(V: str, domain: Any, assume: Any) -> None:
+    """The virial theorem; not where V increases somewhere (the last three)."""
+    found = kovacic.spectrum(V, domain=domain, assume=assume)
+    assert found.complete == (assume is not None)
+    assert ("no eigenvalues\n  (proven; a repulsive" in found.text()) == (assume is not None)
+    assert not found.levels
+
+
+@pytest.mark.parametrize("kind", ["real", "positive", 2])
+def test_the_shift_of_a_potential_is_a_parameter(kind: Any) -> None:
+    """Of which something can be assumed, and which can have a value."""
+    found = kovacic.spectrum("4*(1 - exp(-(x - b)))^2", assume={"b": kind})
+    assert found.parameters == (() if kind == 2 else ("b",))
+    assert [state.energy for state in found.states({} if kind == 2 else {"b": 1})] == [
+        sympy.Rational(7, 4),
+        sympy.Rational(15, 4),
+    ]
+
+
+def test_functions_in_pieces_have_numeric_levels() -> None:
+    """What is one function on the domain is that function; else the message says how levels are computed."""
+    assert kovacic.spectrum("abs(x)^2", domain=HALF).levels == kovacic.spectrum("x^2", domain=HALF).levels
+    for V in ("abs(x)", "-5*Heaviside(1 - x^2)", "Piecewise((-5, abs(x) < 1), (0, True))"):
+        with pytest.raises(kovacic.InputError, match="in pieces") as refused:
+            kovacic.spectrum(V)
+        assert "levels=5" in str(refused.value.hint)
+        assert "--levels 5" in str(refused.value.shell)
+    wells = [kovacic.spectrum(V, levels=3, digits=6).numeric for V in ("-5*Heaviside(1 - x^2)", V)]
+    assert [level.zeros for level in wells[0]] == [level.zeros for level in wells[1]] == [0, 1]
+    for level, k in zip(
+        wells[0], (1.0710, 2.0174), strict=True
+    ):  # k tan(k) = kappa, -k cot(k) = kappa, k^2 + kappa^2 = 5
+        assert abs(float(level.value) - (k**2 - 5)) < 2e-3
+
+
 @pytest.mark.parametrize("V", ["-10/cosh(x)^2 + 4/cosh(x)^4", "-15/cosh(x)^2 + 8/cosh(x)^4", "tanh(x)^4 - 5*tanh(x)^2"])
 def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     """A confluent Heun equation, Liouvillian at most at E = V(oo) - (d + 1)^2 or its parts: those above min V are decided."""

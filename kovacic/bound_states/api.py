@@ -30,6 +30,7 @@ from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, read_question
 from kovacic.bound_states.ranges import tidied
+from kovacic.bound_states.repulsive import REASON, is_repulsive
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.exact import whole
@@ -171,7 +172,8 @@ def spectrum(
         )
     except NotRational as reason:
         if levels is None:
-            raise
+            hint = "the lowest levels of other potentials are computed as proven numbers"
+            raise NotRational(str(reason), hint=f"{hint}: levels=5", shell=f"{hint}: --levels 5") from None
         found = unsolved(V, domain, energy, var, reason)
     return with_numbers(found, levels, digits, limits)
 
@@ -310,6 +312,8 @@ def _answered(examined: _Examined, budget: Budget) -> Spectrum:
     try:
         families, name = _families(question, budget)
     except Uncovered as uncovered:
+        if not examined.excluded and is_repulsive(examined.real, examined.ends, question.signs):
+            return examined.spectrum(complete=True, reason=REASON)
         transformed = _transformed(examined, budget)
         return transformed or examined.spectrum(reason=_why_no_formula(examined, uncovered))
     found = (_levels(question, family) for family in families)

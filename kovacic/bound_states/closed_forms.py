@@ -94,7 +94,7 @@ def closed_forms(
     window = _Window()
     if not question.parameters:
         window = _Window.of(question, ends, real)
-    search = _Search(question, ends, conditions, window, max_degree)
+    search = _ClosedFormSearch(question, ends, conditions, window, max_degree)
     return search.with_parameters() if question.parameters else search.of_numbers()
 
 
@@ -179,7 +179,7 @@ class _Listed(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Search:
+class _ClosedFormSearch:
     """Through the regions of the conditions."""
 
     question: SpectralProblem

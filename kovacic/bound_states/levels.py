@@ -352,7 +352,8 @@ class Spectrum:
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_relation(relation)}: "
             lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
-        if self.complete and not self.levels:
+        has_levels = bool(self.levels or self.algebraic)
+        if self.complete and not has_levels:
             lines.append("no eigenvalues")
         if self.closed_forms_complete and not self.algebraic:
             lines.append("no eigenfunction has a closed form")
@@ -362,8 +363,10 @@ class Spectrum:
     @property
     def _proven(self) -> str:
         """What is proven of the list as a whole, before the reason."""
-        if self.complete:
+        if self.complete and (self.levels or self.algebraic):
             return "proven to be all eigenvalues; "
+        if self.complete:
+            return "proven; "
         if not self.closed_forms_complete:
             return ""
         if self.algebraic:

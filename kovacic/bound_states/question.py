@@ -12,7 +12,7 @@ import sympy
 from kovacic.bound_states.letters import assumed_of_letters
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, Parsed, parameters_of
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.exact import exact_text
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
@@ -24,6 +24,8 @@ from kovacic.reading.source import source_of
 from kovacic.reading.substitution import with_values
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
 from kovacic.reading.symbolic import names_of, read_expression
+from kovacic.sturm_liouville.problem import STEPS, pieces_of
+from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
 #: Names for the number of a level: the first one that the user hasn't taken.
@@ -119,17 +121,30 @@ def read_question(
     Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
     """
     _check_options(energy, boundary)
+    if len(domain) != 2 or isinstance(domain, str):
+        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    ends = [read_end(value) for value in domain]
     given = _read_potential(V, energy, None if var is None else str(var), names)
     variable = _Variable(str(var))
     if var is None:
         variable = _variable_of(given.expression)
-    if len(domain) != 2 or isinstance(domain, str):
-        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    given = _in_one_piece(given, variable.name, energy, ends)
     with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True, names=names)
-    S, parsed, of_parameters = with_values(given.S, with_parameters, assume, limits)
-    assumed = assumed_of_letters(of_parameters, parsed.letters)
-    ends = [read_end(value) for value in domain]
+    shifts = _shifts(given, with_parameters, variable=variable.name, energy=energy)
+    of_shifts = {name: said for name, said in (assume or {}).items() if str(name) in shifts}
+    values = {
+        sympy.Symbol(str(name)): value for name, said in of_shifts.items() if (value := _number(said)) is not None
+    }
+    if values:
+        given = _Potential(given.expression.xreplace(values), given.S.xreplace(values))
+        with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True, names=names)
+        shifts = [name for name in shifts if sympy.Symbol(name) not in values]
+    others = {name: said for name, said in (assume or {}).items() if name not in of_shifts}
+    S, parsed, of_parameters = with_values(given.S, with_parameters, others or None, limits)
+    of_shifts = {name: said for name, said in of_shifts.items() if str(name) in shifts}
+    assumed = assumed_of_letters({**(of_parameters or {}), **of_shifts} or None, parsed.letters)
     names = _names(parsed, ends, variable=variable.name, energy=energy)
+    names = (*names, *(name for name in shifts if name not in names))
     known = read_assumptions(assumed, V, names)
     for constant in _constants(given.expression, names):
         known = known.also(constant, ("irrational", "positive"))
@@ -152,6 +167,34 @@ def read_question(
         notices=variable.notices,
         kinetic=signs.real(sympy.sympify(kinetic)),
     )
+
+
+def _shifts(given: _Potential, parsed: Parsed, *, variable: str, energy: str) -> list[str]:
+    """The parameters that shift the variable alone, as b in 1/cosh(x - b)^2, and so don't occur in the equation in t."""
+    meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
+    names = {symbol.name for symbol in given.expression.free_symbols} - meanings
+    return sorted(names - {variable, energy, *parameters_of(parsed.S.field)})
+
+
+def _number(said: Any) -> Any:
+    """The value in an assumption; None where it says something else."""
+    text = exact_text(said, "a value") if not isinstance(said, str) else said
+    try:
+        value = read_expression(text)
+    except InputError:  # an inequality
+        return None
+    return value if value.is_number else None
+
+
+def _in_one_piece(given: _Potential, variable: str, energy: str, ends: list[Any]) -> _Potential:
+    """Without absolute values and steps that are one function on the domain.  Raises `NotRational` for several pieces."""
+    V = given.expression
+    if not V.has(*STEPS):
+        return given
+    pieces = pieces_of(V, sympy.S.One, sympy.Symbol(variable), (ends[0], ends[1])) if len(names_of(V)) == 1 else ()
+    if len(pieces) != 1:
+        raise NotRational(f"{caret(as_text(V))} is a function in pieces, and its levels have no formula here")
+    return _Potential(pieces[0].Q, pieces[0].Q - sympy.Symbol(energy))
 
 
 def _check_options(energy: Any, boundary: str | None) -> None:

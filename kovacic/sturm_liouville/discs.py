@@ -46,7 +46,7 @@ class Passage:
 
 
 @dataclass(frozen=True)
-class Step:
+class TaylorStep:
     """From x0 to x0 + t: the Taylor coefficients of Q and W, times t^(k+2)."""
 
     t: Any
@@ -75,7 +75,7 @@ class Step:
         return sum(a) + error, (slopes + error) / self.t
 
 
-def march(steps: Sequence[Step], u: Any, v: Any, E: Any) -> Passage | None:
+def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None:
     """The solution at the end of the steps; None where the balls are too wide to tell how many zeros it has."""
     sign = _sign(u)
     if u == 0:
@@ -152,7 +152,7 @@ class Road:
         self.x = problem.x
         self.pieces = problem.pieces
         self.span = span
-        self._known: dict[Any, tuple[Step, ...]] = {}
+        self._known: dict[Any, tuple[TaylorStep, ...]] = {}
 
     def value(self, x: Any, E: Any) -> Any:
         """Q - E W near x: only to find good points."""
@@ -162,7 +162,7 @@ class Road:
         at = BallEvaluator({self.x: acb(x)})
         return (at(piece.Q) - E * at(piece.W)).real.mid()
 
-    def steps(self, start: Any, stop: Any, prec: int) -> tuple[Step, ...]:
+    def steps(self, start: Any, stop: Any, prec: int) -> tuple[TaylorStep, ...]:
         """From one point to another, which may be balls around the exact ones."""
         key = (key_of(start), key_of(stop), prec)
         if key not in self._known:
@@ -170,7 +170,7 @@ class Road:
                 self._known[key] = tuple(self._steps(start, stop, prec))
         return self._known[key]
 
-    def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[Step]:
+    def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[TaylorStep]:
         here = start
         radius = _SHARE * abs(stop - start).upper()
         for piece, last in self._parts(start, stop):
@@ -199,7 +199,7 @@ class Road:
             if leaves:
                 return
 
-    def _step(self, piece: Stretch, here: Any, last: Any, radius: Any, prec: int) -> tuple[Step, bool]:
+    def _step(self, piece: Stretch, here: Any, last: Any, radius: Any, prec: int) -> tuple[TaylorStep, bool]:
         """The largest one whose radius is `radius` over a power of 2, and whether it leads to `last`."""
         distance = last - here
         whole = _SHARE * abs(distance).upper()
@@ -225,4 +225,4 @@ class Road:
         at = BallEvaluator({self.x: acb(here.union(here + t))})
         depth = (self.span.high * at(piece.W) - at(piece.Q)).real.upper()
         turn = (depth.sqrt() * abs(t)).upper() if depth > 0 else arb(0)
-        return Step(t, radius, q_t, w_t, terms, tail, turn), is_last
+        return TaylorStep(t, radius, q_t, w_t, terms, tail, turn), is_last

@@ -19,7 +19,8 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError
 
 Expr = Any
-_STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max)
+#: Functions in pieces.
+STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max)
 _HALVINGS = 14
 """Of an interval, on which the weight is shown to be positive."""
 
@@ -125,7 +126,7 @@ def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Str
 def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
     """The points strictly inside the domain, in order."""
     switches = set()
-    for step in e.atoms(*_STEPS):
+    for step in e.atoms(*STEPS):
         if not step.has(x):
             continue
         if isinstance(step, sympy.Piecewise):
@@ -135,6 +136,8 @@ def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
         else:
             switches.add(step.args[0])
     points = set()
+    while any(switch.has(sympy.Abs) for switch in switches):  # |f| is f or -f
+        switches = {switch.replace(sympy.Abs, lambda f, sign=sign: sign * f) for switch in switches for sign in (1, -1)}
     for switch in switches:
         if not switch.is_polynomial(x):
             raise InputError(f"it isn't known where {switch} changes its sign")
@@ -168,7 +171,7 @@ def _inside(low: Expr, high: Expr) -> Expr:
 def _resolved(e: Expr, x: Expr, inside: Expr) -> Expr:
     """Without absolute values, signs, steps and cases, as they are around a point."""
     while True:
-        steps = [step for step in e.atoms(*_STEPS) if step.has(x)]
+        steps = [step for step in e.atoms(*STEPS) if step.has(x)]
         if not steps:
             return e
         innermost = min(steps, key=sympy.count_ops)
@@ -243,7 +246,7 @@ def normal_form(
     if any(e.has(sympy.I) for e in coefficients):
         raise InputError("the coefficients aren't real")
     B = sympy.cancel(b / a) if (b / a).is_rational_function(x) else sympy.simplify(b / a)
-    if B.has(*_STEPS):
+    if B.has(*STEPS):
         raise InputError("the coefficient of y' is a function in pieces, for which eigenvalues aren't computed")
     Q = plain(B**2 / 4 + B.diff(x) / 2 - c0 / a, x)
     W = plain(c1 / a, x)

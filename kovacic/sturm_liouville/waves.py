@@ -12,7 +12,7 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.count import SeparatedCounter
-from kovacic.sturm_liouville.discs import Step
+from kovacic.sturm_liouville.discs import TaylorStep
 from kovacic.sturm_liouville.ends import end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem
 
@@ -53,7 +53,7 @@ def _side(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, Any, 
     return [(at.mid(), y.mid(), dy.mid()) for at, y, dy in found]
 
 
-def _inside(step: Step, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
+def _inside(step: TaylorStep, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
     a = step.series(u, v, E)
     share = arb(k) / _PARTS
     return sum(c * share**n for n, c in enumerate(a)), arb(0)
