@@ -161,7 +161,8 @@ class Assumptions:
         """Is the value of a form rational and in one of the classes: True (always), False (never) or None?"""
         value = self._value_of(form)
         if value is not None:
-            return _is_in_one(value, classes)
+            number = value.field.rational_value(value)
+            return number is not None and any(coset.contains(number) for coset in classes)
         values = self._coset_of(form)
         if values is not None:
             return _lies_in_one(values, classes)
@@ -192,25 +193,17 @@ class Assumptions:
 
     def _is_nowhere_zero(self, function: FunctionPoly) -> bool:
         """Is one of these seen: by classes, by a root that isn't admitted, by factors, by irrationality, by a sign?"""
-        if self._has_class_without_zero(function) or self._has_root_not_admitted(function):
+        values = self._coset_of(function)
+        if values is not None and not values.contains(Fraction(0)):
+            return True
+        line = line_of(numerator(function))  # linear in one parameter, which can't have the value of the root?
+        if line is not None and not self.of(line.name).admits(QQ.poly([line.root])):
             return True
         is_product = len(function.num) == 1
         if is_product:
             return all(self.of(name).nonzero for name in parameters_of(function))
-        return self._is_irrational(function) or self._has_a_sign(function)
-
-    def _has_class_without_zero(self, function: FunctionPoly) -> bool:
-        values = self._coset_of(function)
-        return values is not None and not values.contains(Fraction(0))
-
-    def _has_root_not_admitted(self, function: FunctionPoly) -> bool:
-        """Is the numerator linear in one parameter, which can't have the value of the root?"""
-        line = line_of(numerator(function))
-        return line is not None and not self.of(line.name).admits(QQ.poly([line.root]))
-
-    def _has_a_sign(self, function: FunctionPoly) -> bool:
         above = numerator(function)
-        return self.is_positive(above) or self.is_positive(-1 * above)
+        return self._is_irrational(function) or self.is_positive(above) or self.is_positive(-1 * above)
 
     def _value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a polynomial in the parameters that have a value; None for any other."""
@@ -346,12 +339,10 @@ def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero:
     terms = over_parameters(form.value_at(values, field)).num.to_dict()
     if not all(coefficient > 0 for coefficient in terms.values()):
         return False
-    return or_zero or any(_is_positive_monomial(exponents[1:], bounds) for exponents in terms)
-
-
-def _is_positive_monomial(exponents: Sequence[int], bounds: Sequence[Bound]) -> bool:
-    """Is each of its parameters strictly beyond the bound?"""
-    return all(bound.strict for bound, k in zip(bounds, exponents, strict=True) if k)
+    if or_zero:
+        return True
+    # A monomial is positive where each of its parameters is strictly beyond the bound.
+    return any(all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms)
 
 
 def _has_number_between(coset: Coset, bounds: Sequence[Bound]) -> bool:
@@ -384,9 +375,3 @@ def _lies_in_one(values: Coset, classes: list[Coset]) -> bool | None:
     if any(values.meets(coset) for coset in classes):
         return None
     return False
-
-
-def _is_in_one(value: Poly, classes: Iterable[Coset]) -> bool:
-    """Is it rational, and in one of the classes?"""
-    number = value.field.rational_value(value)
-    return number is not None and any(coset.contains(number) for coset in classes)

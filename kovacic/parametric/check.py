@@ -186,7 +186,7 @@ def _false_formulas(
     for number in numbers:
         for solution in _solutions_at(region, number, values):
             y = solution.at(values)
-            if y is not None and (_is_undefined(y) or _is_false(y, S, equation, values)):
+            if y is not None and (y.has(sympy.nan, sympy.zoo, sympy.oo) or _is_false(y, S, equation, values)):
                 yield f"{solution} is no solution"
 
 
@@ -198,10 +198,6 @@ def _solutions_at(
     if isinstance(formulas, GivenSolutions):
         meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
         yield from formulas.of(meant)
-
-
-def _is_undefined(y: Any) -> bool:
-    return bool(y.has(sympy.nan, sympy.zoo, sympy.oo))
 
 
 def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any]) -> bool:
@@ -258,7 +254,11 @@ class Sampler:
         if statement is None:
             return self._with_values(values, self.start.field)
         try:
-            field = self._solve(statement.sample(self.random), values)
+            # One parameter is chosen for each function so that it vanishes, the last function first.
+            field = self.start.field
+            free = list(self.names)
+            for function in reversed(statement.sample(self.random)):
+                field = self._solve_for_zero(function, values, field, free)
         except (ZeroDivisionError, ValueError):
             return None
         point = self._with_values(values, field)
@@ -268,14 +268,6 @@ class Sampler:
         """The point of a field with these values."""
         in_one_field = tuple(value.over(field) for value in values.values())
         return ParameterPoint((*self.start.names, *self.names), in_one_field, field)
-
-    def _solve(self, functions: Sequence[FunctionPoly], values: dict[str, Poly]) -> Field:
-        """Choose a parameter for each function so that it vanishes, the last function first; the field of all values."""
-        field = self.start.field
-        free = list(self.names)
-        for function in reversed(functions):
-            field = self._solve_for_zero(function, values, field, free)
-        return field
 
     def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:
         """Choose one free parameter so that the function vanishes; the field of all values.  `ValueError` if none does it."""
@@ -291,16 +283,11 @@ class Sampler:
                 continue
             factor = self.random.choice([f for f, _ in field.factor(equation)])
             is_alone = len(free) == len(names) == 1
-            value = _root(factor, adjoined=is_alone and field == QQ)
-            if value is not None:
-                values[name] = value
-                free.remove(name)
-                return value.field
+            if factor.degree > 1 and not (is_alone and field == QQ):
+                continue
+            # A root in its field, or in an extension.
+            value = -factor[0] if factor.degree == 1 else AlgebraicField(QQ, factor, "alpha").generator
+            values[name] = value
+            free.remove(name)
+            return value.field
         raise ValueError("no parameter can be chosen")
-
-
-def _root(factor: Poly, *, adjoined: bool) -> Poly | None:
-    """Of an irreducible polynomial, in its field, or in an extension if one may be adjoined."""
-    if factor.degree == 1:
-        return -factor[0]
-    return AlgebraicField(QQ, factor, "alpha").generator if adjoined else None

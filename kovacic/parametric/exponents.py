@@ -119,18 +119,12 @@ def degrees_of_solutions(problem: Problem) -> Numbers | None:
     roots: list[ExponentRoot] = []
     singular = _singular(problem)
     for place in singular:
-        square = _square_of_difference(place)
+        square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
         if square is None or square.degree > 0:
             return None
         roots += [ExponentRoot(square / 4, 1)] * place.degree
     weights = sum(place.weight * place.degree for place in singular)
     return Numbers(1 - Fraction(weights) / 2, tuple(roots), only_signs=True)
-
-
-def _square_of_difference(place: Place) -> Poly | None:
-    if place.kind is Kind.REGULAR:
-        return place.delta_squared
-    return irregular_difference_squared(place)
 
 
 def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
@@ -205,7 +199,10 @@ def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Pol
         return list(images)
     found = []
     for image in images:
-        found += [_in_one_polynomial(_parts(image * element, below), below) for element in basis]
+        for element in basis:
+            parts = _parts(image * element, below)
+            size = max(part.degree for part in parts) + 1
+            found.append(below.poly([part[k] for k in range(size) for part in parts]))
     return found
 
 
@@ -218,12 +215,6 @@ def _basis(field: Field, below: Field) -> list[Poly]:
         basis = [element * level.generator**k for k in range(level.dimension) for element in basis]
         level = level.base
     return basis
-
-
-def _in_one_polynomial(parts: Sequence[Poly], field: Field) -> Poly:
-    """The coefficients of some polynomials, one behind the other for each power."""
-    size = max(part.degree for part in parts) + 1
-    return field.poly([part[k] for k in range(size) for part in parts])
 
 
 def _parts(polynomial: Poly, below: Field) -> list[Poly]:
@@ -279,7 +270,9 @@ def _places(problem: Problem) -> _Places | None:
     field = split.field
     roots: list[Poly] = []
     for place in singular:
-        root = _square_root(_square(place, split.S).over(field), field)
+        square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, split.S).lc
+        assert square is not None  # at a single point
+        root = _square_root(square.over(field), field)
         field = root.field
         if _degree_over(field, problem.field) > _DEGREE:
             return None
@@ -298,7 +291,10 @@ def _with_rational_points(problem: Problem) -> Problem | None:
     base = problem.field
     factor = _several_points(problem)
     while factor is not None:
-        extension = _with_a_root(factor, problem.field)
+        if factor.degree == 2:
+            extension = _square_root(factor[1] * factor[1] - 4 * factor[0], problem.field).field
+        else:
+            extension = AlgebraicField(problem.field, factor, "point")
         if _degree_over(extension, base) > _DEGREE:
             return None
         S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
@@ -310,13 +306,6 @@ def _with_rational_points(problem: Problem) -> Problem | None:
 def _several_points(problem: Problem) -> Poly | None:
     """The first factor of the denominator whose roots aren't in the field; None without any."""
     return next((place.factor for place in problem.finite_places if place.degree > 1), None)
-
-
-def _with_a_root(factor: Poly, field: Field) -> Field:
-    """The field with a root of an irreducible polynomial, by a square root for degree 2."""
-    if factor.degree == 2:
-        return _square_root(factor[1] * factor[1] - 4 * factor[0], field).field
-    return AlgebraicField(field, factor, "point")
 
 
 def _degree_over(field: Field, base: Field) -> int:
@@ -335,13 +324,6 @@ def _square_root(square: Poly, field: Field) -> Poly:
     if isinstance(square, FunctionPoly):
         outer, inner = square.square_part()
     return AlgebraicField(field, field.poly([-inner, 0, 1]), f"sqrt({inner.to_str()})").generator * outer
-
-
-def _square(place: Place, S: RatFunc) -> Poly:
-    """The square of the exponent difference at a rational point, or the leading coefficient at an irregular one."""
-    square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, S).lc
-    assert square is not None  # at a single point
-    return square
 
 
 def _at_infinity(place: Place, S: RatFunc) -> Poly:

@@ -6,7 +6,7 @@ A class of numbers is a `Coset` s + m Z.  A bound is a `Bound`, with a rational 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -124,19 +124,13 @@ class Facts:
     def bounds(self) -> tuple[Bound, ...]:
         """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
         strongest: dict[int, Bound] = {}
-        for bound in self._bounds_among_the_numbers():
+        coset = self.coset
+        for one in (*self.rational_bounds, *(end.rational_bound() for end in self.ends)):
+            bound = one if coset is None else one.among(coset)
             known = strongest.get(bound.sign)
             if known is None or bound.is_stronger_than(known):
                 strongest[bound.sign] = bound
         return tuple(strongest.values())
-
-    def _bounds_among_the_numbers(self) -> Iterator[Bound]:
-        coset = self.coset
-        for bound in (*self.rational_bounds, *(end.rational_bound() for end in self.ends)):
-            if coset is None:
-                yield bound
-            else:
-                yield bound.among(coset)
 
     def admit(self, number: Fraction) -> bool:
         """May the parameter be this number?"""
@@ -197,34 +191,23 @@ def read_facts(words: tuple[str, ...]) -> Facts:
     """What words say that `check_words` let pass."""
     classes = tuple(_CLASSES[word] for word in words if word in _CLASSES)
     inequalities = [INEQUALITIES.get(word, word) for word in words]
+    rational = True if classes or "rational" in words else None
+    if rational is None and "irrational" in words:
+        rational = False
+    excluded = {Fraction(match[1]) for match in _matches(_UNEQUAL, words)}
+    if "nonzero" in words:
+        excluded.add(Fraction(0))
     return Facts(
         classes=classes,
-        rational=_is_rational(words, classes),
+        rational=rational,
         noninteger="noninteger" in words,
-        excluded=_excluded(words),
-        rational_bounds=tuple(_bound(match) for match in _matches(_BOUND, inequalities)),
+        excluded=frozenset(excluded),
+        rational_bounds=tuple(
+            Bound(_direction(match[1]), Fraction(match[2]), strict="=" not in match[1])
+            for match in _matches(_BOUND, inequalities)
+        ),
         ends=tuple(_ends(words)),
     )
-
-
-def _is_rational(words: tuple[str, ...], classes: tuple[Coset, ...]) -> bool | None:
-    if classes or "rational" in words:
-        return True
-    if "irrational" in words:
-        return False
-    return None
-
-
-def _excluded(words: tuple[str, ...]) -> frozenset[Fraction]:
-    numbers = {Fraction(match[1]) for match in _matches(_UNEQUAL, words)}
-    if "nonzero" in words:
-        numbers.add(Fraction(0))
-    return frozenset(numbers)
-
-
-def _bound(match: re.Match[str]) -> Bound:
-    """That of a relation such as >=1/2."""
-    return Bound(_direction(match[1]), Fraction(match[2]), strict="=" not in match[1])
 
 
 def check_words(words: Iterable[str]) -> None:

@@ -83,7 +83,8 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
         above = rest * (S.den // power).inverse_modulo(power) % power
         for j, digit in enumerate(_digits_from_above(above, factor, k), 1):
             if digit:
-                terms.append(_in_factors(RatFunc(digit, factor**j), variable))
+                top, bottom, names = _cleared(RatFunc(digit, factor**j), variable)
+                terms.append(_sum([_factored(top, bottom)], names))
     return _joined(terms)
 
 
@@ -119,11 +120,6 @@ def _times(integer: str, power: str) -> str:
     if integer == "-1":
         return f"-{power}"
     return f"{integer}*{power}"
-
-
-def _in_factors(function: RatFunc, variable: str) -> str:
-    above, below, names = _cleared(function, variable)
-    return _sum([_factored(above, below)], names)
 
 
 class SidesOfEquation(NamedTuple):
@@ -357,14 +353,13 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
     for factor, k in factors:
         is_one = factor.is_constant() and factor.is_one()
         if not is_one:
-            pieces.append(_power(_polynomial(factor, names), k))
+            text = _polynomial(factor, names)
+            text = f"({text})" if k > 1 and "*" in text else in_product(text)
+            pieces.append(text if k == 1 else f"{text}^{k}")
     if root != 1:
-        pieces.append(_square_root(_polynomial(root, names)))
+        text = _polynomial(root, names)
+        pieces.append("I" if text == "-1" else f"sqrt({text})")
     return pieces
-
-
-def _square_root(text: str) -> str:
-    return "I" if text == "-1" else f"sqrt({text})"
 
 
 def in_sum(text: str) -> str:
@@ -378,9 +373,3 @@ def in_product(text: str) -> str:
     """A factor of a product: sums and what begins with a minus in parentheses."""
     is_sum = " + " in text or " - " in text or text.startswith("-")
     return f"({text})" if is_sum else text
-
-
-def _power(text: str, k: int) -> str:
-    """The k-th power, with parentheses where they are needed in a product."""
-    text = f"({text})" if k > 1 and "*" in text else in_product(text)
-    return text if k == 1 else f"{text}^{k}"

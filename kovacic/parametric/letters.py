@@ -14,7 +14,7 @@ import sympy
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.equation import Equation, Parsed
+from kovacic.equation import Parsed
 from kovacic.errors import InputError
 from kovacic.numerals import as_text
 from kovacic.parametric.functions import over_parameters
@@ -36,7 +36,10 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     meanings = dict(parsed.letters)
     letters = tuple((_spelling(meanings[name]), meanings[name]) for name in field.names if name in meanings)
     larger = FunctionField(tuple(_spelling(meanings[name]) if name in meanings else name for name in field.names))
-    equation = parsed.equation and _equation_over(parsed.equation, larger)
+    equation = parsed.equation
+    if equation is not None:
+        a, b, c, f = (_over(part, larger) for part in (equation.a, equation.b, equation.c, equation.f))
+        equation = replace(equation, a=a, b=b, c=c, f=f)
     said = tuple(f"{name} is " for name in meanings)
     notices = tuple(notice for notice in parsed.notices if not notice.startswith(said))
     return replace(parsed, S=_over(parsed.S, larger), equation=equation, notices=notices, letters=()), letters
@@ -47,11 +50,6 @@ def _spelling(meaning: Any) -> str:
     text = caret(as_text(meaning))
     is_power = meaning.is_Pow and meaning.exp != sympy.S.Half and meaning.base != sympy.E
     return f"({text})" if is_power else text
-
-
-def _equation_over(equation: Equation, field: FunctionField) -> Equation:
-    a, b, c, f = (_over(part, field) for part in (equation.a, equation.b, equation.c, equation.f))
-    return replace(equation, a=a, b=b, c=c, f=f)
 
 
 def _over(function: RatFunc, field: FunctionField) -> RatFunc:
@@ -93,7 +91,9 @@ def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, 
     """The values of the letters where the user's parameters have these.  Raises `InputError` for no algebraic number."""
     if not letters:
         return {}
-    numbers = {sympy.Symbol(name): _expression(value) for name, value in values.items()}
+    numbers = {}
+    for name, value in values.items():
+        numbers[sympy.Symbol(name)] = value if isinstance(value, sympy.Basic) else read_expression(str(value))
     found = {}
     for name, meaning in letters:
         value = meaning.subs(numbers)
@@ -101,7 +101,3 @@ def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, 
             raise InputError(f"{name} is {value} there, which isn't known to be an algebraic number")
         found[name] = value
     return found
-
-
-def _expression(value: Any) -> Any:
-    return value if isinstance(value, sympy.Basic) else read_expression(str(value))

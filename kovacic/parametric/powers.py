@@ -5,8 +5,9 @@ On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated; on 4 W + 1 =
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import gcd
 from typing import Any
 
@@ -15,7 +16,7 @@ import sympy
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.numerals import as_text
-from kovacic.parametric.functions import element, irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.functions import element, irreducible_factors, over_parameters, powers_of, union
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion
@@ -37,7 +38,7 @@ class InPowers:
         assert isinstance(field, FunctionField)
         names = dict(zip(field.names, self.powers, strict=True))
         origin = None if region.origin is None else _PowersForT(region.origin, tuple(names.items()))
-        statement = _in_factors(region.statement.rewritten(_raised(names)))
+        statement = _in_factors(region.statement.rewritten(partial(_raised, powers=names)))
         return replace(region, statement=statement, origin=origin)
 
 
@@ -105,25 +106,16 @@ def _in_factors(statement: Statement) -> Statement:
     if isinstance(statement, Congruence) and statement.form is None:
         return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
     if isinstance(statement, Natural) and statement.factors is not None:
-        return replace(statement, factors=_all_factors(statement.factors))
+        return replace(statement, factors=tuple(union(map(_over_q_factors, statement.factors))))
     return statement
 
 
-def _all_factors(equations: Iterable[FunctionPoly]) -> tuple[FunctionPoly, ...]:
-    """The irreducible factors of polynomials over Q(t), each once."""
-    factors: dict[FunctionPoly, None] = {}
-    for equation in equations:
-        for factor, _ in equation.field.factor(equation):
-            factors[over_parameters(factor)] = None
-    return tuple(factors)
+def _over_q_factors(equation: FunctionPoly) -> list[FunctionPoly]:
+    """The irreducible factors of a polynomial over Q(t)."""
+    return [over_parameters(factor) for factor, _ in equation.field.factor(equation)]
 
 
-def _raised(powers: dict[str, int]) -> Callable[[FunctionPoly], FunctionPoly]:
+def _raised(function: FunctionPoly, powers: dict[str, int]) -> FunctionPoly:
     """The same function, with t^k for T; of some of the parameters."""
-
-    def change(function: FunctionPoly) -> FunctionPoly:
-        field = function.field
-        values = [field.generator(name) ** powers.get(name, 1) for name in field.names]
-        return over_parameters(function.value_at(values, field))
-
-    return change
+    field = function.field
+    return over_parameters(function.value_at([field.generator(n) ** powers.get(n, 1) for n in field.names], field))

@@ -69,12 +69,10 @@ def _key(factor: Any, x: Any) -> Any:
 def shorter_sum(exponent: Any) -> Any:
     """A sum without terms that cancel; its rational part is one fraction where that is shorter."""
     terms = sympy.expand(exponent)
-    roots, rational = sympy.sift(sympy.Add.make_args(terms), _has_root, binary=True)
+    roots, rational = sympy.sift(
+        sympy.Add.make_args(terms), lambda term: any(not e.exp.is_Integer for e in term.atoms(sympy.Pow)), binary=True
+    )
     fraction = sympy.cancel(sympy.Add(*rational))
     if sympy.count_ops(fraction) >= sympy.count_ops(sympy.Add(*rational)):
         return terms
     return sympy.Add(fraction, *roots)
-
-
-def _has_root(term: Any) -> bool:
-    return any(not power.exp.is_Integer for power in term.atoms(sympy.Pow))

@@ -5,7 +5,7 @@ A sentence is a tuple of words and formulas, `Math`, which has its LaTeX beside 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -198,10 +198,6 @@ def _integral(form: FunctionPoly, letter: str) -> Math:
 # ------------------------------------------------------------------------------- claims
 
 
-def _zero(claim: IsZero) -> Words:
-    return (equation(claim.function),)
-
-
 def equation(zero: FunctionPoly) -> Math:
     """That a function vanishes, solved where that is simple."""
     sides = sides_of_equation(zero)
@@ -229,10 +225,6 @@ def _in_classes(claim: InClasses) -> Words:
     return (congruent(form, classes(numbers.residues, numbers.modulus), numbers.modulus),)
 
 
-def _root_sum(claim: SumOfRoots) -> Words:
-    return (roots_of(claim), " is ", *kind(claim.numbers))
-
-
 def roots_of(claim: SumOfRoots) -> Math:
     """The sum, without what it is."""
     terms = [*map(root_written, claim.squares)]
@@ -241,12 +233,10 @@ def roots_of(claim: SumOfRoots) -> Math:
     return with_both_signs(terms)
 
 
-def _family(claim: IntegerFamily) -> Words:
-    return (*head_of(claim), *numbers_of(claim))
-
-
-def head_of(family: IntegerFamily) -> Words:
+def head_of(family: IntegerFamily | EquationFor) -> Words:
     """`E = f(n)`, and what is said of poles."""
+    if isinstance(family, EquationFor):
+        return (_unsolved(family),)
     return (equals(family.parameter, family.value, family.letter), *_in_parentheses(poles_of([family])))
 
 
@@ -273,10 +263,6 @@ def numbers_of(family: IntegerFamily | EquationFor) -> Words:
     return (" for ", *kind(family.numbers, family.letter))
 
 
-def _equation_for(claim: EquationFor) -> Words:
-    return (_unsolved(claim), *numbers_of(claim))
-
-
 def _unsolved(claim: EquationFor) -> Math:
     """`d = 5` without parameters, else that the numerator vanishes."""
     f = claim.equation
@@ -285,24 +271,18 @@ def _unsolved(claim: EquationFor) -> Math:
     return formula(f"{function(numerator(f), claim.letter)} = 0")
 
 
-def _that_is(claim: ThatIs) -> Words:
-    return (*sentence(claim.first), ", that is ", *sentence(claim.second))
-
-
 # ------------------------------------------------------------------------------- several claims
 
 
 def _all_of(claim: AllOf) -> Words:
     if len(claim.parts) == 1:
         return sentence(claim.parts[0])
-    return _joined([_in_conjunction(part) for part in claim.parts], ", and ")
-
-
-def _in_conjunction(part: Claim) -> Words:
-    """Alternatives are in parentheses, unless they are those of one value."""
-    if isinstance(part, AnyOf) and _sides_of_one_value(part.parts) is None:
-        return ("(", *sentence(part), ")")
-    return sentence(part)
+    said: list[Words] = []
+    for part in claim.parts:
+        # Alternatives are in parentheses, unless they are those of one value.
+        is_long = isinstance(part, AnyOf) and _sides_of_one_value(part.parts) is None
+        said.append(("(", *sentence(part), ")") if is_long else sentence(part))
+    return _joined(said, ", and ")
 
 
 def _any_of(claim: AnyOf) -> Words:
@@ -310,27 +290,21 @@ def _any_of(claim: AnyOf) -> Words:
     parts = claim.parts
     sides = _sides_of_one_value(parts)
     if sides is not None:
-        *first, last = (right for _, right in sides)
-        return (formula(f"{sides[0].left} = {first[0]}"), *_each(", ", first[1:]), " or ", formula(last))
+        first, *others, last = (right for _, right in sides)
+        listed = _joined([(formula(f"{sides[0].left} = {first}"),), *((formula(one),) for one in others)], ", ")
+        return (*listed, " or ", formula(last))
     for together in (_of_common_numbers, _of_one_kind):
         found = together(parts)
         if found is not None:
             return found
-    separator = ", or " if any(map(_is_long, parts)) else " or "
+    # A comma, or a "for", stands in all others.
+    are_short = all(
+        isinstance(part, IsZero | SumOfRoots)
+        or (isinstance(part, InClasses) and (len(part.numbers.residues) == 1 or is_named(part.numbers)))
+        for part in parts
+    )
+    separator = " or " if are_short else ", or "
     return _joined([*map(sentence, parts)], separator)
-
-
-def _each(separator: str, texts: Iterable[str]) -> Iterator[str | Math]:
-    for one in texts:
-        yield separator
-        yield formula(one)
-
-
-def _is_long(claim: Claim) -> bool:
-    """True where a comma, or a "for", stands in it."""
-    if isinstance(claim, InClasses):
-        return len(claim.numbers.residues) > 1 and not is_named(claim.numbers)
-    return not isinstance(claim, IsZero | SumOfRoots)
 
 
 def _sides_of_one_value(parts: Sequence[Claim]) -> list[SidesOfEquation] | None:
@@ -347,11 +321,7 @@ def _of_common_numbers(parts: Sequence[Claim]) -> Words | None:
     ends = {numbers_of(part) for part in families}
     if len(families) != len(parts) or len(ends) != 1:
         return None
-    return (*_joined([*map(_head_of_any, families)], " or "), *ends.pop())
-
-
-def _head_of_any(part: IntegerFamily | EquationFor) -> Words:
-    return head_of(part) if isinstance(part, IntegerFamily) else (_unsolved(part),)
+    return (*_joined([*map(head_of, families)], " or "), *ends.pop())
 
 
 def _of_one_kind(parts: Sequence[Claim]) -> Words | None:
@@ -404,70 +374,39 @@ def _alternatives(claim: Alternatives) -> Words:
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
-    """That a parameter is one of the functions."""
-    first, *others = _with_signs(functions, letter)
-    found: list[str | Math] = [Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
-    for k, value in enumerate(others, 1):
-        found += [" or " if k == len(others) else ", ", value]
-    return tuple(found)
-
-
-def _not_negative(functions: Sequence[RatFunc], letter: str) -> RatFunc:
-    """The first that isn't written with a minus before it, or the first."""
-    return min(functions, key=lambda f: function(f, letter).lstrip("(").startswith("-"))
-
-
-def _is_free_of_n(f: RatFunc) -> bool:
-    return f.num.degree <= 0 and f.den.degree <= 0
-
-
-def _is_number(f: RatFunc) -> bool:
-    """True for one that doesn't depend on the parameters either."""
-    return _is_free_of_n(f) and f.field.rational_value(f.num) is not None
-
-
-def _with_signs(functions: Sequence[RatFunc], letter: str) -> list[Math]:
-    """How the functions are written, with one formula `c +- f` for c + f and c - f, c free of the integer."""
-    found: dict[RatFunc, Math] = {}
-    paired: set[RatFunc] = set()
-    for f in functions:
-        other = next((g for g in found if g not in paired and _have_a_center(f, g)), None)
+    """That a parameter is one of the functions; c + f and c - f, c free of the integer, are one formula `c +- f`."""
+    said: list[Math] = []
+    left = [*functions]
+    while left:
+        f = left.pop(0)
+        other = next((g for g in left if _have_a_center(f, g)), None)
         if other is None:
-            found[f] = formula(function(f, letter))
-        else:
-            found[other] = _with_both_signs(f, other, letter)
-            paired.add(other)
-    return [*found.values()]
-
-
-def _with_both_signs(f: RatFunc, other: RatFunc, letter: str) -> Math:
-    """`c +- g`, c the mean of the two functions."""
-    center = (f + other) / 2
-    value = in_sum(function(_not_negative((other - center, f - center), letter), letter))
-    if not center:
-        return with_both_signs([value], "+-")
-    return with_both_signs([function(center, letter), value])
+            said.append(formula(function(f, letter)))
+            continue
+        left.remove(other)
+        center = (f + other) / 2
+        texts = [function(one - center, letter) for one in (other, f)]
+        value = in_sum(min(texts, key=lambda text: text.lstrip("(").startswith("-")))  # without a minus before it
+        said.append(with_both_signs([function(center, letter), value] if center else [value], "" if center else "+-"))
+    first, *others = said
+    found: list[str | Math] = [Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
+    for k, one in enumerate(others, 1):
+        found += [" or " if k == len(others) else ", ", one]
+    return tuple(found)
 
 
 def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
     """True where their sum is 0, or a function of the parameters without the integer in it."""
     total = f + g
-    if not total:
-        return True
-    return _is_free_of_n(total) and not _is_number(total)
+    is_free = total.num.degree <= 0 and total.den.degree <= 0
+    return not total or (is_free and total.field.rational_value(total.num) is None)
 
 
 def _signed_degree(claim: SignedDegree) -> Words:
     roots = [in_sum(root_written(square)) for square in claim.squares]
-    d = f"{claim.letter}{_shift(claim.constant)}"
+    shift = f" - {claim.constant}" if claim.constant > 0 else f" + {-claim.constant}"
+    d = claim.letter + (shift if claim.constant else "")
     return (with_both_signs(roots, f"{d} = +-"),)
-
-
-def _shift(constant: Fraction) -> str:
-    """` + 1` for the constant -1."""
-    if not constant:
-        return ""
-    return f" - {constant}" if constant > 0 else f" + {-constant}"
 
 
 def _degree_by_sum(claim: DegreeBySum) -> Words:
@@ -498,15 +437,15 @@ def _solution_with_zeros(claim: SolutionWithZeros) -> Words:
 
 #: How each kind of claim is written; `riemann` adds its own.
 _WRITERS: dict[type, Callable[[Any], Words]] = {
-    IsZero: _zero,
+    IsZero: lambda claim: (equation(claim.function),),
     IsNonzero: lambda claim: (unequal(claim.function),),
     AllOf: _all_of,
     AnyOf: _any_of,
     InClasses: _in_classes,
-    SumOfRoots: _root_sum,
-    IntegerFamily: _family,
-    EquationFor: _equation_for,
-    ThatIs: _that_is,
+    SumOfRoots: lambda claim: (roots_of(claim), " is ", *kind(claim.numbers)),
+    IntegerFamily: lambda claim: (*head_of(claim), *numbers_of(claim)),
+    EquationFor: lambda claim: (*head_of(claim), *numbers_of(claim)),
+    ThatIs: lambda claim: (*sentence(claim.first), ", that is ", *sentence(claim.second)),
     Alternatives: _alternatives,
     SignedDegree: _signed_degree,
     DegreeBySum: _degree_by_sum,

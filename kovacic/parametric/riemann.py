@@ -120,14 +120,9 @@ def _table() -> dict[tuple[int, ...], Structure]:
             if row.is_even and sum(integers) % 2:
                 continue
             values = [r + q for r, q in zip(row.differences, integers, strict=True)]
-            table.update(dict.fromkeys(_keys_with_signs(values), row.structure))
+            for signs in product((1, -1), repeat=3):
+                table[_key([sign * value for sign, value in zip(signs, values, strict=True)])] = row.structure
     return table
-
-
-def _keys_with_signs(values: Sequence[Fraction]) -> Iterator[tuple[int, ...]]:
-    """The keys of +-u, +-v, +-w."""
-    for u, v, w in product(*((value, -value) for value in values)):
-        yield _key((u, v, w))
 
 
 def _sixtieths(difference: Fraction) -> int:
@@ -158,20 +153,16 @@ class Schwarz(Statement, Claim):
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
-        values = self._sample_row(random)
+        rows = [key for key, structure in _table().items() if structure in self.structures]
+        values = [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]  # two half-integers
+        if rows:
+            values = [_F(k, 60) for k in random.choice(rows)]
         random.shuffle(values)
         differences = map(_root, dict.fromkeys(roots(self.cubic)))
         known = [difference for difference in differences if difference is not None]
         if len(known) != 3:
             return []
         return [root - value for root, value in zip(known, values, strict=True)]
-
-    def _sample_row(self, random: Random) -> list[Fraction]:
-        """Three differences with one of the structures: the imprimitive one has two half-integers."""
-        rows = [key for key, structure in _table().items() if structure in self.structures]
-        if rows:
-            return [_F(k, 60) for k in random.choice(rows)]
-        return [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
 
     @property
     def claim(self) -> Claim:
@@ -203,19 +194,13 @@ class Schwarz(Statement, Claim):
     def _on(self, surface: Hypersurface) -> Statement:
         """The same for fewer parameters, said in all of them."""
         cubic = surface.at(self.cubic)
-        if not isinstance(cubic, FunctionPoly):
-            return self._at_numbers(cubic)
+        if not isinstance(cubic, FunctionPoly):  # no parameter is left
+            is_there = kimura([*map(rational_square_root, roots(cubic))]) in self.structures
+            return ALWAYS if is_there else NEVER
         single = _one_function(cubic)
         if single is None:
             return over_all(Schwarz(cubic, self.structures), self.cubic.field)
         return over_all(either(*(_classes(single, structure) for structure in self.structures)), self.cubic.field)
-
-    def _at_numbers(self, cubic: Poly) -> Statement:
-        """The same where no parameter is left."""
-        differences = [*map(rational_square_root, roots(cubic))]
-        if kimura(differences) in self.structures:
-            return ALWAYS
-        return NEVER
 
     def sentence(self) -> Words:
         """Which differences are in which rows."""
@@ -399,7 +384,12 @@ def group(problem: Problem, structure: Structure) -> Words | None:
     """
     cubic = squares_of_differences(problem)
     if structure is Structure.REDUCIBLE:
-        return prose.phrase(_reducible_group(cubic))
+        constants = _split(cubic).constants
+        if (
+            len(constants) >= 2 and None not in constants
+        ):  # these make the third one rational: its sum with them is an integer
+            return prose.phrase(_CYCLIC)
+        return prose.phrase(f"{_CYCLIC}, where {_rational(differences(cubic))}; else `G_m`, or the Borel group")
     if structure is Structure.IMPRIMITIVE:
         return prose.phrase(_imprimitive_group(_split(cubic)))
     return None
@@ -414,14 +404,6 @@ def abelian(problem: Problem, structure: Structure) -> Words | None:
     if len(constants) >= 2 and None not in constants:
         return prose.ABELIAN
     return prose.phrase(f"abelian where {_rational(differences(cubic))}; elsewhere exactly where the group is `G_m`")
-
-
-def _reducible_group(cubic: FunctionPoly) -> str:
-    """Two rational differences make the third one rational, because their sum, with signs, is an integer."""
-    constants = _split(cubic).constants
-    if len(constants) >= 2 and None not in constants:
-        return _CYCLIC
-    return f"{_CYCLIC}, where {_rational(differences(cubic))}; else `G_m`, or the Borel group"
 
 
 def _rational(names: Iterable[str]) -> str:
@@ -583,7 +565,8 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     lines: list[_DifferenceLine | None] = []
     for square in squares:
         if _is_number(square):
-            lines.append(_constant_line(square))
+            constant = rational_square_root(square)
+            lines.append(None if constant is None else _DifferenceLine(_F(0), constant))
             continue
         line = _line(square, first, root)
         if line is None:
@@ -603,14 +586,6 @@ def _root(square: Poly) -> FunctionPoly | None:
     if root is None:
         return None
     return over_parameters(root)
-
-
-def _constant_line(square: Poly) -> _DifferenceLine | None:
-    """The root of a number; None where it is irrational."""
-    constant = rational_square_root(square)
-    if constant is None:
-        return None
-    return _DifferenceLine(_F(0), constant)
 
 
 def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
@@ -635,21 +610,13 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
     """Where w gives the exponent differences this structure, and the equation isn't reducible."""
     lines = {line for line in single.lines if line is not None and line.slope}
     period = reduce(common_multiple, (2 / abs(line.slope) for line in lines))
-    admitted = _admitted(single, lines, period, structure)
+    # The w modulo the period with this structure: of those at which a line has a denominator of the table.
+    tried = {w for line in lines for w in _numbers_in_table(line, period)}
+    admitted = [w for w in sorted(tried) if single.structure(w) is structure]
     if admitted and single.root is not None:
         equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
         return Congruence.make(equation, admitted, period)
     return _classes_up_to_sign(single.square, admitted, period)
-
-
-def _admitted(
-    single: _OneFunction, lines: Iterable[_DifferenceLine], period: Fraction, structure: Structure
-) -> list[Fraction]:
-    """The w modulo the period with this structure: of those at which a line has a denominator of the table."""
-    found: set[Fraction] = set()
-    for line in lines:
-        found |= _numbers_in_table(line, period)
-    return [w for w in sorted(found) if single.structure(w) is structure]
 
 
 def _classes_up_to_sign(square: FunctionPoly, admitted: Sequence[Fraction], period: Fraction) -> Statement:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from kovacic.parametric.facts import INEQUALITIES, WORDS, Bound, read_facts
+from kovacic.parametric.facts import INEQUALITIES, WORDS, read_facts
 
 #: What SymPy calls numbers that aren't 0, and others, on a side of it.
 _SIGNS = {1: ("positive", "nonnegative"), -1: ("negative", "nonpositive")}
@@ -44,13 +44,6 @@ def sympy_properties(said: tuple[str, ...]) -> list[str]:
     for bound in read_facts(said).bounds:
         is_beyond_zero = bound.sign * bound.end >= 0
         if is_beyond_zero:
-            words.append(_sign_word(bound))
+            strict, weak = _SIGNS[bound.sign]
+            words.append(strict if bound.strict or bound.end != 0 else weak)
     return words
-
-
-def _sign_word(bound: Bound) -> str:
-    """SymPy's word for the sign of numbers with a bound that is 0 or beyond it."""
-    strict, weak = _SIGNS[bound.sign]
-    if bound.strict or bound.end != 0:
-        return strict
-    return weak
