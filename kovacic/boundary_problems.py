@@ -271,12 +271,7 @@ def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[i
 def _wish(condition: Condition) -> Wish:
     if condition.value is None:
         return Bounded()
-    parts = [sympy.Integer(0), sympy.Integer(0)]
-    for term in condition.terms:
-        parts[term.order] += term.coefficient
-    if any(part.free_symbols for part in parts):
-        raise InputError(f"{condition.text}: numbers are expected in it")
-    return Robin(*parts)
+    return Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
 
 
 def _wrap(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:

@@ -260,6 +260,57 @@ def test_the_shift_of_a_potential_is_a_parameter(kind: Any) -> None:
     ]
 
 
+#: Potentials with conditions at an end, the first energies, and whether there are no others.
+WITH_CONDITIONS = [
+    ("x^2", HALF, "y'(0) = 0", (1, 5, 9), True),
+    ("x^2", HALF, "y(0) = 0", (3, 7, 11), True),
+    ("-20/cosh(x)^2", HALF, "y'(0) = 0", (-16, -4), True),
+    ("0", (0, "pi"), "y'(0) = 0, y'(pi) = 0", (0, 1, 4), True),
+    ("0", (0, "pi"), "y'(0) = 0", ("1/4", "9/4", "25/4"), True),
+    ("3", HALF, "y'(0) + 2*y(0) = 0", (-1,), True),
+    ("3", HALF, "y'(0) = 2*y(0)", (), True),
+    ("1/(1 + x^2)", HALF, "y'(0) = 0", (), True),
+    ("1/(1 + x^2)", HALF, "y'(0) + 5*y(0) = 0", (), False),
+    ("x^2", HALF, "y(0) + y'(0) = 0", (), False),
+]
+
+
+@parametrize(("V", "domain", "boundary", "energies", "complete"), WITH_CONDITIONS, ordinary=4)
+def test_conditions_at_an_end(V: str, domain: Any, boundary: str, energies: Any, complete: bool) -> None:
+    """Neumann's at the middle of a symmetric potential gives its even levels; Robin's may have one below the infimum of V."""
+    found = kovacic.spectrum(V, domain=domain, boundary=boundary)
+    assert found.complete == complete
+    states = found.states(count=3)
+    assert [state.energy for state in states] == [*map(sympy.Rational, energies)]
+    assert [state.zeros for state in states] == [*range(len(energies))]
+    assert f"boundary condition: {boundary}" in found.text()
+
+
+@pytest.mark.long
+def test_numeric_levels_obey_the_conditions() -> None:
+    box = kovacic.spectrum("0", domain=(0, 1), boundary="y(0) = y'(0)", levels=1, digits=8)
+    assert "the solutions of sin(sqrt(E)) = -sqrt(E)*cos(sqrt(E))" in box.reason
+    assert abs(float(box.numeric[0].value) - 4.11585837) < 1e-7
+    linear = kovacic.spectrum("x", domain=HALF, boundary="y'(0) = 0", levels=1, digits=8)
+    assert abs(float(linear.numeric[0].value) - 1.018792971647) < 1e-7  # the first zero of Ai'
+    well = kovacic.spectrum("1/(1 + x^2)", domain=HALF, boundary="y'(0) + 5*y(0) = 0", levels=1, digits=8)
+    assert float(well.numeric[0].value) < -24
+
+
+@pytest.mark.parametrize(
+    ("V", "options"),
+    [
+        ("-1/x", {"domain": HALF, "boundary": "y'(0) = 0"}),
+        ("x^2", {"boundary": "y'(0) = 0"}),
+        ("x^2", {"domain": HALF, "boundary": "y'(0) = 1"}),
+        ("x^2", {"domain": HALF, "boundary": "y(0) + k*y'(0) = 0"}),
+    ],
+)
+def test_conditions_that_are_refused(V: str, options: Any) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.spectrum(V, **options)
+
+
 def test_functions_in_pieces_have_numeric_levels() -> None:
     """What is one function on the domain is that function; else the message says how levels are computed."""
     assert kovacic.spectrum("abs(x)^2", domain=HALF).levels == kovacic.spectrum("x^2", domain=HALF).levels

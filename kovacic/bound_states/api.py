@@ -15,6 +15,7 @@ from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
     Ends,
     LevelFamily,
+    Transcendental,
     constant_families,
     hermite_families,
     jacobi_families,
@@ -88,9 +89,10 @@ def spectrum(
         What is known of the parameters, as for `kovacic.conditions`: {"l": ">=0", "Z": "positive"}, or values.  Without it
         the conditions under which a solution is square integrable are part of the answer.
     boundary : str
-        "friedrichs": at an end where both solutions are square integrable the smaller one is meant, which is y = 0 at a
-        regular end.  It is taken, with a note, where such a condition is needed and the operator is bounded below; where
-        solutions oscillate at an end no condition is distinguished, and there is no spectrum without one.
+        Conditions at finite ends where V is regular: "y'(0) = 0", "y(0) = 0, y(1) + 2*y'(1) = 0".  Or "friedrichs": at an
+        end where both solutions are square integrable the smaller one is meant, which is y = 0 at a regular end.  It is taken,
+        with a note, where a condition is needed and none was given, and the operator is bounded below; where solutions
+        oscillate at an end no condition is distinguished, and there is no spectrum without one.
     max_degree : int
         Of a quasi-exactly solvable potential, the levels with a polynomial of at most this degree are given; 2 by default.
     levels : int, optional
@@ -174,7 +176,7 @@ def spectrum(
         if levels is None:
             hint = "the lowest levels of other potentials are computed as proven numbers"
             raise NotRational(str(reason), hint=f"{hint}: levels=5", shell=f"{hint}: --levels 5") from None
-        found = unsolved(V, domain, energy, var, reason)
+        found = unsolved(V, domain, energy, var, boundary, reason)
     return with_numbers(found, levels, digits, limits)
 
 
@@ -240,7 +242,7 @@ class _Examined:
         """The answer, with what was `found`."""
         question = self.question
         plain = question.plain
-        boundary = FRIEDRICHS if question.friedrichs else None
+        boundary = question.boundary.text or (FRIEDRICHS if question.friedrichs else None)
         return Spectrum(
             question.V,
             question.variable,
@@ -252,6 +254,7 @@ class _Examined:
             ends=tuple(end.sentence for end in self.ends),
             excluded=tuple(map(plain, self.excluded)),
             notices=question.notices,
+            conditions=question.boundary.wishes,
             **found,
         )
 
@@ -273,6 +276,11 @@ def _examined(question: SpectralProblem) -> _Examined:
             ends.append(End(at, False, f"{question.variable} -> {at}: V is periodic, at most one solution decays"))
         else:
             ends.append(end_of(real, question.domain, question.signs, is_right=bool(is_right)))
+        wish = question.boundary.wishes[is_right]
+        if wish is not None and not ends[-1].is_regular:
+            raise InputError(
+                f"V isn't regular at {question.variable} = {at}: only Friedrichs' condition is known there"
+            )
     found = _Examined(question, real, tuple(ends), _excluded(question, ends))
     if found.excluded and not question.friedrichs and not any(end.oscillates for end in ends):
         return replace(_examined(question.with_friedrichs_condition()), real=real)
@@ -283,7 +291,8 @@ def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]
     """The relations where both solutions are square integrable at an end and none of them is chosen."""
     signs = question.signs
     excluded: dict[Any, None] = {}
-    for end in ends:
+    free = [end for end, wish in zip(ends, question.boundary.wishes, strict=True) if wish is None]
+    for end in free:
         circle = end.oscillation if question.friedrichs and not end.oscillates else end.circle
         if circle is False or signs.holds(circle) is False:
             continue
@@ -311,8 +320,11 @@ def _answered(examined: _Examined, budget: Budget) -> Spectrum:
         return examined.spectrum(reason=f"undecided: {reason}")
     try:
         families, name = _families(question, budget)
+    except Transcendental as equation:
+        return examined.spectrum(reason=f"undecided: the levels are the solutions of {equation}")
     except Uncovered as uncovered:
-        if not examined.excluded and is_repulsive(examined.real, examined.ends, question.signs):
+        is_settled = not examined.excluded and not question.boundary.is_mixed
+        if is_settled and is_repulsive(examined.real, examined.ends, question.signs):
             return examined.spectrum(complete=True, reason=REASON)
         transformed = _transformed(examined, budget)
         return transformed or examined.spectrum(reason=_why_no_formula(examined, uncovered))
@@ -328,8 +340,9 @@ def _why_no_formula(examined: _Examined, why: Uncovered) -> str:
     wall = next((end.at for end in examined.ends if end.is_ordinary), None)
     if wall is not None:
         where = f"{question.variable} = {caret(str(question.plain(wall)))}"
+        meets = "fulfils the condition" if any(question.boundary.wishes) else "vanishes"
         return (
-            f"undecided: the levels are the energies for which a solution vanishes at {where}, an ordinary point; a formula "
+            f"undecided: the levels are the energies for which a solution {meets} at {where}, an ordinary point; a formula "
             "is known where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
         )
     return f"undecided: {why}" if _is_circular(question) else ""
@@ -352,7 +365,7 @@ def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, li
 def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     """By Darboux' transformation from a potential without apparent singularities; None where there is none."""
     question = examined.question
-    if question.parsed.equation is not None or examined.excluded:
+    if question.parsed.equation is not None or examined.excluded or any(question.boundary.wishes):
         return None
     V = question.signs.real(question.V).xreplace({sympy.Symbol(question.variable): question.x})
     for step in steps(V, question.x, question.domain, question.signs):
@@ -446,7 +459,7 @@ def _families(question: SpectralProblem, budget: Budget) -> tuple[list[LevelFami
         raise Uncovered(
             "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
         )
-    demands = Ends(question.signs, question.friedrichs)
+    demands = Ends.of(question)
     reasons = []
     for frame in frames(question, budget):
         for families, name in _CLASSES:

@@ -126,9 +126,11 @@ class _Window(NamedTuple):
         """From the infimum of V, and the thresholds of the continuous spectrum."""
         thresholds = [end.threshold for end in ends if end.threshold is not None and end.threshold.is_Rational]
         high = min(thresholds, default=None)
+        if real is None or question.boundary.is_mixed:
+            return cls(None, high)
         low = None
         with suppress(Uncovered):
-            if real is not None and not real.original.turning_points(question.domain, question.signs):
+            if not real.original.turning_points(question.domain, question.signs):
                 low = _number_below(real.V, real.t, range_of(real.original, question.domain, question.signs))
         return cls(low, high)
 
@@ -201,7 +203,7 @@ class _ClosedFormSearch:
         for region in self.conditions.regions:
             listed = self._listed(region.statement)
             complete = complete and listed.are_all
-            if not listed.are_all and region.case == 1:
+            if not listed.are_all and region.case == 1 and self._are_examined:
                 higher = self.max_degree + 1
             for number, polynomial in listed.pairs:
                 if not self.window.has_zero_of(polynomial, self.E):
@@ -289,7 +291,7 @@ class _ClosedFormSearch:
             numbers: Sequence[int | None] = (None,)
             if isinstance(parts[-1], Natural):
                 numbers = range(self.max_degree + 1)
-                higher = self.max_degree + 1 if region.case == 1 else higher
+                higher = self.max_degree + 1 if region.case == 1 and self._are_examined else higher
             functions = [part.function.to_sympy(sympy.Dummy()) for part in parts if isinstance(part, Vanishes)]
             is_known = len(functions) + isinstance(parts[-1], Natural) == len(parts)
             for number in numbers if is_known and self._are_examined else ():
@@ -336,7 +338,7 @@ class _ClosedFormSearch:
         exponent = strength if order == -1 else sympy.Integer(0)
         role = "right" if end.is_right else "left"
         spot = Spot(end.point, None, sympy.Integer(end.mu), (role,))
-        return Ends(signs, self.question.friedrichs).conditions(end.domain, spot, sympy.simplify(2 * exponent - 1))
+        return Ends.of(self.question).conditions(end.domain, spot, sympy.simplify(2 * exponent - 1))
 
     def _level(
         self, solution: PolynomialSolution, polynomial: Any, constraint: Any, conditions: Sequence[Any]

@@ -33,7 +33,8 @@ class End:
     `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
     the solutions oscillate at a regular end, which has the same effect.  `threshold` is where
     the continuous spectrum begins at an infinite end; None where it doesn't.  The end is t = `point`, with
-    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.
+    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_ordinary` where the exponents are
+    those at an ordinary point, and `is_regular` where V has a value.
     """
 
     at: Any
@@ -48,6 +49,7 @@ class End:
     mu: int = 4
     direction: int = 1
     is_ordinary: bool = False
+    is_regular: bool = False
 
 
 def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:
@@ -203,7 +205,9 @@ def end_of(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_rig
         end = _unbounded(place, signs)
     else:
         end = _finite(place, signs)
-    return replace(end, domain=domain, is_right=is_right, point=place.point, mu=place.mu, direction=place.direction)
+    is_regular = place.at.is_finite and place.pole <= 0
+    found = replace(end, domain=domain, is_right=is_right, point=place.point, mu=place.mu, direction=place.direction)
+    return replace(found, is_regular=is_regular)
 
 
 def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_right: bool) -> _Place:

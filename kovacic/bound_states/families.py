@@ -36,7 +36,12 @@ import sympy
 
 from kovacic.bound_states.energies import Root, conjugate, solved
 from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered, end_with_role
+from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs
+from kovacic.numerals import as_text
+from kovacic.sturm_liouville.families import family
+from kovacic.sturm_liouville.problem import Robin
+from kovacic.writing.formula import caret
 
 
 @dataclass(frozen=True)
@@ -56,24 +61,38 @@ class LevelFamily:
 
 @dataclass(frozen=True)
 class Ends:
-    """What is demanded of the exponents at the ends; `friedrichs` admits the smaller one of two square integrable solutions."""
+    """What is demanded of the exponents at the ends; `friedrichs` admits the smaller one of two square integrable solutions.
+
+    `wishes` are the conditions that were given at the left and the right end.
+    """
 
     signs: Signs
     friedrichs: bool
+    wishes: tuple[Robin | None, Robin | None] = (None, None)
+
+    @classmethod
+    def of(cls, question: SpectralProblem) -> Ends:
+        return cls(question.signs, question.friedrichs, question.boundary.wishes)
 
     def conditions(self, domain: tuple[Any, Any], spot: Spot, delta: Any) -> list[Any]:
-        """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the Friedrichs one."""
-        ends = [end_with_role(domain, role) for role in spot.end_roles]
-        return [self._condition(end, spot, delta) for end in ends]
+        """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the one that is meant."""
+        return [self._condition(domain, role, spot, delta) for role in spot.end_roles]
 
-    def _condition(self, end: Any, spot: Spot, delta: Any) -> Any:
+    def _condition(self, domain: tuple[Any, Any], role: str, spot: Spot, delta: Any) -> Any:
+        end = end_with_role(domain, role)
+        wish = self.wishes[role == "right"]
+        if wish is not None and not wish.is_zero:
+            # y' = 0 for the smaller exponent, where z - c ~ (x - a)^2 and y is a function of it.
+            if wish.alpha != 0 or spot.p != 2:
+                raise Uncovered("the boundary condition isn't one on exponents")
+            return _above(-delta, 0, strict=False)
         if end.is_infinite and spot.mu < 2:
             raise Uncovered(f"the end {end} is a finite point of the coordinate")
         if end.is_infinite:
             return _above(delta, spot.mu - 2, strict=True)
         if spot.mu >= 2:
             raise Uncovered(f"the end {end} is at infinity in the coordinate")
-        least = 0 if self.friedrichs else 2 / spot.p
+        least = 0 if self.friedrichs or wish is not None else 2 / spot.p
         return _above(delta, least, strict=False)
 
 
@@ -314,22 +333,43 @@ def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamil
     yield from ()
 
 
-def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
-    """A constant V: waves between two walls, where y = 0; none where an end is infinite.
+class Transcendental(Exception):
+    """The equation for the energies, which has no solution in closed form, as a text."""
 
-    Beside an infinite end one solution decays for E < V, which has no zero, and none for E >= V.
+
+def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
+    """A constant V: waves between two walls; beside an infinite end one solution decays, for E < V.
+
+    It has no zero, and fulfils alpha y + beta y' = 0 for one E at most.  Raises `Transcendental` where the numbers of the waves
+    have no formula.
     """
     if frame.S.has(frame.z) or frame.m != 1 or not frame.is_in_x:
         raise Uncovered("V isn't constant")
     first, last = frame.domain
-    if first.is_infinite or last.is_infinite:
-        return
     n = ends.signs.n
-    width = last - first
-    number = sympy.pi * (n + 1) / width
-    wave = sympy.sin(number * (frame.x - first))
     V = sympy.expand(frame.S + E)
-    yield LevelFamily(V + number**2, wave, (sympy.Gt(width, 0),), zeros=n, norm=width / 2)
+    dirichlet = Robin(sympy.S.One, sympy.S.Zero)
+    left, right = (wish or dirichlet for wish in ends.wishes)
+    if first.is_infinite or last.is_infinite:
+        wish, inwards = (left, 1) if last.is_infinite else (right, -1)
+        is_line = first.is_infinite and last.is_infinite
+        rate = sympy.S.Zero if is_line or wish.is_zero else inwards * wish.alpha / wish.beta
+        if rate.is_positive:  # y = exp(-rate distance)
+            distance = inwards * (frame.x - (first if inwards == 1 else last))
+            wave = sympy.exp(-rate * distance)
+            yield LevelFamily(V - rate**2, wave, (sympy.Lt(n, 1),), zeros=n, norm=1 / (2 * rate))
+        return
+    number = sympy.Dummy("number", integer=True, positive=True)
+    found = family(frame.x, sympy.S.Zero, -V, sympy.S.One, E, (first, last), (left, right), n=number)
+    if found is None:
+        raise Uncovered("no formula is known for these conditions")
+    if found.equation is not None:
+        raise Transcendental(f"{caret(as_text(found.equation.lhs))} = {caret(as_text(found.equation.rhs))}")
+    shifted = {number: n + found.first}
+    (wave,) = found.functions
+    norm = (last - first) / 2 if left.is_zero or right.is_zero else None
+    energy = found.value.xreplace(shifted)
+    yield LevelFamily(energy, wave.xreplace(shifted), (sympy.Gt(last - first, 0),), zeros=n, norm=norm)
 
 
 def hermite_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:

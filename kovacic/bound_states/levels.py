@@ -157,6 +157,8 @@ class Spectrum:
         What to give beside for an answer, in Python and at the command line; empty where nothing helps.
     kinetic : sympy.Expr
         k where the equation is -k y'' + V y = E y, hbar^2/(2 m) for instance; 1 by default.
+    conditions : tuple
+        The conditions that were given at the two ends, alpha y + beta y' = 0, as objects with `alpha` and `beta`, or None.
     """
 
     potential: Any
@@ -178,6 +180,7 @@ class Spectrum:
     shell: str = ""
     kinetic: Any = sympy.S.One
     numeric: Any = ()
+    conditions: tuple[Any, Any] = (None, None)
 
     @property
     def needs_boundary_condition(self) -> bool:
@@ -324,7 +327,8 @@ class Spectrum:
         lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {end}" for end in self.ends]
         if self.boundary:
-            lines.append("  boundary condition: the smaller solution at each end (Friedrichs)")
+            shown = "the smaller solution at each end (Friedrichs)" if self.boundary == "friedrichs" else self.boundary
+            lines.append(f"  boundary condition: {shown}")
         for levels in self.levels:
             lines += _lines(levels, self.energy)
         for algebraic in self.algebraic:

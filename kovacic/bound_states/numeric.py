@@ -9,7 +9,7 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.levels import Spectrum
-from kovacic.bound_states.question import read_end
+from kovacic.bound_states.question import read_boundary, read_end
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
@@ -48,18 +48,22 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
         return replace(found, numeric=problem.answer(reason=str(reason)))
 
 
-def unsolved(V: Any, domain: Sequence[Any], energy: str, var: Any, reason: NotRational) -> Spectrum:
+def unsolved(
+    V: Any, domain: Sequence[Any], energy: str, var: Any, boundary: str | None, reason: NotRational
+) -> Spectrum:
     """What is asked about a potential for which no formulas are looked for."""
     potential = read_expression(V, what="the potential") if isinstance(V, str) else sympy.sympify(V)
     variable = str(var or "x")
     parameters = tuple(sorted(s.name for s in potential.free_symbols if s.name != variable))
     ends = tuple(map(read_end, domain))
     said = f"undecided: {reason.args[0]}"
-    return Spectrum(potential, variable, (ends[0], ends[1]), energy, parameters, reason=said)
+    given = read_boundary(boundary, ends, variable)
+    found = Spectrum(potential, variable, (ends[0], ends[1]), energy, parameters, reason=said)
+    return replace(found, boundary=given.text or boundary, conditions=given.wishes)
 
 
 def _problem(found: Spectrum) -> Eigenproblem:
-    """With y = 0 at regular ends, which the Friedrichs condition is there."""
+    """With the conditions that were given, and y = 0 at other regular ends, which the Friedrichs condition is there."""
     x = sympy.Symbol(found.variable)
     if found.potential.has(sympy.I):
         raise InputError("the potential isn't real")
@@ -68,5 +72,5 @@ def _problem(found: Spectrum) -> Eigenproblem:
     wishes: list[Wish] = [None, None]
     for side, end in enumerate(found.domain):
         if is_regular(pieces[-side], problem, end):
-            wishes[side] = Robin(sympy.S.One, sympy.S.Zero)
+            wishes[side] = found.conditions[side] or Robin(sympy.S.One, sympy.S.Zero)
     return Eigenproblem(SturmProblem(x, pieces, (wishes[0], wishes[1])), found.energy)

@@ -14,6 +14,7 @@ from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.exact import exact_text
+from kovacic.general_solution.conditions import ConditionReader, as_mapping
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
@@ -24,13 +25,26 @@ from kovacic.reading.source import source_of
 from kovacic.reading.substitution import with_values
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
 from kovacic.reading.symbolic import names_of, read_expression
-from kovacic.sturm_liouville.problem import STEPS, pieces_of
+from kovacic.sturm_liouville.problem import STEPS, Robin, pieces_of
 from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
 #: Names for the number of a level: the first one that the user hasn't taken.
 _NUMBERS = ("n", "k", "j", "m", "n_")
 _INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """Conditions alpha y + beta y' = 0 at the left and the right end, None where none was given, and their text."""
+
+    wishes: tuple[Robin | None, Robin | None] = (None, None)
+    text: str = ""
+
+    @property
+    def is_mixed(self) -> bool:
+        """Is a condition neither on y nor on y' alone?  Then a level may be below the infimum of V."""
+        return any(wish is not None and wish.alpha != 0 and wish.beta != 0 for wish in self.wishes)
 
 
 @dataclass(frozen=True)
@@ -47,6 +61,7 @@ class SpectralProblem:
     friedrichs: bool
     notices: tuple[str, ...] = ()
     kinetic: Any = sympy.S.One
+    boundary: Boundary = Boundary()
 
     @property
     def x(self) -> Any:
@@ -120,7 +135,7 @@ def read_question(
 
     Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
     """
-    _check_options(energy, boundary)
+    _check_options(energy)
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     ends = [read_end(value) for value in domain]
@@ -164,6 +179,7 @@ def read_question(
         known=known,
         signs=signs,
         friedrichs=boundary == FRIEDRICHS,
+        boundary=read_boundary(boundary, ends, variable.name),
         notices=variable.notices,
         kinetic=signs.real(sympy.sympify(kinetic)),
     )
@@ -197,10 +213,28 @@ def _in_one_piece(given: _Potential, variable: str, energy: str, ends: list[Any]
     return _Potential(pieces[0].Q, pieces[0].Q - sympy.Symbol(energy))
 
 
-def _check_options(energy: Any, boundary: str | None) -> None:
-    """Raises `InputError` for an unknown boundary condition, and for what can't be the name of the energy."""
-    if boundary not in (None, FRIEDRICHS):
-        raise InputError(f"{boundary!r} isn't a boundary condition", hint=f'boundary="{FRIEDRICHS}", or none')
+def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> Boundary:
+    """Conditions at the ends, "y'(0) = 0, y(1) = 0".  Raises `InputError` for others."""
+    if boundary in (None, FRIEDRICHS):
+        return Boundary()
+    if not isinstance(boundary, str) or "=" not in boundary:
+        hint = f'boundary="{FRIEDRICHS}", or a condition at an end: boundary="y\'(0) = 0"'
+        raise InputError(f"{boundary!r} isn't a boundary condition", hint=hint)
+    reader = ConditionReader(sympy.Function("y")(sympy.Symbol(variable)), "y")
+    wishes: list[Robin | None] = [None, None]
+    for key, value in as_mapping(boundary).items():
+        condition = reader.read(key, value)
+        places = [side for side, end in enumerate(ends) if {end} == {*condition.points}]
+        if len(places) != 1 or condition.value != 0 or ends[places[0]].is_infinite:
+            raise InputError(
+                f"{condition.text}: a condition alpha*y + beta*y' = 0 at a finite end of the domain is expected"
+            )
+        wishes[places[0]] = Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
+    return Boundary((wishes[0], wishes[1]), boundary)
+
+
+def _check_options(energy: Any) -> None:
+    """Raises `InputError` for what can't be the name of the energy."""
     if not isinstance(energy, str) or not energy.isidentifier():
         raise InputError(f"{energy!r} can't be the name of the energy")
 

@@ -165,7 +165,9 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
 @options.NAMES
 @options.ASSUME
-@click.option("--boundary", type=click.Choice(["friedrichs"]), help="The smaller solution, where one must be chosen.")
+@click.option(
+    "--boundary", metavar="CONDITIONS", help="At finite ends: y'(0) = 0; or friedrichs, the smaller solution at each."
+)
 @click.option("--max-degree", default=2, show_default=True, help="Quasi-exactly solvable levels up to this degree d.")
 @click.option(
     "--plot", "picture", metavar="FILE", help="Draw the potential with its lowest levels to a file (png, pdf, svg)."

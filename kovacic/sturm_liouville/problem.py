@@ -6,7 +6,7 @@ c1/a. Zeros stay where they are, and alpha y + beta y' = 0 becomes (alpha - beta
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -54,6 +54,16 @@ class Robin:
 
     alpha: Expr
     beta: Expr
+
+    @classmethod
+    def of(cls, terms: Iterable[tuple[int, Expr]], text: str) -> Robin:
+        """From the orders of derivatives with their coefficients.  Raises `InputError` for those that aren't numbers."""
+        parts = [sympy.Integer(0), sympy.Integer(0)]
+        for order, coefficient in terms:
+            parts[order] += coefficient
+        if any(part.free_symbols for part in parts):
+            raise InputError(f"{text}: numbers are expected in it")
+        return cls(*parts)
 
     @property
     def is_zero(self) -> bool:
