@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -203,3 +204,11 @@ def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:
         result = result * point.num + polynomial[k] * power
         power = power * point.den
     return result
+
+
+def over_one_denominator(functions: Sequence[RatFunc]) -> list[Poly]:
+    """The numerators over the least common multiple of the denominators."""
+    common = functions[0].den
+    for f in functions[1:]:
+        common = common * (f.den // common.gcd(f.den))
+    return [f.num * (common // f.den) for f in functions]

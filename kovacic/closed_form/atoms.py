@@ -116,7 +116,8 @@ class Atoms:
                 return -half - root
             return -half + root
         radicand = _positive_radicand(modulus)
-        if radicand is not None and _is_principal(field):
+        real, imaginary = field.approximation or (1, 0)  # the positive root where none in particular is meant
+        if radicand is not None and real > 0 and not imaginary:
             return radical(rational(radicand), modulus.degree)
         return chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
 
@@ -238,7 +239,11 @@ class Atoms:
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
         over = sympy.Poly(polynomial, self.root)
-        roots = _quadratic_roots(*over.all_coeffs()) if over.degree() == 2 else ()
+        roots: list[Expr] = []
+        if over.degree() == 2:
+            a, b, c = over.all_coeffs()
+            half = sympy.sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
+            roots = [sympy.expand_mul(sign * half - b / (2 * a)) for sign in (1, -1)]
         powers = {power for root in roots for power in root.atoms(sympy.Pow)}
         if roots and not any(power.free_symbols and not power.exp.is_Integer for power in powers):
             return Add(*(body.subs(self.root, root) for root in roots))
@@ -259,21 +264,6 @@ def _positive_radicand(modulus: Poly) -> Fraction | None:
     if a is None or a <= 0 or any(modulus[k] for k in range(1, modulus.degree)):
         return None
     return a
-
-
-def _is_principal(field: AlgebraicField) -> bool:
-    """Is the root that is meant positive, or is none in particular?"""
-    if field.approximation is None:
-        return True
-    real, imaginary = field.approximation
-    return real > 0 and not imaginary
-
-
-def _quadratic_roots(a: Expr, b: Expr, c: Expr) -> tuple[Expr, Expr]:
-    """The roots of a t^2 + b t + c."""
-    half = sympy.sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
-    middle = -b / (2 * a)
-    return sympy.expand_mul(middle + half), sympy.expand_mul(middle - half)
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

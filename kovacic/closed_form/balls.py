@@ -149,9 +149,7 @@ def _number(e: Any) -> acb | None:
     if e.is_Rational:
         return acb(arb(fmpq(int(e.p), int(e.q))))
     if e.is_Float:
-        sign, mantissa, exponent, _ = e._mpf_
-        signed = -int(mantissa) if sign else int(mantissa)
-        return acb(arb((signed, int(exponent))))
+        return acb(e)
     if e is sympy.I:
         return acb(0, 1)
     if e in _CONSTANTS:

@@ -135,18 +135,13 @@ def _oriented(form: OnCurve) -> OnCurve:
     square = discriminant(integral.g)
     if square is None or square <= 0:
         return form
-    if not all(_is_real_below_zero(unit(integral.g, residue)) for residue in integral.residues):
-        return form
+    for residue in integral.residues:
+        found = unit(integral.g, residue)
+        value = None if found is None else found.tau_squared.field.rational_value(found.tau_squared)
+        if value is None or value > 0:
+            return form
     zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
     return OnCurve(form.common, -form.kappa_squared, _turned(integral), zeros)
-
-
-def _is_real_below_zero(u: Unit | None) -> bool:
-    """Is tau^2 known to be rational and not positive?"""
-    if u is None:
-        return False
-    value = u.tau_squared.field.rational_value(u.tau_squared)
-    return value is not None and value <= 0
 
 
 def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:

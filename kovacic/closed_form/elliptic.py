@@ -219,7 +219,11 @@ class _Angle:
             n = self.m / n
             of_pi = -of_pi
             of_logarithm = rho
-            z = self._second_argument(tau, atoms)
+            # 2 w/Q, where w(tau) isn't a factor yet
+            x = RatFunc(self.quadratic.field.poly([0, 1]))
+            Q = (1 + tau) * tau * (1 - x.num) * self.quadratic
+            Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
+            z = atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
         terms: list[tuple[Poly, Expr]] = []
         if above and tau != 1:
             Pi = elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
@@ -232,13 +236,6 @@ class _Angle:
             factor = atoms.sqrt(square)
             terms.append((of_logarithm, atanh(factor * z) / factor))
         return terms
-
-    def _second_argument(self, tau: Poly, atoms: Atoms) -> Expr:
-        """2 w/Q of (2), where w(tau) isn't a factor yet."""
-        x = RatFunc(self.quadratic.field.poly([0, 1]))
-        Q = (1 + tau) * tau * (1 - x.num) * self.quadratic
-        Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
-        return atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
 
 
 def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFunc, Expr]:

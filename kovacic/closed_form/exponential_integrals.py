@@ -24,7 +24,7 @@ from fractions import Fraction
 from kovacic.algebra.factors import combination
 from kovacic.algebra.partial_fractions import Residue, prime_part, reduce_poles
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,8 @@ def _at_poles(r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fracti
         if term is not None:
             terms.append(term)
             rest = rest - term.derivative
-        elif _is_line(E, alpha):
+        elif E.is_polynomial and E.num.degree <= (0 if alpha else 1):
+            # Conjugate poles have terms of their own for E = beta x + constant, or for a constant E beside a power of x.
             poles.append(found)
             rest = rest - found.logarithmic
         else:
@@ -158,12 +159,6 @@ def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
         return None
     one = E.field.poly([1])
     return GammaTerm(found.value * Fraction(1, multiplicity), E - e, one, e, 1, -1)
-
-
-def _is_line(E: RatFunc, alpha: Fraction) -> bool:
-    """Is E beta x + constant, or constant beside a power of x, so that conjugate poles have terms of their own?"""
-    largest = 0 if alpha else 1
-    return E.is_polynomial and E.num.degree <= largest
 
 
 def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
@@ -225,7 +220,7 @@ def _with_rational_part(
     den = _denominator(functions, E, alpha)
     basis = [RatFunc(x**j, den) for j in range(_degree(functions, E) + den.degree + 1)]
     images = [w.derivative() + w * rate for w in basis] + candidates
-    wanted, *numerators = _over_one_denominator([r, *images])
+    wanted, *numerators = over_one_denominator([r, *images])
     found = combination(wanted, numerators)
     if found is None:
         return None
@@ -254,11 +249,3 @@ def _degree(functions: list[RatFunc], E: RatFunc) -> int:
     if at_infinity > 0:
         return growth - at_infinity + 1
     return max(growth + 1, 0)
-
-
-def _over_one_denominator(functions: list[RatFunc]) -> list[Poly]:
-    """The numerators."""
-    common = functions[0].field.poly([1])
-    for f in functions:
-        common = common * (f.den // common.gcd(f.den))
-    return [f.num * (common // f.den) for f in functions]

@@ -18,7 +18,6 @@ from kovacic.closed_form.elliptic import elliptic
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.primitive import (
     OpenPrimitive,
-    Primitive,
     RationalPrimitive,
     integrate,
     normalised_constant,
@@ -64,13 +63,13 @@ def integral(h: Product, atoms: Atoms) -> Expr | None:
     return Add(*(c * e for c, e in _terms(one, primitive, (Integer(1), []), atoms)))
 
 
-def _terms(y: Product, primitive: Primitive, first: Factors, atoms: Atoms) -> list[Scaled]:
+def _terms(
+    y: Product, primitive: RationalPrimitive | ExponentialPrimitive, first: Factors, atoms: Atoms
+) -> list[Scaled]:
     """y times the integral."""
     if isinstance(primitive, RationalPrimitive):
         return _rational(y, primitive, first, atoms)
-    if isinstance(primitive, ExponentialPrimitive):
-        return _exponential(y, primitive, first, atoms)
-    raise TypeError(f"{type(primitive).__name__} has no such terms")
+    return _exponential(y, primitive, first, atoms)
 
 
 def _sum(terms: list[Scaled]) -> Expr:
@@ -109,21 +108,13 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
     terms = []
     while pending:
         first = pending.pop()
-        partner = _partner(first, pending)
-        if partner is None:
-            terms.append(atoms.log_sum(first))
+        opposite = [other for other in pending if _is_at_a_point(other) and other.value == -first.value]
+        if opposite and _is_at_a_point(first):
+            pending.remove(opposite[0])
+            terms.append(_logarithm_of_quotient(first, opposite[0], atoms))
         else:
-            pending.remove(partner)
-            terms.append(_logarithm_of_quotient(first, partner, atoms))
+            terms.append(atoms.log_sum(first))
     return terms[::-1]
-
-
-def _partner(residue: Residue, others: Iterable[Residue]) -> Residue | None:
-    """The first of the others with the opposite residue at a single point, if that is one at a single point."""
-    if not _is_at_a_point(residue):
-        return None
-    opposite = (other for other in others if _is_at_a_point(other) and other.value == -residue.value)
-    return next(opposite, None)
 
 
 def _is_at_a_point(residue: Residue) -> bool:
@@ -187,18 +178,13 @@ def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scal
     if s == 0:
         return sympy.Rational(1, n), Ei(beta * t**n)
     if s == Fraction(1, 2):
-        return _error_function(factor, n, t, atoms)
+        is_positive = beta.is_real is not False and not atoms.is_negative(factor)
+        root = atoms.sqrt(factor if is_positive else -factor)
+        function = erfi if is_positive else erf
+        return 1 / (root * n), sqrt(pi) * function(root * t ** sympy.Rational(n, 2))
     order = rational(s)
     z = -beta * t**n
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
     return sympy.Rational(1, n), t ** rational(power + 1) * z**-order * sympy.lowergamma(order, z)
-
-
-def _error_function(factor: Poly, n: int, t: Expr, atoms: Atoms) -> Scaled:
-    """int t^(n/2 - 1) exp(beta t^n) dt, by erfi for beta > 0 and by erf else."""
-    is_positive = atoms.constant(factor).is_real is not False and not atoms.is_negative(factor)
-    root = atoms.sqrt(factor if is_positive else -factor)
-    function = erfi if is_positive else erf
-    return 1 / (root * n), sqrt(pi) * function(root * t ** sympy.Rational(n, 2))

@@ -14,6 +14,7 @@ Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial, reduce
 from math import prod
 from operator import add
@@ -75,15 +76,10 @@ class _Evaluator(BallEvaluator):
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, sympy.Abs | sympy.sign | sympy.Heaviside):
             return self._of_sign(e)
-        if self._is_unknown(e):
+        # a parameter, or a given function without the variable
+        if not e.has(*self.values) if isinstance(e, AppliedUndef) else e.is_Atom and not e.is_number:
             return parameter_value(str(e))
         return self._special(e)
-
-    def _is_unknown(self, e: Any) -> bool:
-        """Is it a parameter, or a given function without the variable?"""
-        if isinstance(e, AppliedUndef):
-            return not e.has(*self.values)
-        return bool(e.is_Atom and not e.is_number)
 
     def _special(self, e: Any) -> BallValue:
         """A special function; a constant that is none of these by SymPy's numbers."""
@@ -104,7 +100,8 @@ class _Evaluator(BallEvaluator):
         if isinstance(e, MATHIEU):
             return self._of_mathieu(e)
         if not e.free_symbols:
-            return _number(e)
+            with suppress(ValueError):  # where mpmath doesn't have the function
+                return acb(e._to_mpmath(ctx.prec))
         raise NotImplementedError(f"the function {e.func} can't be evaluated")
 
     def _of_mathieu(self, e: Any) -> BallValue:
@@ -140,8 +137,13 @@ class _Evaluator(BallEvaluator):
         if not all(c.is_Rational for c in coefficients):
             tolerance = arb(2) ** -ctx.prec
             with working_precision(3 * ctx.prec):  # the roots of a polynomial are less exact than its coefficients
-                precise = _Evaluator({})
-                return _with_real_roots(acb_poly([precise(c) for c in coefficients]), tolerance)
+                precise = list(map(_Evaluator({}), coefficients))
+                roots = acb_poly(precise).roots(tol=tolerance)
+            if not all(c.imag == 0 for c in precise):
+                return list(roots)
+            # Of a real polynomial a root is real if no other ball meets the mirror image of its own.
+            mirrored = [[other for other in roots if other.overlaps(root.conjugate())] for root in roots]
+            return [acb(root.real) if others == [root] else root for root, others in zip(roots, mirrored, strict=True)]
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
         return [root for root, _ in complex_zeros(fmpz_poly([int(c) for c in integers]))]
 
@@ -167,38 +169,6 @@ def _taylor(z: BallValue, values: list[Acb]) -> BallValue:
     """g(z) for a series z, from g and its derivatives at the constant term."""
     step = z - z[0]
     return values[0] + step * (values[1] + step * (values[2] / 2))
-
-
-def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Acb]:
-    """The roots, those of a real polynomial that are certainly real as real balls."""
-    roots = list(polynomial.roots(tol=tolerance))
-    if not all(c.imag == 0 for c in polynomial.coeffs()):
-        return roots
-    return [acb(root.real) if _is_its_conjugate(root, roots) else root for root in roots]
-
-
-def _is_its_conjugate(root: Acb, roots: Sequence[Acb]) -> bool:
-    """The conjugate of a root is a root: itself if no other ball meets the mirror image of its own."""
-    mirror = root.conjugate()
-    return [other for other in roots if other.overlaps(mirror)] == [root]
-
-
-def _number(e: Any) -> Acb:
-    """A constant that isn't made of the functions above."""
-    try:
-        number = e._to_mpmath(ctx.prec)
-    except ValueError:  # mpmath doesn't have the function
-        raise NotImplementedError(f"the function {e.func} can't be evaluated") from None
-    parts = number._mpc_ if hasattr(number, "_mpc_") else (number._mpf_,)
-    return acb(*map(_dyadic, parts))
-
-
-def _dyadic(part: tuple[int, int, int, int]) -> arb:
-    """The number that mpmath writes as (sign, mantissa, exponent, bits)."""
-    sign, mantissa, exponent, _ = part
-    if sign:
-        mantissa = -mantissa
-    return arb((mantissa, exponent))
 
 
 # ------------------------------------------------------------------------------------------ special functions
@@ -249,11 +219,7 @@ _DERIVATIVES: dict[Any, Callable[[Sequence[Acb], Acb], list[Acb]]] = {
 
 #: Functions that SymPy writes by others.
 _REWRITTEN: dict[Any, Any] = {
-    **dict.fromkeys((sympy.sinh, sympy.cosh, sympy.tanh), sympy.exp),
     **dict.fromkeys((sympy.asin, sympy.acos, sympy.asinh, sympy.acosh, sympy.atanh), sympy.log),
-    sympy.sec: sympy.cos,
-    sympy.csc: sympy.sin,
-    sympy.cot: sympy.tan,
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e), sympy.hyper),
 }
 

@@ -97,7 +97,10 @@ def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Co
     if structure is Structure.OCTAHEDRAL:
         J = RatFunc(cube * -ratio, square)
         vertices = root(H, 2, problem)
-        edges = _quotient(edges, vertices)
+        P = edges.P.exact_quotient(vertices.P)
+        if P is None:
+            raise AssertionError("the Jacobian of F8 and its Hessian contains the form of degree 6")
+        edges = Form(edges.degree - vertices.degree, edges.R - vertices.R, P)
     else:
         J = RatFunc(square + cube * ratio, square)
     return Covariants(problem, F, H, vertices, edges, J)
@@ -127,13 +130,6 @@ def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge
             solution(b, b + nu, half + 1, (t, Fraction(1)), (v, -b / nu)),
         ),
     )
-
-
-def _quotient(f: Form, g: Form) -> Form:
-    P = f.P.exact_quotient(g.P)
-    if P is None:
-        raise AssertionError("the Jacobian of F8 and its Hessian contains the form of degree 6")
-    return Form(f.degree - g.degree, f.R - g.R, P)
 
 
 def _product(problem: Problem, gauge: RatFunc, *powers: tuple[Form, Fraction]) -> Product:

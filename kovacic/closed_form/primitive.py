@@ -125,7 +125,11 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
     if not fractional:
         return RationalPrimitive(decompose(rational))
     if all(root.alpha.denominator == 2 for root in fractional):
-        return _on_a_curve(rational, fractional)
+        g = rational.field.poly([1])  # on s^2 = g, g the product of what is under the roots
+        for root in fractional:
+            g = g * root.p
+            rational = rational * RatFunc(root.p) ** int(root.alpha + Fraction(1, 2))
+        return completed(integrate_on_curve(rational, g))
     are_lines = all(root.p.degree == 1 for root in fractional)
     if are_lines and len(fractional) == 1:
         (root,) = fractional
@@ -136,15 +140,6 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
         if (first.alpha + second.alpha).denominator == 1:
             return _with_a_quotient(rational, first, second)
     return "it is an incomplete beta integral, with fractional powers of several factors"
-
-
-def _on_a_curve(rational: RatFunc, roots: list[_Root]) -> Primitive:
-    """int r dx/sqrt(g) for square roots of polynomials, g their product."""
-    g = rational.field.poly([1])
-    for root in roots:
-        g = g * root.p
-        rational = rational * RatFunc(root.p) ** int(root.alpha + Fraction(1, 2))
-    return completed(integrate_on_curve(rational, g))
 
 
 def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitive | str:

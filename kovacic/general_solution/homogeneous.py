@@ -11,6 +11,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.form import at_edges
 from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
@@ -19,7 +20,6 @@ from kovacic.errors import LimitExceeded
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.real_basis import are_independent
 from kovacic.general_solution.textbook import of_chebyshev, with_waves
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget

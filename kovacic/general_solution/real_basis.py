@@ -6,17 +6,13 @@ well; otherwise the real and the imaginary part of each solution are solutions, 
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import Any
 
 import sympy
-from flint import acb
 from sympy.functions.special.bessel import BesselBase
 
-from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import DIGITS, is_numerical_solution
-from kovacic.closed_form.jets import jet
+from kovacic.closed_form.check import are_independent, is_numerical_solution
 from kovacic.equation import Equation
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.variation import is_solution, rates
@@ -45,14 +41,6 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
         if are_independent(candidates[0], second, x):
             return candidates[0], second
     return y1, y2
-
-
-def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
-    """Is the Wronskian seen not to be zero at a point?"""
-    with working_digits(DIGITS), suppress(NotImplementedError):
-        (u, du, _), (v, dv, _) = (jet(y, x, acb("0.37", "0.61")) for y in (y1, y2))
-        return not (u * dv - du * v).contains(0)
-    return False
 
 
 def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:

@@ -202,7 +202,7 @@ def _solutions_at(
 
 def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any]) -> bool:
     """True if y provably doesn't solve the equation with this normal form at values of the parameters."""
-    from kovacic.closed_form.check import residual_in
+    from kovacic.closed_form.check import residual
 
     x = t = sympy.Symbol(equation.variable)
     if equation.change is not None:
@@ -210,7 +210,7 @@ def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any])
         t = function_of_x(equation).xreplace(values)
     try:
         with working_precision(_PRECISION):
-            return not residual_in(y, x, t, S, equation.gauge, acb(fmpq(13, 7))).contains(0)
+            return not residual(y, x, S, equation.gauge, acb(fmpq(13, 7)), inner=t).contains(0)
     except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
         return False
 

@@ -195,6 +195,8 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
 
     Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
     """
+    import sympy
+
     nu = writer.square_root(nu_squared)
     if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t)):
         first, second = (
@@ -206,28 +208,14 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
     four_t = t * -4 if modified else t * 4
     z = writer.root_of(four_t)
     degree = next((m - HALF for m in (nu, -nu) if writer.is_degree(m - HALF)), None)
-    if degree is not None and not modified:
-        return _spherical(writer, degree, t, z)
-    return _cylindrical(writer, nu, t, z, modified=modified)
-
-
-def _spherical(writer: Writer, degree: Number, t: RatFunc, z: Expr) -> tuple[Expr, Expr]:
-    """J_nu = sqrt(2 z/pi) j_n, n the degree."""
-    import sympy
-
-    n = writer.constant(degree)
-    before = writer.factor(t, [(Number(degree.part * 0 + Fraction(3, 4)), t)])
-    return writer.pair((before, sympy.jn(n, z)), (before, sympy.yn(n, z)))
-
-
-def _cylindrical(writer: Writer, nu: Number, t: RatFunc, z: Expr, *, modified: bool) -> tuple[Expr, Expr]:
-    import sympy
-
-    order = writer.constant(nu)
-    kinds = (sympy.besseli, sympy.besselk) if modified else (sympy.besselj, sympy.bessely)
-    first, second = (kind(order, z, evaluate=False) for kind in kinds)
-    before = writer.factor(t, [(Number(nu.part * 0 + HALF), t)])
-    return writer.pair((before, first), (before, second))
+    kinds, order, power = (sympy.besselj, sympy.bessely), nu, HALF
+    if modified:
+        kinds = (sympy.besseli, sympy.besselk)
+    elif degree is not None:  # J_nu = sqrt(2 z/pi) j_n
+        kinds, order, power = (sympy.jn, sympy.yn), degree, Fraction(3, 4)
+    before = writer.factor(t, [(Number(nu.part * 0 + power), t)])
+    first, second = ((before, kind(writer.constant(order), z, evaluate=False)) for kind in kinds)
+    return writer.pair(first, second)
 
 
 # ------------------------------------------------------------------------------------------ values

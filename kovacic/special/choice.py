@@ -26,7 +26,7 @@ from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.closed_form.check import check_point
+from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.form import EXACT, ClosedForm, verified, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
@@ -184,7 +184,7 @@ class _Equation:
         forms = (ClosedForm(*pair, Symbol(self.variable), self.gauge, EXACT, build=made) for pair in pairs)
         if self.decision.case != 1:  # in an irreducible equation what differs by its exponents is independent
             return next(forms)
-        return next(filter(_are_independent, forms), None)
+        return next((form for form in forms if are_independent(form.y1, form.y2, form.variable)), None)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
         """The preferred one, written: its true length, and whether an integral is left, may be other than was thought."""
@@ -209,19 +209,6 @@ class _Equation:
         with working_digits(_DIGITS):
             point = _middle_of_the_domain(den)
             return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
-
-
-def _are_independent(pair: ClosedForm) -> bool:
-    """True if the Wronskian is proven not to be zero at a point."""
-    # Where both solutions grow alike, y z' and y' z agree in many digits although W isn't 0.
-    for digits in (_DIGITS, 4 * _DIGITS, 16 * _DIGITS):
-        with working_digits(digits):
-            y, dy, _ = jet(pair.y1, pair.variable, check_point())
-            z, dz, _ = jet(pair.y2, pair.variable, check_point())
-            W = y * dz - dy * z
-            if W.is_finite() and not W.contains(0):
-                return True
-    return False
 
 
 def _middle_of_the_domain(den: RationalPoly) -> Any:

@@ -64,7 +64,7 @@ def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden
     """
     if len(points) > _PLACES:
         return
-    for zeros, poles, f in _functions(_Search(points, apparent, budget, hidden)):
+    for zeros, poles, f in _functions(_Distribution(points, apparent, budget, hidden)):
         ones = _difference_at_ones(f, zeros.degree, [*points, *apparent])
         if ones is not None:
             yield Covering(f, zeros.square, ones, poles.square)
@@ -97,7 +97,7 @@ class _Fibre:
 
 
 @dataclass(frozen=True)
-class _Search:
+class _Distribution:
     points: list[Point]
     apparent: list[Point]
     budget: Budget
@@ -116,7 +116,7 @@ class _Search:
         return _count(self.points) - 2 - elsewhere - self.hidden
 
 
-def _functions(search: _Search) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
+def _functions(search: _Distribution) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
     """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
     tried = set()
     for zeros, poles, rest in _distributed(search):
@@ -130,7 +130,7 @@ def _functions(search: _Search) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
             yield zeros, poles, f
 
 
-def _distributed(search: _Search) -> Iterator[tuple[_Fibre, _Fibre, list[Point]]]:
+def _distributed(search: _Distribution) -> Iterator[tuple[_Fibre, _Fibre, list[Point]]]:
     """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
     among = search.among
     by_degree: dict[int, list[_Fibre]] = {}

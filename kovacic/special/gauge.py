@@ -32,7 +32,7 @@ from kovacic.algebra.factors import dependence
 from kovacic.algebra.factors import product as product_of
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.limits import count_work
@@ -215,13 +215,10 @@ def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, Rat
 def _polynomial_solution(operator: _Operator, degree: int) -> Poly | None:
     """A polynomial of this degree at most, not 0, that the operator takes to 0."""
     x = operator[0].field.poly([0, 1])
-    den = x**0
-    for c in operator:
-        den = den * (c.den // den.gcd(c.den))
-    cleared = [(c * den).num for c in operator]
+    cleared = over_one_denominator(operator)
     columns = []
     for i in range(degree + 1):
-        column = den * 0
+        column = x * 0
         falling = 1  # i (i - 1) ... (i - k + 1)
         for k, coefficient in enumerate(cleared[: i + 1]):
             column = column + coefficient * falling * x ** (i - k)

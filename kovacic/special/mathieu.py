@@ -34,7 +34,8 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
     T = function_of_x(equation)
     angle = T.args[0]
     is_tangent = T.func is tan
-    if _has_pole_elsewhere(S, is_tangent=is_tangent):
+    infinite = S.field.poly([1, 0, 1] if is_tangent else [0, 1])  # 0 where x is: exp(k x) = 0, or tan(k x)^2 = -1
+    if S.den.remove(infinite)[0].degree > 0:
         return None
     s = T.diff(x).xreplace({T: t})
     f = cancel(s**2 * Atoms(t).ratio(S) - s * s.diff(t, 2) / 2 + s.diff(t) ** 2 / 4)
@@ -60,14 +61,6 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
     z = sympy.expand((unit * angle - shift) / 2)
     return factor * mathieuc(a, q, z), factor * mathieus(a, q, z)
-
-
-def _has_pole_elsewhere(S: RatFunc, *, is_tangent: bool) -> bool:
-    """Has S another pole than where x is infinite: exp(k x) = 0, or tan(k x)^2 = -1?"""
-    field = S.field
-    infinite = field.poly([1, 0, 1]) if is_tangent else field.poly([0, 1])
-    others, _ = S.den.remove(infinite)
-    return others.degree > 0
 
 
 def _size_and_shift(cosine: Expr, sine: Expr) -> tuple[Expr, Expr]:

@@ -235,11 +235,6 @@ class BySign:
     natural: tuple[Any, Any]
     negative: tuple[Any, Any] | None
 
-    @property
-    def pairs(self) -> tuple[tuple[Any, Any], tuple[Any, Any] | None]:
-        """Both."""
-        return self.natural, self.negative
-
 
 def by_sign(
     S: RatFunc, gauge: RatFunc, variable: str, budget: Budget, *, symbols: Mapping[str, Any], joined: bool
@@ -264,36 +259,23 @@ def by_sign(
 
     from kovacic.special.writer import Writer
 
+    writer = Writer(gauge, sympy.Symbol(variable), symbols)
+    best = None
     try:
         with budget.watched():
-            writer = Writer(gauge, sympy.Symbol(variable), symbols)
-            return _by_sign(pullback, S, writer, joined=joined)
+            for found in _helpful(pullback, writer, S.den if joined else None):
+                best = best or found
+                if found.negative is not None:
+                    best = found
+                    break
+            if best is None:
+                return None
+            for y in (*best.natural, *(best.negative or ())):
+                _check(y, writer.atoms.x, S, gauge)
     except LimitExceeded:
         return None
-
-
-def _by_sign(pullback: Pullback, S: RatFunc, writer: Writer, *, joined: bool) -> BySign | None:
-    """The first integer whose sign helps both ways, else the first that helps one; its solutions are checked at a point."""
-    singular = S.den if joined else None
-    best = _best(_helpful(pullback, writer, singular))
-    if best is None:
-        return None
-    for pair in best.pairs:
-        for y in pair or ():
-            _check(y, writer.atoms.x, S, writer.gauge)
-    natural = _in_own_symbols(best.natural, writer)
     negative = None if best.negative is None else _in_own_symbols(best.negative, writer)
-    return BySign(best.integer.xreplace(_own_symbols(writer)), natural, negative)
-
-
-def _best(candidates: Iterator[BySign]) -> BySign | None:
-    """The first with solutions for both signs, else the first."""
-    best = None
-    for found in candidates:
-        if found.negative is not None:
-            return found
-        best = best or found
-    return best
+    return BySign(best.integer.xreplace(_own_symbols(writer)), _in_own_symbols(best.natural, writer), negative)
 
 
 def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Iterator[BySign]:
