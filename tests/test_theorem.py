@@ -20,6 +20,7 @@ from build import Conditions, parametrize, run
 import kovacic
 from kovacic.parametric.cases import solvable_cases
 from kovacic.parametric.check import Sampler
+from kovacic.parametric.prose import text_of
 from kovacic.parametric.riemann import Schwarz, kimura
 from kovacic.parametric.statements import Both, Either, Statement
 from kovacic.views.theorem import blocks
@@ -145,10 +146,10 @@ def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
 
 
 @parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(2, 5), Fraction(7, 4)], ordinary=0, long=2)
-@pytest.mark.slow
 def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fraction) -> None:
     answer = kovacic.conditions(hypergeometric(("l", "m", str(third))), var="x")
-    rows = [row for region in answer.regions for part in schwarz_parts(region.statement) for row in part.resolved()[1]]
+    parts = [part for region in answer.regions for part in schwarz_parts(region.statement)]
+    rows = [(kind, [*map(text_of, words)]) for part in parts for kind, words in part.resolved().rows]
     for l, m in product((Fraction(i, 60) for i in range(-7, 150, 3)), repeat=2):  # noqa: E741
         found = {
             kind
@@ -162,7 +163,7 @@ def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fractio
 
 def _lies_in(value: Fraction, text: str) -> bool:
     """`+-1/3 + 2*Z`."""
-    match = re.fullmatch(r"`\+-(\S+) \+ (2\*)?Z`", text)
+    match = re.fullmatch(r"\+-(\S+) \+ (2\*)?Z", text)
     assert match is not None
     modulus = 2 if match[2] else 1
     return any((value - sign * Fraction(match[1])) % modulus == 0 for sign in (1, -1))
@@ -238,7 +239,6 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
     ordinary=0,
     long=2,
 )
-@pytest.mark.slow
 def test_printed_weights_leave_a_polynomial_of_the_printed_degree(name: str, values: dict[str, Any]) -> None:
     """For theta = y'/y with P = 1, theta' + theta^2 - S has its poles with no more orders, and x^d fits at infinity."""
     right = parsed(FAMILIES[name], values)
@@ -272,7 +272,6 @@ def test_polynomials_are_printed_in_factors() -> None:
 
 
 @parametrize("name", FAMILIES, ordinary=1, long=6)
-@pytest.mark.slow
 def test_words_and_formulas_are_kept_apart(name: str) -> None:
     """No formula stands among the words, where LaTeX would print it raw."""
     for block in blocks(conditions(name)):
@@ -345,11 +344,10 @@ def test_the_command_prints_the_theorem(capsys: pytest.CaptureFixture[str]) -> N
         # One of several forms; the variable comes first.
         (hypergeometric(("l", "m", "n")), "(1) one of l + m + n, l + m - n, l - m + n or l - m - n is an odd integer."),
         ("b/(x-c)^2 + q + r/(x-c)", "y'' = (q + r/(x - c) + b/(x - c)^2) y"),
-        ("b/(x-c)^2 + q + r/(x-c)", "y = (x - c)^((sqrt(4*b + 1) + 1)/2)"),
+        ("b/(x-c)^2 + q + r/(x-c)", "y = (x - c)^(sqrt(4*b + 1)/2 + 1/2)"),
     ],
     ordinary=3,
 )
-@pytest.mark.slow
 def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> None:
     text = kovacic.conditions(S, var="x").theorem()
     assert sentence in text

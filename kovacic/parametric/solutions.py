@@ -35,6 +35,7 @@ from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.parametric.letters import Letters
 from kovacic.parametric.powers_of_factors import gathered
+from kovacic.parametric.prose import Words
 from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
 from kovacic.writing.formula import caret
 
@@ -132,15 +133,15 @@ class PolynomialSolution:
         exclusion = self.exclusion(letter)
         if exclusion and not self.degree.is_Symbol:
             degree = f"{letter} = {degree}"
-        return f"{degree} is a natural number{exclusion}"
+        return f"{degree} is a natural number{prose.text_of(exclusion)}"
 
-    def exclusion(self, d: str) -> str:
-        """Where y vanishes identically for the degree d; "" where it never does."""
+    def exclusion(self, d: str) -> Words:
+        """Where y vanishes identically for the degree d; () where it never does."""
         if not self.jacobi or any(a.is_number and not (a.is_Integer and a < 0) for a in self.jacobi):
-            return ""
+            return ()
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
-        return f", unless {a} and {b} are integers from -{name} to -1 with a sum below -{name}"
+        return prose.phrase(f", unless `{a}` and `{b}` are integers from `-{name}` to -1 with a sum below `-{name}`")
 
 
 #: From the degree d, if there is one to be chosen.
@@ -271,8 +272,8 @@ class WeightBySigns(NamedTuple):
     signs: int
 
 
-def weight_by_signs(problem: Problem, variable: str, P: Any) -> WeightBySigns | None:
-    """y = exp(int theta) P, deg P = degree, for all choices of the exponents at once, which signs choose.
+def weight_by_signs(problem: Problem, variable: str) -> WeightBySigns | None:
+    """exp(int theta), by which P of the `degree` is a solution, for all choices of the exponents, which signs choose.
 
     None where the exponents need too large an extension, or other roots than square roots.
     """
@@ -282,8 +283,7 @@ def weight_by_signs(problem: Problem, variable: str, P: Any) -> WeightBySigns | 
     x = sympy.Symbol(variable)
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
-        y = P
-        degree = sympy.Integer(1)
+        y = degree = sympy.Integer(1)
         left = list(signs)
         for choices in parts:
             sign = left.pop(0) if len(choices) > 1 else None

@@ -262,22 +262,22 @@ class _TheoremWriter:
             degree = _name(letter.name).equals(degree)
         yield Formula(self._named_solution(replace(solution, y=y)))
         is_named = y.has(letter) and bool(solution.exclusion(letter.name))
-        exclusion = solution.exclusion(letter.name) if is_named else ""
-        yield say("where ", degree, f" is a natural number{exclusion}", *_chosen(self._signs_in(solution)), ".")
+        exclusion = solution.exclusion(letter.name) if is_named else ()
+        yield say("where ", degree, " is a natural number", *exclusion, *_chosen(self._signs_in(solution)), ".")
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
         """exp(int theta) P for the exponents of the region; P has the degree d."""
         from kovacic.engine.places import analyse
 
         P = sympy.Symbol(f"P_{natural.letter}")
-        weight = weight_by_signs(analyse(natural.S, Budget(DEFAULT_LIMITS)), self.answer.variable, P)
+        weight = weight_by_signs(analyse(natural.S, Budget(DEFAULT_LIMITS)), self.answer.variable)
         if weight is None or weight.signs > len(self.signs):
             return
         solution = weight.solution(self.signs)
         if isinstance(region.formulas, GivenSolutions):
             equation, _ = region.formulas.pieces[0]
             solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))
-        yield Formula(self._named_solution(solution))
+        yield Formula(self._named_solution(replace(solution, y=P * solution.y)))
         degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
         yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(self._signs_in(solution)), ".")
 
