@@ -388,3 +388,12 @@ def test_the_generic_case_is_stated_after_the_others_or_for_all_values() -> None
     oscillator = kovacic.conditions("2/x^2 + a", var="x").theorem()
     assert "For all values it is case 1." in oscillator
     assert "Otherwise" not in oscillator
+
+
+def test_the_polynomial_of_a_determinant_is_one_in_the_variable_of_the_normal_form() -> None:
+    """And theta, whose equation is printed, belongs to the solution v of the normal form."""
+    text = kovacic.conditions("exp(4*x) + a*exp(2*x) + b*exp(x) + c", max_degree=0).theorem()
+    assert "y = P_d*exp(" in text
+    assert "with a polynomial P_d in t of degree d = " in text
+    assert "with theta the logarithmic derivative of v/P_d." in text
+    assert "with theta the logarithmic derivative of y/P_d." in kovacic.conditions("x^4+a*x^2+b*x+c", var="x").theorem()

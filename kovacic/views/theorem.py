@@ -101,11 +101,19 @@ class _TheoremWriter:
         if equation is None or equation.is_normal_form:
             yield Formula(self._normal_form("y"))
             return
-        v = "v" if equation.unknown != "v" else "u"
+        v = self._unknown
         yield Formula(Math(str(equation), latex_text(equation.text(caret=False))))
         yield say(*self._change(), "becomes, with ", *self._substitution(v), ", its normal form")
         yield Formula(self._normal_form(v))
         yield say("Each of the two equations")
+
+    @property
+    def _unknown(self) -> str:
+        """That of the normal form: y where that is the equation itself."""
+        equation = self.answer.equation
+        if equation is None or equation.is_normal_form:
+            return "y"
+        return "v" if equation.unknown != "v" else "u"
 
     def _about_parameters(self) -> list[str | Math]:
         """`Let a and b be complex numbers, b > 0, a != 1. `; nothing where there are no parameters."""
@@ -279,7 +287,12 @@ class _TheoremWriter:
             solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))
         yield Formula(self._named_solution(replace(solution, y=P * solution.y)))
         degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
-        yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(self._signs_in(solution)), ".")
+        in_t: list[str | Math] = []
+        if self._variable != self.answer.variable:
+            in_t = [" in ", _name(self.answer.variable)]
+        yield say(
+            "with a polynomial ", _name(P.name), *in_t, " of degree ", degree, *_chosen(self._signs_in(solution)), "."
+        )
 
     def _signs_in(self, solution: PolynomialSolution) -> list[sympy.Symbol]:
         """The symbols for signs that occur in a formula or its degree."""
@@ -338,7 +351,8 @@ class _TheoremWriter:
             _name(d), ", has a solution", *_where_several_vanish(self.answer.regions), ":"
         )  # fmt: skip
         yield Formula(Math(text, latex))
-        yield say("with ", theta, " the logarithmic derivative of ", Math(f"y/P_{d}", f"y/P_{{{d}}}"), ".")
+        v = self._unknown
+        yield say("with ", theta, " the logarithmic derivative of ", Math(f"{v}/P_{d}", f"{v}/P_{{{d}}}"), ".")
 
     # The proof
 
