@@ -56,7 +56,7 @@ ENGINE_TESTS = ("tests/test_cases.py", "tests/test_engine_properties.py", "tests
 #: The files of a part of the package, and the tests that should notice a fault there.
 PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "verify": (("kovacic/verify/*.py",), (*ENGINE_TESTS, "tests/test_galois.py")),
-    "engine": (("kovacic/engine/*.py",), ENGINE_TESTS),
+    "engine": (("kovacic/engine/*.py",), (*ENGINE_TESTS, "tests/test_paper_steps.py")),
     "galois": (("kovacic/galois/*.py",), ("tests/test_galois.py", "tests/test_jacobian.py", "tests/test_verify.py")),
     "algebra": (("kovacic/algebra/*.py",), ("tests/test_algebra.py", *ENGINE_TESTS)),
     "checker": (("kovacic/checker.py",), ("tests/test_checker.py", "tests/test_json.py")),

@@ -598,3 +598,12 @@ def test_square_roots_in_number_fields(modulus: list[int], over: list[int] | Non
         assert found in (root, -root)
         assert field.sqrt(root * root * 7) is None
         assert field.sqrt(root * root * (c * c + 1000)) is None
+
+
+def test_ordinary_points_are_tried_outwards_from_0() -> None:
+    """0, 1, -1, 2, -2, ...: the first one at which a polynomial modulo p isn't 0."""
+    p = 10007
+    den = nmod_poly([1], p)
+    for point in (0, 1, -1, 2, -2, 3):
+        assert modular.ordinary_point(den) == point
+        den = den * nmod_poly([-point % p, 1], p)

@@ -154,3 +154,22 @@ def test_a_tower_over_parameters() -> None:
     assert (r + 1) * (r + 1).inverse() == 1
     f, g = (L.poly([0, 1]) - r) * (L.poly([0, 1]) + t), (L.poly([0, 1]) - r) * (L.poly([0, 1]) - 3)
     assert f.gcd(g) == L.poly([0, 1]) - r
+
+
+@settings(max_examples=25)
+@given(polynomials(), polynomials())
+def test_cleared_quotients_have_one_form(f: Poly, g: Poly) -> None:
+    """Polynomials in s and t without a common factor, the leading coefficient of the denominator positive: -f/-g is f/g."""
+    if not g:
+        return
+    above, below = K.cleared(f, g)
+    assert above * g == below * f
+    assert above.den.is_one()
+    assert below.den.is_one()
+    assert int(below.num.leading_coefficient()) > 0
+    assert (above, below) == K.cleared(-f, -g) == K.cleared(f * (s + 1) / 3, g * (s + 1) / 3)
+
+
+def test_a_constant_denominator_is_cleared_with_its_sign() -> None:
+    above, below = K.cleared(x / (s + 1), K.poly([-1]))
+    assert (str(above), str(below)) == ("-x", "s + 1")
