@@ -237,6 +237,19 @@ def test_a_short_pair_is_independent_where_both_solutions_grow() -> None:
     assert sum(len(str(y)) for y in pair) < 200
 
 
+@pytest.mark.parametrize("k", [2 * 10**9 + 1, -2 * 10**9 - 1, 10**6 + 1, -(10**6) - 3])
+def test_polynomials_of_huge_degree_have_names(k: int) -> None:
+    """y'' = (x^2 + k) y has exp(+-x^2/2) times Hermite's polynomial of degree (|k| - 1)/2, which is right near 0."""
+    pair = kovacic.solve(f"x^2 + {k}").special.solutions
+    assert sum(len(str(y)) for y in pair) < 150
+    for y, start in zip(pair, ([1, 0], [0, 1]), strict=True):
+        series = [Fraction(c) for c in start]
+        for n in range(30):
+            series.append((k * series[n] + (series[n - 2] if n > 1 else 0)) / ((n + 1) * (n + 2)))
+        expected = sum(sympy.Rational(c) * sympy.Rational(1, 10**5) ** n for n, c in enumerate(series))
+        assert abs(y.subs(x, sympy.Rational(1, 10**5)).evalf(30) / expected.evalf(30) - 1) < 1e-20
+
+
 # ------------------------------------------------------------------------------------------ all doors
 
 

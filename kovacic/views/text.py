@@ -119,9 +119,9 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
 
     Where there is no Liouvillian solution, the two in special functions, or which were looked for; for an undecided equation
-    these two if they are known under the assumptions.
+    these two if they are found.
     """
-    if answer.status is Status.UNDECIDED and not (answer.known and derived.special(answer)):
+    if answer.status is Status.UNDECIDED and not derived.special(answer):
         return
     semi = answer.semi_invariant
     if semi is not None and semi.P.degree > LARGEST_DEGREE:
