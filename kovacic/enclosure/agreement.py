@@ -195,13 +195,8 @@ class _Enumeration:
         if beside_known is _Element.UNCLEAR or len(angles) > 1:
             return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
         if beside_known is _Element.OTHER:
-            return self._add_new(candidate, angles[0])
-        return None
-
-    def _add_new(self, element: acb_mat, angle: Fraction) -> Agreement | None:
-        """An element that differs from all the others; a verdict where these are too many then."""
-        self.elements.append(element)
-        self.found[angle] += 1
+            self.elements.append(candidate)
+            self.found[angles[0]] += 1
         if len(self.elements) > self.order:
             return Agreement(False, f"the monodromy group has more elements than {self.group}")
         return None
@@ -261,12 +256,13 @@ class _Possible:
 
     def torsion(self) -> bool:
         """Is it possible that all the eigenvalues are roots of unity?"""
-        return all(_may_have_finite_order(word) for word in self.words)
+        orders = range(1, _HIGHEST_ORDER + 1)  # that are tried
+        return all(any(_may_have_order(word, k) for k in orders) for word in self.words)
 
     def primitive(self) -> bool:
         """Is one of the three finite groups possible?"""
         longer = [*self.words, *self.commutators, *_products(self.words)]
-        return any(_may_lie_in(longer, kind) for kind in _PRIMITIVE)
+        return any(all(_may_be_in(m, kind) for m in longer) for kind in _PRIMITIVE)
 
 
 def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
@@ -295,16 +291,10 @@ def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | N
     if group.kind in _IMPRIMITIVE and not possible.monomial:
         return "the squares of the monodromy matrices don't commute, unlike those of"
     if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
-        return _contradiction_of_order(possible.words, group.n, fuchsian)
-    return None
-
-
-def _contradiction_of_order(words: list[acb_mat], n: int, fuchsian: bool) -> str | None:
-    """The same for a group whose eigenvalues are the n-th roots of unity."""
-    if not all(_may_have_order(word, n) for word in words):
-        return "an eigenvalue of a monodromy matrix isn't a root of unity of"
-    if fuchsian and _is_proper_order(words, n):
-        return "the eigenvalues of the monodromy matrices have a lower order than those of"
+        if not all(_may_have_order(word, group.n) for word in possible.words):
+            return "an eigenvalue of a monodromy matrix isn't a root of unity of"
+        if fuchsian and _is_proper_order(possible.words, group.n):
+            return "the eigenvalues of the monodromy matrices have a lower order than those of"
     return None
 
 
@@ -313,24 +303,13 @@ def _may_be_smaller(possible: _Possible, group: Group) -> bool:
     if group.kind is GroupKind.MULTIPLICATIVE:
         return possible.torsion()
     if group.kind is GroupKind.ADDITIVE:
-        return possible.commuting and _may_have_trivial_powers(possible.words, group.n or 1)
+        n = group.n or 1
+        return possible.commuting and (n >= _LARGEST_POWER or _may_be_identities(word**n for word in possible.words))
     if group.kind is GroupKind.BOREL:
         return possible.commuting or possible.torsion()
     if group.kind is GroupKind.INFINITE_DIHEDRAL:
         return possible.reducible or possible.torsion()
     return True  # of the others nothing is tried
-
-
-def _may_have_trivial_powers(words: list[acb_mat], n: int) -> bool:
-    """Can all the n-th powers be 1?"""
-    if n >= _LARGEST_POWER:
-        return True
-    return _may_be_identities(word**n for word in words)
-
-
-def _may_have_finite_order(m: acb_mat) -> bool:
-    """Can the eigenvalues be roots of unity of an order that is tried?"""
-    return any(_may_have_order(m, k) for k in range(1, _HIGHEST_ORDER + 1))
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:
@@ -344,17 +323,12 @@ def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
     if n > _LARGEST:
         return False
-    prime_divisors = [int(p) for p, _ in fmpz(n).factor()]
-    return any(_have_order(words, n // p, p) for p in prime_divisors)
-
-
-def _have_order(words: list[acb_mat], k: int, p: int) -> bool:
-    """Are the eigenvalues, k p-th roots of unity with p prime, provably k-th ones?
-
-    Their k-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
-    """
-    bound = _cosine(Fraction(1, p)).real
-    return all((word**k).trace().real > bound for word in words)
+    for p in (int(p) for p, _ in fmpz(n).factor()):
+        # The n/p-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
+        bound = _cosine(Fraction(1, p)).real
+        if all((word ** (n // p)).trace().real > bound for word in words):
+            return True
+    return False
 
 
 def _words(generators: list[acb_mat]) -> list[acb_mat]:
@@ -379,11 +353,6 @@ def _may_be_identity(m: acb_mat) -> bool:
 
 def _may_be_identities(matrices: Iterable[acb_mat]) -> bool:
     return all(map(_may_be_identity, matrices))
-
-
-def _may_lie_in(matrices: Iterable[acb_mat], kind: GroupKind) -> bool:
-    """Can all these matrices be elements of this primitive group?"""
-    return all(_may_be_in(m, kind) for m in matrices)
 
 
 def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:

@@ -20,7 +20,7 @@ import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
@@ -388,8 +388,4 @@ def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool
         over = acb_poly(top)
         under = acb_poly(form.d)
         with working_precision(_BITS):
-            _check_pieces(a, b, partial(_misses, over, under, acb(c)))
-
-
-def _misses(over: acb_poly, under: acb_poly, c: acb, x: acb) -> bool:
-    return _off(c * over(x) / under(x))
+            _check_pieces(a, b, lambda x, c=c, over=over, under=under: _off(acb(c) * over(x) / under(x)))

@@ -316,23 +316,18 @@ def omega(problem: NumericProblem, which: int, x0: ExactPoint, bits: int) -> acb
     while prec <= max(4 * bits, _HIGHEST):
         with working_precision(prec):
             found = omegas(problem, x0)
-            if found:
-                _check_number(which, len(found))
+            if found and not 0 <= which < len(found):
+                names = "only which = 0" if len(found) == 1 else f"which = 0, ..., {len(found) - 1}"
+                raise InputError(
+                    f"which = {in_a_message(which)}: the equation has {names} here",
+                    hint="tabulate gives every solution, by initial values",
+                )
             if found and found[which].is_finite():
                 ball = found[which]
                 if ball.rel_accuracy_bits() >= bits or ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)):
                     return ball
         prec *= 2
     raise ZeroDivisionError(f"the logarithmic derivative isn't finite at {x0}")
-
-
-def _check_number(which: int, count: int) -> None:
-    """Raise InputError unless there is a solution of this number."""
-    if 0 <= which < count:
-        return
-    names = "only which = 0" if count == 1 else f"which = 0, ..., {count - 1}"
-    hint = "tabulate gives every solution, by initial values"
-    raise InputError(f"which = {in_a_message(which)}: the equation has {names} here", hint=hint)
 
 
 def finite_base(problem: NumericProblem, which: int, candidates: list[ExactPoint]) -> ExactPoint:

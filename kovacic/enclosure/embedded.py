@@ -78,16 +78,11 @@ class Embedded:
         apart."""
         found: list[tuple[acb, int]] = []
         for factor, k in squarefree_factors((function or self.S).den):
-            if factor.degree:
-                found += [(root, k) for root in self._zeros(factor)]
+            roots = sharp_roots(self._embed(factor)) if factor.degree else []
+            if len(roots) < factor.degree:
+                raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
+            found += [(root, k) for root in roots]
         return found
-
-    def _zeros(self, factor: Poly) -> list[acb]:
-        """Those of a polynomial without multiple ones, apart from each other."""
-        roots = sharp_roots(self._embed(factor))
-        if len(roots) < factor.degree:
-            raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
-        return roots
 
     def log_derivative(self) -> LogDerivative | None:
         """The gauge at the working precision in force."""

@@ -258,7 +258,9 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     total = 0.0
     degree = max(len(system.num), len(system.den))
     halvings = _HALVINGS if degree <= _LONG else _FEW_HALVINGS
-    towards = _towards_zero(halvings)
+    # 1/2, 31/64, ..., 17/64, and four points in each half of what is left
+    towards = [i / 64 for i in range(32, 16, -1)]
+    towards += [i / 64 * 2.0**-k for k in range(1, halvings) for i in range(32, 16, -4)]
     with working_precision(_BITS + 4 * min(degree, _LONG)):
         start = to_acb(a)
         step = to_acb(b - a)
@@ -271,14 +273,6 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
             p, q = (_sizes_around(part, middle) for part in both)
             total += _growth_near(p, q, half)
     return total
-
-
-def _towards_zero(halvings: int) -> list[float]:
-    """1/2, 31/64, ..., 17/64, and four points in each half of what is left."""
-    found = [i / 64 for i in range(32, 16, -1)]
-    for k in range(1, halvings):
-        found += [i / 64 * 2.0**-k for i in range(32, 16, -4)]
-    return found
 
 
 def _sizes_around(polynomial: acb_poly, point: acb) -> list[arb]:
