@@ -36,7 +36,7 @@ from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, zeros
-from kovacic.enclosure.points import ExactPoint, as_point, to_acb
+from kovacic.enclosure.points import ExactPoint, are_real, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.limits import check_time
 
@@ -161,15 +161,10 @@ class _Expansion:
             P, *equation = (embed(part, constant) for part in (self.branch.P, *self.equation))
             P *= 1 / P(to_acb(self.base))
             found = [P, P.derivative(), *equation]
-            if all(_all_exactly_real(poly) for poly in found):
+            if all(are_real(poly.coeffs()) for poly in found):
                 found = [arb_poly([v.real for v in poly.coeffs()]) for poly in found]
             self.known[prec] = found
         return self.known[prec]
-
-
-def _all_exactly_real(polynomial: acb_poly) -> bool:
-    coefficients: list[Any] = polynomial.coeffs()
-    return all(v.imag.is_zero() for v in coefficients)
 
 
 def _continued(row: list[Any], equation: Sequence[list[Any]], count: int, most: Any) -> bool:

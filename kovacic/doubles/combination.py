@@ -11,6 +11,7 @@ is no basis for this: the other solution may become larger, and a table serves.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -189,15 +190,10 @@ def _base(chart: RationalChart, region: Region, candidates: list[ExactPoint]) ->
     start = as_point(chart.given.get("x0"), "x0")
     if start.is_real() and low <= start.re <= high:
         candidates = [start, *candidates]
-    bases = (ExactPoint(Fraction(float(point.x))) for point in candidates)
-    return next((base for base in bases if _are_finite(chart, base)), None)
-
-
-def _are_finite(chart: RationalChart, base: ExactPoint) -> bool:
-    """Both logarithmic derivatives?"""
-    try:
-        for which in (0, 1):
-            omega(chart.problem, which, base, _PREC)
-    except ZeroDivisionError:
-        return False
-    return True
+    for point in candidates:
+        base = ExactPoint(Fraction(float(point.x)))
+        with suppress(ZeroDivisionError):
+            for which in (0, 1):
+                omega(chart.problem, which, base, _PREC)
+            return base
+    return None

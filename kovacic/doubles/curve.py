@@ -119,7 +119,12 @@ def arcs(
     """
     if points > _MOST:
         raise LimitExceeded(f"the curve would have more than {_MOST} samples", limit="samples")
-    here = coefficients(chart, _grid(chart, interval, width))
+    # S is looked at in equidistant points, and in nearer and nearer ones beside singular points.
+    low, high = interval
+    count = max(8, round(_GRID * (high - low) / width))
+    chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
+    chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
+    here = coefficients(chart, [ExactPoint(x) for x in sorted(chosen)])
     finest = _FINEST * float(width)
     too_fine = here.frequency * finest > 2 * np.pi
     if chart.is_forced:
@@ -136,15 +141,6 @@ def arcs(
         else:
             found.append(_arc(part, width, points, states))
     return found
-
-
-def _grid(chart: PieceChart, interval: tuple[Fraction, Fraction], width: Fraction) -> list[ExactPoint]:
-    """Where S is looked at: equidistant points, and nearer and nearer ones beside singular points."""
-    low, high = interval
-    count = max(8, round(_GRID * (high - low) / width))
-    chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
-    chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
-    return [ExactPoint(x) for x in sorted(chosen)]
 
 
 def _beside_singular_points(chart: PieceChart, low: float, high: float) -> list[float]:

@@ -257,18 +257,14 @@ class _Job:
             found = combination(self.chart, self.region, self.candidates, self.limits)
             if found is not None:
                 return replace(found, careful=careful)
-        form = self._product_form(careful)
-        if form is not None:
-            return replace(form, careful=careful)
+        if self.base is not None and isinstance(self.chart, RationalChart):
+            with working_precision(_PREC):
+                form = product_form(self.chart.problem, self.number, self.region, self.base, careful)
+            if form is not None:
+                return replace(form, careful=careful)
         if not self.region.is_real:
             raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
         return table_of(self.chart, self.interval, careful, self.limits)
-
-    def _product_form(self, careful: bool) -> ProductForm | None:
-        if self.base is None or not isinstance(self.chart, RationalChart):
-            return None
-        with working_precision(_PREC):
-            return product_form(self.chart.problem, self.number, self.region, self.base, careful)
 
     def measured(self, function: Function) -> Measured | str:
         """The error of the function, or why it isn't known."""
@@ -342,16 +338,11 @@ def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list
     quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < _size(v) < math.inf and not y.contains(0)]
     if not quotients:
         return []
-    factor = acb(1) if normed else _median(quotients)
+    factor = acb(1)
+    if not normed:  # the median by the real or the imaginary parts, whichever is the larger of the first one
+        part = "real" if abs(quotients[0].real) >= abs(quotients[0].imag) else "imag"
+        factor = sorted(quotients, key=attrgetter(part))[len(quotients) // 2]
     return [_units(v, y, factor) for v, y in pairs]
-
-
-def _median(quotients: list[acb]) -> acb:
-    """By the real or the imaginary parts, whichever is the larger of the first one."""
-    first = quotients[0]
-    part = "real" if abs(first.real) >= abs(first.imag) else "imag"
-    ordered = sorted(quotients, key=attrgetter(part))
-    return ordered[len(ordered) // 2]
 
 
 def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:

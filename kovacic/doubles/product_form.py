@@ -223,7 +223,9 @@ class ProductForm:
             product.begin(*self.polynomial.parts(x))
         for f in self.factors:
             product.multiply(f, growth)
-        total = self._sum_of(growth)
+        total = sum_of([g for g in growth if g is not None])
+        if total is not None and self.is_real:
+            total = Complex(total.re)
         if careful:
             zero = 0.0 * x.real
             total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
@@ -231,13 +233,6 @@ class ProductForm:
             return _Parts(product.value, product.binary, total)
         one = np.ones(x.shape) if careful or total is None else 1.0
         return _Parts(Complex(one), product.binary, total)
-
-    def _sum_of(self, growth: list[Complex | None]) -> Complex | None:
-        """The exponent; its real part for a real function."""
-        total = sum_of([g for g in growth if g is not None])
-        if total is not None and self.is_real:
-            return Complex(total.re)
-        return total
 
     def _as_complex(self, x: Any, careful: bool) -> Complex:
         """The points x, their parts double-doubles if careful."""
@@ -247,7 +242,8 @@ class ProductForm:
     @property
     def _reach(self) -> float:
         """The largest modulus of a zero or a singular point."""
-        return max((_modulus(f.zeta) for f in self.factors), default=0.0)
+        sizes = [math.hypot(f.zeta.re.hi, 0.0 if f.zeta.im is None else f.zeta.im.hi) for f in self.factors]
+        return max(sizes, default=0.0)
 
 
 @dataclass(frozen=True)
@@ -349,12 +345,6 @@ class ProductDerivative:
         return t, double(dt.re), slope
 
 
-def _modulus(z: Complex) -> float:
-    if z.im is None:
-        return math.hypot(z.re.hi, 0.0)
-    return math.hypot(z.re.hi, z.im.hi)
-
-
 def _with_low_part(v: Any) -> Any:
     """The same numbers as double-doubles."""
     return v if isinstance(v, Pair) else Pair(v, 0.0 * v)
@@ -402,7 +392,12 @@ class _Product:
         elif d.im is None or f.is_natural:
             self.binary = self.binary + e * whole
             degree = 2 if f.paired else 1
-            self._times_power(d, whole, degree)
+            # One factor after the other, or the reciprocal of them all.
+            pieces = [d] * abs(whole)
+            if whole < 0:
+                pieces = [math.prod(pieces[1:], start=d).reciprocal()]
+            for piece in pieces:
+                self._times(piece, degree)
         else:
             growth.append(power * self._logarithm(d, e, f.turn))
 
@@ -415,14 +410,6 @@ class _Product:
         if self.careful:
             logarithm += Complex(LOG_2 * Pair(0.0 + e))
         return logarithm
-
-    def _times_power(self, d: Complex, whole: int, degree: int) -> None:
-        """By multiplication, one factor after the other, or with the reciprocal of them all."""
-        pieces = [d] * abs(whole)
-        if whole < 0:
-            pieces = [math.prod(pieces[1:], start=d).reciprocal()]
-        for piece in pieces:
-            self._times(piece, degree)
 
     def _times(self, piece: Complex, degree: int) -> None:
         self.bits += degree * self.degree_bits

@@ -481,7 +481,11 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
     source = np.zeros((2, terms, count, size))
     if chart.is_forced:
         for k, cell in enumerate(cells):
-            source[:, :, 2, k] = halves(_source(chart, cell, equations[k][0], terms))
+            # The coefficients of a times the right-hand side, by interpolation.
+            nodes, inverse = _interpolation(terms)
+            factor = arb_poly(equations[k][0])
+            values = [[chart.source(ExactPoint(cell[0]), cell[1], u) * factor(u)] for u in nodes]
+            source[:, :, 2, k] = halves((inverse * arb_mat(values)).entries())
     with np.errstate(all="ignore"):
         z = _recurrence(numbers, source, variant)
         sizes = np.abs(z[0, : variant.tested])
@@ -528,15 +532,6 @@ def _equations(chart: PieceChart, cells: list[Cell], terms: int) -> list[list[li
         else:  # too near to a singular point: not numbers
             found.append([[arb(1)], [], [arb("nan")]])
     return found
-
-
-def _source(chart: PieceChart, cell: Cell, a: list[arb], terms: int) -> list[arb]:
-    """The coefficients of a times the right-hand side on a piece, by interpolation."""
-    centre, e = cell
-    nodes, inverse = _interpolation(terms)
-    values = [[chart.source(ExactPoint(centre), e, u) * arb_poly(a)(u)] for u in nodes]
-    coefficients: list[arb] = (inverse * arb_mat(values)).entries()
-    return coefficients
 
 
 @lru_cache

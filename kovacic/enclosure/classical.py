@@ -20,7 +20,7 @@ import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
@@ -385,7 +385,9 @@ def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool
             if top(a.x) / form.d(a.x) <= 0:
                 raise NotServed
             continue
-        over = acb_poly(top)
-        under = acb_poly(form.d)
         with working_precision(_BITS):
-            _check_pieces(a, b, lambda x, c=c, over=over, under=under: _off(acb(c) * over(x) / under(x)))
+            _check_pieces(a, b, partial(_misses, acb_poly(top) * c, acb_poly(form.d)))
+
+
+def _misses(over: acb_poly, under: acb_poly, x: acb) -> bool:
+    return _off(over(x) / under(x))

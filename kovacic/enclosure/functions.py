@@ -76,18 +76,17 @@ def _of_input(equation: Any, limits: Limits) -> Coefficients:
 
 def _nothing_cancels(part: Any, x: Any) -> bool:
     """Is at most one term singular somewhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2?"""
-    singular = [term for term in sympy.Add.make_args(part) if _may_be_singular(term, x)]
+    singular = []
+    for term in sympy.Add.make_args(part):
+        inverses = [p for p in term.atoms(sympy.Pow) if p.exp.is_negative and p.base.has(x)]
+        if inverses or term.has(*_WITH_POLES):
+            singular.append(term)
     if not singular:
         return True
     if len(singular) > 1:
         return False
     factors = [factor for factor in sympy.Mul.make_args(singular[0]) if factor.has(x)]
     return len(factors) <= 1 and all(isinstance(f.as_base_exp()[0], sympy.Function) for f in factors)
-
-
-def _may_be_singular(term: Any, x: Any) -> bool:
-    inverses = [p for p in term.atoms(sympy.Pow) if p.exp.is_negative and p.base.has(x)]
-    return bool(inverses) or term.has(*_WITH_POLES)
 
 
 def _of_parsed(parsed: Any) -> Coefficients:

@@ -150,7 +150,10 @@ class CoefficientField:
         if parts is None:
             return None
         with working_precision(_ROUGH):
-            beta, gamma = (_size(part) + rest for part, rest in zip(parts[:2], rests[:2], strict=True))
+            sizes = [
+                sum((abs(value) for value in part.coeffs()), rest) for part, rest in zip(parts, rests, strict=True)
+            ]
+            beta, gamma, _ = (size.upper() for size in sizes)
             rate = _rate(beta, gamma)
         return Jets(centre, e, parts, rests, rate, bits, precision) if rate <= steepest else None
 
@@ -165,8 +168,10 @@ class CoefficientField:
             return None
         if not all(value.is_finite() for row in rows for value in row):
             return None
-        is_real = self.is_real(centre, e)
-        B, C, F = (_polynomial(row, real=is_real) for row in rows)
+        if self.is_real(centre, e):
+            B, C, F = (arb_poly([value.real for value in row]) for row in rows)
+        else:
+            B, C, F = map(acb_poly, rows)
         return B, C, F
 
 
@@ -175,20 +180,9 @@ def _coefficients(value: Any) -> list[Any]:
     return value.coeffs() if isinstance(value, acb_series) else [value]
 
 
-def _polynomial(coefficients: list[Any], *, real: bool) -> Any:
-    if real:
-        return arb_poly([value.real for value in coefficients])
-    return acb_poly(coefficients)
-
-
 def _rate(beta: arb, gamma: arb) -> arb:
     """lambda."""
     return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
-
-
-def _size(poly: Any) -> arb:
-    """The sum of the absolute values."""
-    return sum((abs(value) for value in poly.coeffs()), arb(0)).upper()
 
 
 def _terms(radius: int, sizes: Sequence[arb], h: arb, bits: int) -> tuple[int, tuple[arb, arb, arb]]:

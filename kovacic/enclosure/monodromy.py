@@ -368,7 +368,11 @@ class _Star:
     def seen_from(cls, base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> _Star:
         """The star of a base point."""
         centres = [z for z, _ in places]
-        radii = [_radius(z, largest, base, centres) for z, largest in places]
+        radii = []
+        for z, largest in places:
+            check_time()
+            distances = [_distance_below(z, base, other) for other in centres if other != z]
+            radii.append(min([largest, *distances]) / 2)
         share = min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
         return cls(base, radii, share)
 
@@ -380,12 +384,6 @@ def _loop(base: ExactPoint, z: ExactPoint, radius: Any) -> tuple[ExactPoint, ...
     for _ in range(4):
         corners.append(corners[-1] * ExactPoint(0, 1))
     return (base, *(z + corner for corner in corners), base)
-
-
-def _radius(z: ExactPoint, largest: Any, base: ExactPoint, centres: Sequence[ExactPoint]) -> Any:
-    """Half of the largest that is allowed, or of the distance from the segments between the base and the other points."""
-    check_time()
-    return min([largest, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2
 
 
 def _root_below(square: Any) -> Any:

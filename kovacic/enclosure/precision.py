@@ -248,15 +248,13 @@ class _Run:
         """Where a higher precision hasn't halved the balls, their size comes from the initial values."""
         if previous is None or not self.finite:
             return False
-        return all(self._is_final(value, before) for before, value in zip(previous.values, self.values, strict=True))
-
-    def _is_final(self, value: PointValue, before: PointValue) -> bool:
-        """Has the value its digits, or a ball that isn't half of that at a lower precision?"""
-        if value.reached:
-            return True
-        # A ball around 0 may at first tell of nothing but a precision that was too low.
-        is_telling = self.route.runs > 2 or not value.y.contains_zero()
-        return is_telling and bool(2 * arb(value.y.rad) > arb(before.y.rad))
+        for before, value in zip(previous.values, self.values, strict=True):
+            # A ball around 0 may at first tell of nothing but a precision that was too low.
+            is_telling = self.route.runs > 2 or not value.y.contains_zero()
+            is_final = value.reached or (is_telling and 2 * arb(value.y.rad) > arb(before.y.rad))
+            if not is_final:
+                return False
+        return True
 
     def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
         """The values, with a note where there are fewer digits than were asked for: the limit, or what the balls tell.

@@ -213,7 +213,13 @@ def _of_text(equation: str) -> NumericProblem | NotRational:
 
 def read_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
     """As `as_problem`, whatever its coefficients and its right-hand side are."""
-    found = _read(equation)
+    found: Answer | Parsed
+    if isinstance(equation, Answer | Parsed):
+        found = equation
+    else:
+        from kovacic.reading.read import read_input
+
+        found = read_input(equation)
     given = found.equation
     if given is not None and given.change is not None:
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {given.change.variable} here")
@@ -280,14 +286,6 @@ class _Functions:
         if right is not None:
             right = _right_at(right, values)
         return _Functions(_specialised(self.S, values), gauge, right)
-
-
-def _read(equation: object) -> Answer | Parsed:
-    if isinstance(equation, Answer | Parsed):
-        return equation
-    from kovacic.reading.read import read_input
-
-    return read_input(equation)
 
 
 def _parameters(found: Answer | Parsed, right: Equation | None) -> tuple[str, ...]:

@@ -101,7 +101,11 @@ def read_start(
     has_values = y0 is not None or dy0 is not None
     has_coordinates = frobenius is not None
     if which is not None or has_coordinates:
-        _check_frobenius_allowed(problem)
+        plain = "an equation {} needs y0 and dy0 at a regular point"
+        if problem.right is not None:
+            raise InputError(plain.format("with a right-hand side"))
+        if problem.embedded is not None:
+            raise InputError(plain.format("whose constants aren't rational"))
     if which == "decaying":
         if dy0 is not None or has_coordinates:
             raise InputError("the decaying solution is given by y0 alone")
@@ -116,15 +120,6 @@ def read_start(
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
     singular = place_of(problem, x0, "x0")
     return Start(singular, _frobenius_coordinates(singular, frobenius))
-
-
-def _check_frobenius_allowed(problem: NumericProblem) -> None:
-    """Raises `InputError` for equations that start with values."""
-    plain = "an equation {} needs y0 and dy0 at a regular point"
-    if problem.right is not None:
-        raise InputError(plain.format("with a right-hand side"))
-    if problem.embedded is not None:
-        raise InputError(plain.format("whose constants aren't rational"))
 
 
 def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) -> tuple[Number, Number]:
@@ -168,7 +163,11 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
             hint="for a regular singular point at infinity: x0='oo', which='regular'",
             shell="for a regular singular point at infinity: --x0 oo --regular",
         )
-    beyond = max(math.ceil(_rightmost(system)) + 1, math.ceil(x0.re))
+    zeros = [*system.roots("num", 64), *system.roots("den", 64)]
+    rightmost = max((float(root.real.upper()) for root, _ in zeros), default=0.0)
+    if math.isinf(rightmost):
+        raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
+    beyond = max(math.ceil(rightmost) + 1, math.ceil(x0.re))
     far = ExactPoint(_with_growth(system, beyond, (prec + 20) * math.log(2) / 2))
     matrix = product(piece_matrices(system, far, x0, prec + 20))
     m = matrix[0]
@@ -176,15 +175,6 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     dn = -matrix[3]
     s = acb(arb(0.5, 0.5))  # all that is known of it: 0 < s < 1
     return dn / n + s / (n * (n + s * (m - n)))
-
-
-def _rightmost(system: System) -> float:
-    """What no zero or pole of S is to the right of."""
-    zeros = [*system.roots("num", 64), *system.roots("den", 64)]
-    rightmost = max((float(root.real.upper()) for root, _ in zeros), default=0.0)
-    if math.isinf(rightmost):
-        raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
-    return rightmost
 
 
 def _with_growth(system: System, first: int, growth: float) -> int:

@@ -307,16 +307,11 @@ class Ray:
                 self._passed.append(_Passed(step, *maps))
             self._leave.append(position(self.here, step.leave))
             self._end = step.leave
-            if len(self._passed) > _MOST_DISCS:
-                self._forget()
-
-    def _forget(self) -> None:
-        """The first half of the discs."""
-        half = _MOST_DISCS // 2
-        self._nearest = self._leave[half - 1]
-        self._locals = {k - half: local for k, local in self._locals.items() if k >= half}
-        del self._leave[:half]
-        del self._passed[:half]
+            if len(self._passed) > _MOST_DISCS:  # the first half is forgotten
+                half = _MOST_DISCS // 2
+                self._nearest = self._leave[half - 1]
+                self._locals = {k - half: local for k, local in self._locals.items() if k >= half}
+                del self._leave[:half], self._passed[:half]
 
 
 @dataclass(frozen=True, eq=False)
