@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 from typing import Any
 
 import mpmath
 import pytest
+import sympy
 from build import bounded_work, parametrize, sample
 
 import kovacic
@@ -102,7 +104,7 @@ def test_there_and_back_from_an_end_without_power_series(equation: str, x0: Any,
 
 
 @parametrize(
-    "equation", ["y'' + 10*y = sin(3*x)", "y'' + (100 + cos(x))*y = 0", "y'' + 100*y = sqrt(x + 1)"], ordinary=1
+    "equation", ["y'' + (10 + x/9)*y = sin(3*x)", "y'' + (100 + cos(x))*y = 0", "y'' + 100*y = sqrt(x + 1)"], ordinary=1
 )
 def test_nothing_is_expanded_twice(equation: str) -> None:
     """Whatever precision a value needs: near zeros of the solution it is higher."""
@@ -115,5 +117,36 @@ def test_nothing_is_expanded_twice(equation: str) -> None:
 
 def test_pictures_of_equations_with_a_right_hand_side_are_drawn_on_ways() -> None:
     with bounded_work(1000):
-        curve = sample("y'' + 10*y = sin(3*x)", "7/5", "42/5", x0="49/10", y0="5/4", dy0="9/4")
+        curve = sample("y'' + (10 + x/9)*y = sin(3*x)", "7/5", "42/5", x0="49/10", y0="5/4", dy0="9/4")
     assert len(curve.arcs) == 1
+
+
+@parametrize("seed", range(40), ordinary=6, long=34)
+def test_constant_coefficients(seed: int) -> None:
+    """The right-hand side is that of a solution that was chosen; one in three is resonant, and some are stiff."""
+    rng = random.Random(seed)
+    x = sympy.Symbol("x")
+    roots = [
+        rng.choice([-1000, -3, sympy.Rational(-1, 2), 0, 2, sympy.sqrt(2), sympy.I, -1 + 2 * sympy.I]) for _ in "12"
+    ]
+    rates = [rng.choice([*roots, sympy.Rational(1, 3), -2, 3 * sympy.I]) for _ in "123"]
+    chosen = [rng.randint(-3, 3) * x ** rng.randint(0, 2) * sympy.exp(rate * (x - 2)) for rate in rates]
+    solution = sympy.Add(*chosen) + sympy.exp(roots[0] * (x - 2))
+    b, c = -sympy.expand(roots[0] + roots[1]), sympy.expand(roots[0] * roots[1])
+    f = sympy.expand(solution.diff(x, 2) + b * solution.diff(x) + c * solution)
+    start = {name: sympy.expand(e.subs(x, 2)) for name, e in (("y0", solution), ("dy0", solution.diff(x)))}
+    place = rng.choice([3, sympy.Rational(5, 2), 9, 2 + sympy.I])
+    y = sympy.Function("y")(x)
+    equation = sympy.Eq(y.diff(x, 2) + b * y.diff(x) + c * y, f)
+    balls = kovacic.evaluate(equation, place, x0=2, derivative=True, **start)
+    with mpmath.workdps(60):
+        for ball, e in zip(balls, (solution, solution.diff(x)), strict=True):
+            exact = mpmath.mpc(sympy.N(e.subs(x, place), 50))
+            assert abs(ball.to_mpmath() - exact) <= ball.radius + mpmath.mpf(10) ** -45 * abs(exact)
+    assert balls[0].digits >= 15 or balls[0].contains_zero()
+
+
+def test_a_stiff_equation_takes_one_step() -> None:
+    with bounded_work(1000):
+        value = kovacic.evaluate("y'' + 1000*y' + 1000*y = sin(x)", 200, x0=0, y0=1, dy0=0)
+    assert value.digits >= 15

@@ -17,9 +17,9 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import foresee_move
 from kovacic.answer import Answer
 from kovacic.doubles.region import Region, region_of
-from kovacic.enclosure.analytic import way_of
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
+from kovacic.enclosure.constant import way_of
 from kovacic.enclosure.constants import in_balls
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField

@@ -16,22 +16,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
-import sympy
 from flint import acb, acb_poly, arb, arb_poly, fmpq
 
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms
-from kovacic.enclosure.constants import Constant, Number
-from kovacic.enclosure.embedded import check_apart, root_of
+from kovacic.enclosure.constants import Number
+from kovacic.enclosure.embedded import check_apart
 from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, State, apply, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb
-from kovacic.enclosure.problem import Coefficients, NumericProblem
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.start import spread_by, steepness_of
 from kovacic.enclosure.way import Forecast, Local, Way, WayStep
 from kovacic.errors import InputError
@@ -273,35 +270,3 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )
-
-
-@lru_cache(maxsize=32)
-def way_of(problem: NumericProblem) -> AnalyticWay:
-    """An equation with rational coefficients and a right-hand side, as b/a, c/a and (f + h)/a."""
-    equation = problem.right
-    assert equation is not None
-    x = sympy.Symbol(equation.variable)
-    atoms = _Letters(x)
-    over = 1 / equation.a
-    b, c, f, inverse = (atoms.ratio(part) for part in (equation.b * over, equation.c * over, equation.f * over, over))
-    if equation.h is not None:
-        f += equation.h.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in equation.h.free_symbols}) * inverse
-    values = dict(atoms.constants)
-    if problem.embedded is not None:
-        values |= problem.embedded.values
-    return AnalyticWay(CoefficientField(Coefficients(x, b, c, f, tuple(sorted(values.items())))), problem)
-
-
-class _Letters(Atoms):
-    """With the generators of algebraic fields as symbols, whose values are `constants`."""
-
-    @cached_property
-    def constants(self) -> dict[str, Number]:
-        """By their names."""
-        return {}
-
-    def generator(self, field: Any) -> Any:
-        """A symbol."""
-        assert isinstance(field, AlgebraicField)
-        self.constants[field.name] = Constant(field.name, lambda: root_of(field))
-        return sympy.Symbol(field.name)

@@ -133,7 +133,7 @@ def journey_of(
     side = path if path in ("above", "below") else None
     way: Any = RationalWay(problem)
     if problem.right is not None:
-        from kovacic.enclosure.analytic import way_of  # imports SymPy
+        from kovacic.enclosure.constant import way_of  # imports SymPy
 
         way = way_of(problem)
     return Journey(way, start, vertices, chain=path == "chain", side=side, problem=problem)
@@ -150,13 +150,12 @@ def analytic_journeys(
     vertices = _vertices_of(path)
     place = as_number(x0, "x0")
     data = as_number(y0, "y0"), as_number(dy0, "dy0")
-    from kovacic.enclosure.analytic import AnalyticWay
-    from kovacic.enclosure.jets import CoefficientField
+    from kovacic.enclosure.constant import ConstantWay, constant_way
     from kovacic.enclosure.through import Substitution, Through
 
-    chain = path == "chain"
-    journey = Journey(AnalyticWay(CoefficientField(coefficients)), Start(place, data), vertices, chain)
-    change = None if vertices else Substitution.of(coefficients)
+    way = constant_way(coefficients)
+    journey = Journey(way, Start(place, data), vertices, chain=path == "chain")
+    change = None if vertices or isinstance(way, ConstantWay) else Substitution.of(coefficients)
     if change is None or not change.is_real([place]):
         return journey, None
     start = change.start(place, data)

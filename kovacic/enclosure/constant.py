@@ -1,0 +1,141 @@
+"""Constant coefficients, and a right-hand side of powers, exponentials and waves: one step to every target.
+
+With t = x - u the functions t^k exp(alpha t) of the right-hand side and of its derivatives form a vector g with g' = J g, and
+f = w g.  On the way from u to v
+
+    (y, y', g)' = A (y, y', g),    A = (0, 1, 0; -c, -b, w; 0, 0, J),    (y, y', g)(v) = exp((v - u) A) (y, y', g)(u);
+
+at u the functions with k = 0 are 1 and the others 0.  FLINT's exponential of a matrix is a ball around the exact one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import sympy
+from flint import acb, acb_mat, acb_poly, arb
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.closed_form.atoms import Atoms
+from kovacic.enclosure.analytic import AnalyticWay
+from kovacic.enclosure.constants import Constant, Number, in_balls
+from kovacic.enclosure.embedded import root_of
+from kovacic.enclosure.jets import CoefficientField
+from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, real_part
+from kovacic.enclosure.points import ExactPoint, to_acb
+from kovacic.enclosure.problem import Coefficients, NumericProblem
+from kovacic.enclosure.way import Traveller
+from kovacic.limits import check_time, count_work
+
+_LARGEST = 12
+"""The length of g, at most: matrices of these sizes cost less than a disc."""
+Term = tuple[Any, tuple[Any, ...]]
+
+
+@dataclass(frozen=True, eq=False)
+class ConstantWay(AnalyticWay):
+    """The right-hand side is the sum of the `terms` exp(alpha x) P(x): alpha, and the coefficients of P from low to high."""
+
+    terms: tuple[Term, ...] = ()
+
+    def carried(
+        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
+    ) -> tuple[MatrixProduct, State]:
+        check_time()
+        count_work(self.prec)
+        self.check(a, b)
+        start = to_acb(a)
+        values = self.functions.coefficients.at(start)
+        p, q, _ = self.functions.values(start)
+        weights, rates = [], []
+        for alpha, polynomial in self.terms:  # in powers of x - a
+            rate = in_balls(alpha, values)
+            moved = acb_poly([in_balls(weight, values) for weight in polynomial])(acb_poly([start, 1]))
+            weights += [moved[k] * (rate * start).exp() for k in range(len(polynomial))]
+            rates += [(rate, k) for k in range(len(polynomial))]
+        size = max((abs(weight).mid() for weight in weights), default=arb(0))
+        unit = acb(size) if size > 0 else acb(1)  # A large weight would make the whole matrix large.
+        A = acb_mat(2 + len(rates), 2 + len(rates))
+        A[0, 1], A[1, 0], A[1, 1] = acb(1), -q, -p
+        for row, ((rate, k), weight) in enumerate(zip(rates, weights, strict=True), 2):
+            A[1, row] = weight / unit
+            A[row, row] = rate
+            if k > 0:  # (t^k exp(alpha t))' = alpha t^k exp(alpha t) + k t^(k-1) exp(alpha t)
+                A[row, row - 1] = acb(k)
+        E = (A * to_acb(b - a)).exp()
+        ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
+        matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
+        added = [sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1)]
+        if a.is_real() and b.is_real() and self.functions.is_real(a, 0):
+            matrix = real_part(matrix)
+            added = [acb(value.real) for value in added]
+        y, dy = apply(matrix, particular)
+        return product.after(matrix), (y + added[0], dy + added[1])
+
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        return {stop: traveller.moved(stop).state for stop in stops}
+
+
+def constant_way(coefficients: Coefficients, problem: NumericProblem | None = None) -> AnalyticWay:
+    """The way by matrices where there is one, else that by power series."""
+    functions = CoefficientField(coefficients)
+    x = coefficients.variable
+    terms = None if coefficients.b.has(x) or coefficients.c.has(x) else _terms(coefficients.f, x)
+    return AnalyticWay(functions, problem) if terms is None else ConstantWay(functions, problem, terms=terms)
+
+
+def _terms(f: Any, x: Any) -> tuple[Term, ...] | None:
+    """The terms of a right-hand side; None for another one."""
+    weights: dict[Any, dict[int, Any]] = {}
+    for term in sympy.Add.make_args(sympy.expand(f.rewrite(sympy.exp))):
+        weight, rest = term.as_independent(x, as_Add=False)
+        k = 0
+        alpha = sympy.Integer(0)
+        for factor in sympy.Mul.make_args(rest):
+            if factor.func is sympy.exp and not factor.args[0].diff(x).has(x):
+                alpha += factor.args[0].diff(x)
+                weight *= sympy.exp(factor.args[0].xreplace({x: sympy.Integer(0)}))
+            elif factor.as_base_exp()[0] == x and factor.as_base_exp()[1].is_Integer and factor.as_base_exp()[1] > 0:
+                k += int(factor.as_base_exp()[1])
+            elif factor != 1:
+                return None
+        if weight != 0:
+            known = weights.setdefault(sympy.expand(alpha), {})
+            known[k] = known.get(k, sympy.Integer(0)) + weight
+    found = [(alpha, tuple(w.get(k, sympy.Integer(0)) for k in range(max(w) + 1))) for alpha, w in weights.items()]
+    return tuple(found) if sum(len(polynomial) for _, polynomial in found) <= _LARGEST else None
+
+
+@lru_cache(maxsize=32)
+def way_of(problem: NumericProblem) -> AnalyticWay:
+    """An equation with rational coefficients and a right-hand side, as b/a, c/a and (f + h)/a."""
+    equation = problem.right
+    assert equation is not None
+    x = sympy.Symbol(equation.variable)
+    atoms = _Letters(x)
+    over = 1 / equation.a
+    b, c, f, inverse = (atoms.ratio(part) for part in (equation.b * over, equation.c * over, equation.f * over, over))
+    if equation.h is not None:
+        f += equation.h.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in equation.h.free_symbols}) * inverse
+    values = dict(atoms.constants)
+    if problem.embedded is not None:
+        values |= problem.embedded.values
+    return constant_way(Coefficients(x, b, c, f, tuple(sorted(values.items()))), problem)
+
+
+class _Letters(Atoms):
+    """With the generators of algebraic fields as symbols, whose values are `constants`."""
+
+    @cached_property
+    def constants(self) -> dict[str, Number]:
+        """By their names."""
+        return {}
+
+    def generator(self, field: Any) -> Any:
+        """A symbol."""
+        assert isinstance(field, AlgebraicField)
+        self.constants[field.name] = Constant(field.name, lambda: root_of(field))
+        return sympy.Symbol(field.name)
