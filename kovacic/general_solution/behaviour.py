@@ -1,43 +1,67 @@
-"""The behaviour of solutions, SymPy expressions, near a point: the expansion of each function where it isn't analytic.
+"""Limits of solutions, SymPy expressions, at a singular point and at infinity.
 
-A rule [`asymptotics`] gives, for a function of z where z tends to 0, to 1 or to infinity, an expression in elementary
-functions of z and the errors beside it.  Functions without a rule, and integrals that aren't done, aren't known.
+SymPy's `limit` is asked after the special functions have been replaced by their leading terms where the argument tends to a
+singular point of theirs.  Leading terms may cancel, and SymPy's series of special functions have errors: no limit leaves this
+module without having been compared with values, in balls, on the way to the point.
+
+Reference: DLMF 9.7 (Airy), 10.7, 10.17, 10.30, 10.40 (Bessel), 13.7, 13.2(iii) (confluent), 14.8 (Legendre's function at -1),
+15.4(ii) (Gauss' function at 1), 18.3 (leading coefficients of polynomials).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import islice, pairwise
 from typing import Any
 
 import sympy
-from sympy import exp, log
+from flint import acb, arb
+from sympy import Rational, cos, exp, factorial, gamma, log, pi, rf, sin, sqrt
+from sympy.functions.special.bessel import BesselBase
 
-from kovacic.closed_form.jets import rewritten
-from kovacic.general_solution.asymptotics import (
-    AT_INFINITY,
-    AT_MINUS_INFINITY,
-    AT_ONE,
-    AT_ZERO,
-    BELOW_ZERO,
-    Rule,
-)
-from kovacic.general_solution.expansion import CONSTANT, Expansion, ExpansionTerm, UnknownBehaviour
+from kovacic.algebra.precision import working_digits
+from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
+from kovacic.general_solution.substitution import finite_value, size
+from kovacic.general_solution.zero import is_zero, samples
+from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
-_ONE = sympy.Integer(1)
 _ZERO = sympy.Integer(0)
-_HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch)
-_QUOTIENTS: dict[Any, Callable[[Expr], Expr]] = {
-    sympy.tan: lambda u: sympy.sin(u) / sympy.cos(u),
-    sympy.cot: lambda u: sympy.cos(u) / sympy.sin(u),
-    sympy.sec: lambda u: 1 / sympy.cos(u),
-    sympy.csc: lambda u: 1 / sympy.sin(u),
-}
-#: Functions that are expanded as they are.
-_NOT_REWRITTEN = (sympy.acos, sympy.atanh)
-#: Numbers of terms that are tried, one after the other.
-_DEPTHS = (4, 8, 16)
+_ONE = sympy.Integer(1)
+#: What a wave, or a quotient of waves, has in the place of a limit.
+OSCILLATING = sympy.AccumBounds(-1, 1)
+#: The longest expression whose limit is asked for, in subexpressions: SymPy's work isn't bounded otherwise.
+_LONGEST = 120
+#: The largest order of a zero that is looked for.
+_MOST_DERIVATIVES = 6
+#: Terms of a power series that are taken where the argument tends to 0.
+_TERMS = 4
+#: Distances from the point (their inverses, at infinity) at which a limit is compared with values, three at a time; the
+#: larger ones serve where values nearer to the point are lost to cancellation.
+_STAGES = (
+    (Rational(1, 100), Rational(1, 1600), Rational(1, 50000)),
+    (Rational(1, 9), Rational(1, 20), Rational(1, 41)),
+)
+_AROUND = (Rational(1), Rational(8, 7), Rational(17, 13))
+_DIGITS = 60
+#: So many values of the letters are tried, and so many have to agree.
+_SAMPLES = 6
+_ENOUGH = 2
+
+
+_JUMPING = (sympy.Heaviside, sympy.DiracDelta)
+#: Functions whose series SymPy knows.
+_KNOWN = (
+    *(exp, log, sin, cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.asin, sympy.acos, sympy.atan, sympy.Abs),
+    *(sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch, sympy.asinh, sympy.acosh, sympy.atanh),
+    *(sympy.erf, sympy.erfi, sympy.Ei, sympy.Si, sympy.Ci, sympy.Heaviside, sympy.elliptic_k, sympy.elliptic_e),
+)
+
+
+class UnknownLimit(Exception):
+    """It isn't known how the expression behaves."""
 
 
 @dataclass(frozen=True)
@@ -59,184 +83,395 @@ class Approach:
         return self.point + self.direction * t
 
 
-def behaviour(expression: Expr, x: Expr, place: Approach) -> Expansion:
-    """The expansion, up to errors that tend to 0 where as many terms show that.
+def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
+    """The limit; `oo` for what is unbounded, and `OSCILLATING` for waves and their quotients, which have none.
 
-    Raises `UnknownBehaviour`.
+    Raises `UnknownLimit` where it isn't found, and where values on the way don't confirm it.
 
     >>> x = sympy.Symbol("x")
-    >>> found = behaviour((1 - sympy.cos(x)) / x**2 + log(x), x, Approach(_ZERO))
-    >>> found.terms[CONSTANT], found.terms[ExpansionTerm(k=1)]
-    (1/2, 1)
+    >>> limit_at((1 - sympy.cos(x)) / x**2, x, Approach(_ZERO)), limit_at(sympy.airybi(x), x, Approach(sympy.oo))
+    (1/2, oo)
     """
-    t = sympy.Dummy("t", positive=True)
-    inner = sympy.sympify(expression, strict=True).xreplace({x: place.in_terms_of(t)})
-    found = None
-    for depth in _DEPTHS:
-        try:
-            found = _Expander(t, depth)(inner)
-        except UnknownBehaviour as unknown:
-            if not unknown.deeper or depth == _DEPTHS[-1]:
-                raise
-            continue
-        if _is_enough(found):
-            break
-    assert found is not None
+    check_time()
+    e = sympy.sympify(expression, strict=True)
+    if not e.has_free(x):
+        return e
+    if e.has(*ANTIDERIVATIVES, sympy.RootSum):
+        raise UnknownLimit(f"the limit of {_shown(e)} isn't known")
+    # At infinity the variable is x or -x, as SymPy has it; else the distance from the point.
+    variable = sympy.Dummy("s", positive=True)
+    towards = sympy.oo if place.is_infinite else _ZERO
+    way = place.in_terms_of(1 / variable if place.is_infinite else variable)
+    jumps = {jump: _near_the_point(jump, jump.args[0].subs(x, way), variable, towards) for jump in e.atoms(*_JUMPING)}
+    if jumps:  # what cancels beyond them has no value that could be compared
+        e = sympy.expand(e.xreplace(jumps))
+    inner = e.xreplace({x: way})
+    if not place.is_infinite:
+        found = _quotient_of_analytic_functions(e, x, place.point)
+        if found is not None and _is_confirmed(found, e, x, place):
+            return found
+    leading = _with_leading_terms(inner, variable, towards)
+    found = _classified(_term_by_term(leading, variable, towards) if leading != inner else None)
+    if found is None:
+        found = _classified(_by_sympy(leading, variable, towards))
+    if found is None or not _is_confirmed(found, e, x, place):
+        raise UnknownLimit(f"the limit of {_shown(e)} isn't known")
     return found
 
 
-def _is_enough(found: Expansion) -> bool:
+def finite_limit(expression: Expr, x: Expr, place: Approach) -> Expr | None:
+    """The limit if it is a number; None where there is none, or it isn't known."""
     try:
-        return all(error.size < 0 for error in found.errors)
-    except UnknownBehaviour:
-        return True  # more terms don't tell
+        found = limit_at(expression, x, place)
+    except (UnknownLimit, NotImplementedError):
+        return None
+    return None if found in (sympy.oo, OSCILLATING) else found
 
 
-class _Expander:
-    """Expands expressions in t; what was expanded is kept."""
-
-    def __init__(self, t: Expr, depth: int) -> None:
-        self.depth = depth
-        self.known: dict[Expr, Expansion] = {t: Expansion({ExpansionTerm(e=_ONE): _ONE})}
-        self.variables = {t}  # t, and what stands for functions of t
-
-    def __call__(self, e: Expr) -> Expansion:
-        found = self.known.get(e)
-        if found is None:
-            found = self.known[e] = self._expanded(e)
-        return found
-
-    def _expanded(self, e: Expr) -> Expansion:
-        if not e.free_symbols & self.variables:
-            return Expansion.constant(e)
-        if e.is_Add:
-            return self._sum(e.args)
-        if e.is_Mul:
-            return self._product(e.args)
-        if isinstance(e, exp):
-            return self(e.args[0]).exp(self.depth)
-        if e.is_Pow and not e.exp.free_symbols & self.variables:
-            return self(e.base).power(e.exp, self.depth)
-        if e.is_Pow:
-            return self(e.exp * log(e.base)).exp(self.depth)
-        if isinstance(e, log):
-            return self(e.args[0]).log(self.depth)
-        return self._function(e)
-
-    def _sum(self, terms: Sequence[Expr]) -> Expansion:
-        total = Expansion({})
-        for term in terms:
-            total = total + self(term)
-        return total
-
-    def _product(self, factors: Sequence[Expr]) -> Expansion:
-        total = Expansion.constant(_ONE)
-        for factor in factors:
-            total = total * self(factor)
-        return total
-
-    def _function(self, e: Expr) -> Expansion:
-        if isinstance(e, sympy.Heaviside):
-            return Expansion.constant(_step_at(self(e.args[0])))
-        if isinstance(e, sympy.DiracDelta):
-            return Expansion({})
-        if isinstance(e, _HYPERBOLIC):
-            return self(e.rewrite(exp))
-        if e.func in _QUOTIENTS:
-            return self(_QUOTIENTS[e.func](e.args[0]))
-        if not isinstance(e, _NOT_REWRITTEN):
-            plain = rewritten(e)
-            if plain is not None:
-                return self(plain)
-        inner = self._argument(e)
-        if not self._is_singular(e, inner):
-            found = inner.taylor(lambda z: e.func(*e.args[:-1], z), self.depth)
-            if found is not None:
-                return found
-        if isinstance(e, sympy.sin | sympy.cos):
-            return self(e.rewrite(exp))
-        return self._by_rule(e, inner)
-
-    def _is_singular(self, e: Expr, inner: Expansion) -> bool:
-        """Is the argument at a singular point of the function, where SymPy has a name for the value?"""
-        constant = inner.terms.get(CONSTANT, _ZERO)
-        if constant == 0:
-            return e.func in AT_ZERO
-        return constant == 1 and e.func in AT_ONE
-
-    def _argument(self, e: Expr) -> Expansion:
-        """That of the last argument, the only one in which t occurs."""
-        *parameters, last = e.args
-        if isinstance(e, sympy.Integral | sympy.RootSum):
-            raise _unknown(e)
-        if any(p.free_symbols & self.variables for p in parameters):
-            raise _unknown(e)
-        return self(last)
-
-    def _by_rule(self, e: Expr, inner: Expansion) -> Expansion:
-        rules = _rules_near(e, inner)
-        rule = rules.get(e.func)
-        if rule is None:
-            raise _unknown(e)
-        z = sympy.Dummy("z", positive=True)
-        *parameters, _ = e.args
-        found = rule(parameters, z, self.depth)
-        self.known[z] = _in_variable_of(rules, inner)
-        self.variables.add(z)
-        total = self(found.main)
-        rest: list[ExpansionTerm] = []
-        for error in found.errors:
-            beside = self(error)
-            rest += [*beside.terms, *beside.errors]
-        return total + Expansion({}, rest)
+def _near_the_point(jump: Expr, argument: Expr, variable: Expr, towards: Expr) -> Expr:
+    """The value of a step or an impulse on the way to the point, where the argument has a sign there."""
+    if isinstance(jump, sympy.DiracDelta):
+        return _ZERO
+    end = _by_sympy(argument, variable, towards)
+    return jump if end is None or end == 0 else sympy.Heaviside(end)
 
 
-def _in_variable_of(rules: Mapping[Any, Rule], inner: Expansion) -> Expansion:
-    """z for an argument of which rules are about z, -z at minus infinity, and 1 - z at 1."""
-    if rules is AT_MINUS_INFINITY:
-        return inner.times(-_ONE)
-    if rules is AT_ONE:
-        return Expansion.constant(_ONE) + inner.times(-_ONE)
-    return inner
+def _shown(e: Expr) -> str:
+    text = str(e)
+    return text if len(text) <= 60 else "a long expression"
 
 
-def _step_at(inner: Expansion) -> Expr:
-    """H(u) close to the point, for the expansion of u: 1 or 0 by its sign there."""
-    parts = inner.parts
-    if parts.large or parts.constant == 0:
-        first = inner.leading()
-        m = first.monomial
-        if m.growth or m.k:
-            raise UnknownBehaviour("how a step behaves there isn't known")
-        return sympy.Heaviside(first.coefficient)
-    return sympy.Heaviside(parts.constant)
+def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | None:
+    """The limit by the first derivatives of numerator and denominator that aren't 0 (L'Hospital); None for other functions."""
+    value = finite_value(e, x, point)
+    if value is not None:
+        return value
+    above, below = sympy.fraction(sympy.together(e))
+    with suppress(NotImplementedError):  # whether a value is zero isn't known
+        for _ in range(_MOST_DERIVATIVES):
+            check_time()
+            top, bottom = (finite_value(part, x, point) for part in (above, below))
+            if top is None or bottom is None:
+                return None
+            if not is_zero(bottom):
+                return top / bottom
+            if not is_zero(top):
+                return sympy.oo
+            above, below = above.diff(x), below.diff(x)
+    return None
 
 
-def _rules_near(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:
-    """The table for the point to which the argument of a function tends, and for the side."""
-    parts = inner.parts
-    if parts.large:
-        return _rules_at_infinity(e, inner)
-    if parts.constant == 1 and isinstance(e, sympy.hyper):
-        return AT_ONE
-    if parts.constant != 0:
-        raise _unknown(e)
-    if e.func in BELOW_ZERO and inner.leading().coefficient.is_negative:
-        return BELOW_ZERO
-    return AT_ZERO
+def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
+    """What SymPy says of functions that it knows; None where it gives up, in one of the many ways that it has."""
+    if size(e) > _LONGEST or any(f.has(variable) and not _is_known_to_sympy(f) for f in e.atoms(sympy.Function)):
+        return None
+    constant, rest = e.as_independent(variable, as_Add=False)
+    try:
+        found = sympy.limit(rest, variable, towards)
+    except (NotImplementedError, ValueError, TypeError, AttributeError, RecursionError, sympy.PoleError):
+        return None
+    return found if found.has(sympy.AccumBounds) else constant * found
 
 
-def _rules_at_infinity(e: Expr, inner: Expansion) -> Mapping[Any, Rule]:
-    """For an argument whose largest term is a real multiple of a power."""
-    first = inner.leading()
-    m = first.monomial
-    is_real_power = not m.growth and not m.k and first.coefficient.is_real
-    if not is_real_power:
-        raise _unknown(e)
-    if first.coefficient.is_positive:
-        return AT_INFINITY
-    return AT_MINUS_INFINITY
+def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:
+    """The limit of a sum from those of its terms; None where it isn't known, as where unbounded terms cancel."""
+    terms = sympy.Add.make_args(sympy.expand_mul(e))
+    limits = [_by_sympy(term, variable, towards) for term in terms]
+    if None in limits:
+        return None
+    unbounded = [term for term, found in zip(terms, limits, strict=True) if found.has(sympy.oo, -sympy.oo)]
+    if not unbounded:
+        return sympy.Add(*limits)
+    ratios = [_by_sympy(sympy.powsimp(term / unbounded[0]), variable, towards) for term in unbounded[1:]]
+    if any(ratio is None or ratio.has(sympy.oo, -sympy.oo, sympy.AccumBounds) for ratio in ratios):
+        return None
+    return None if sympy.expand(sympy.Add(_ONE, *ratios)) == 0 else sympy.oo
 
 
-def _unknown(e: Expr) -> UnknownBehaviour:
-    return UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
+def _is_known_to_sympy(f: Expr) -> bool:
+    """Does SymPy have a series of the function?  Of others it computes derivatives without an end."""
+    if isinstance(f, BesselBase):
+        return bool(f.args[0].is_Integer)
+    return isinstance(f, _KNOWN)
+
+
+def _classified(found: Expr | None) -> Expr | None:
+    """A finite number, `oo` or `OSCILLATING`; None for anything else that SymPy may return."""
+    if found is None or found.has(sympy.Limit, sympy.nan, sympy.Order):
+        return None
+    if isinstance(found, sympy.AccumBounds):
+        return OSCILLATING
+    if found.has(sympy.oo, -sympy.oo, sympy.zoo):
+        return sympy.oo
+    return None if found.has(sympy.sign) else found
+
+
+# ------------------------------------------------------------------------------------------- confirmed by values
+
+
+def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
+    """Do values nearer to the point agree better, for two of the first values of the letters?
+
+    Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
+    """
+    difference = e - found if found not in (sympy.oo, OSCILLATING) else e
+    confirming = (_approaches(found, difference.xreplace(s), x, place) for s in _letters(difference.free_symbols - {x}))
+    return len([*islice(filter(None, confirming), _ENOUGH)]) == _ENOUGH
+
+
+def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
+    """Values that fit what is assumed, of both signs where that is open."""
+    open_signs = {s for s in symbols if s.is_nonnegative is None and s.is_nonpositive is None}
+    for k, sample in enumerate(islice(samples(symbols), 1, 1 + _SAMPLES)):
+        yield {s: -value if k % 2 and s in open_signs else value for s, value in sample.items()}
+
+
+def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
+    """Do values near the point show that y doesn't tend to the value, or for None isn't bounded?  False where they are lost."""
+    e = y if value is None else y - value
+    sample = next(_letters(e.free_symbols - {x}))
+    for stages in _STAGES:
+        sizes = [_size_near(e.xreplace(sample), x, place, t) for t in stages]
+        if None not in sizes:
+            far, middle, near = sizes
+            return bool(near > middle * 2) and bool(middle > far * 2)
+    return False
+
+
+def _approaches(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
+    for stages in _STAGES:
+        sizes = [_size_near(e, x, place, t) for t in stages]
+        if None not in sizes:
+            return all(_is_nearer(found, far, near) for far, near in pairwise(sizes))
+    return False
+
+
+def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
+    """Is a value, or its distance from a finite limit, what it should be beside one further from the point?"""
+    if found == sympy.oo:
+        return bool(near > far * arb("1.02"))
+    if found == OSCILLATING:
+        return bool(near < far * 1000) and bool(near > far / 1000)
+    return bool(near < far / arb("1.02")) or bool(near < arb(10) ** (-_DIGITS // 2))
+
+
+def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:
+    """The largest of some values about this distance; None where they aren't known well."""
+    largest = None
+    for factor in _AROUND:
+        at = place.in_terms_of(t * factor)
+        with working_digits(_DIGITS):
+            try:
+                point = jet(at, sympy.Dummy(), acb(0))[0]
+                value = abs(jet(e, x, point)[0])
+            except (NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
+                return None
+            if not value.is_finite() or (value.rel_accuracy_bits() < 10 and not value < arb(10) ** (-_DIGITS // 2)):
+                return None
+            largest = value if largest is None or value > largest else largest
+    return largest
+
+
+# --------------------------------------------------------------------------------------------------- leading terms
+
+
+def _with_leading_terms(e: Expr, variable: Expr, towards: Expr) -> Expr:
+    """Special functions replaced where their arguments tend to infinity, or to a point where they aren't analytic."""
+    known = {}
+    for f in e.atoms(*_AT_INFINITY, *_AT_ZERO, sympy.legendre):
+        if not f.args[-1].has(variable) or any(part.has(variable) for part in f.args[:-1]):
+            continue
+        leading = _leading(f, variable, towards)
+        if leading is not None:
+            known[f] = leading
+    if not known:
+        return e
+    return sympy.powsimp(sympy.expand_power_base(e.xreplace(known)))
+
+
+def _leading(f: Expr, variable: Expr, towards: Expr) -> Expr | None:
+    """The leading term of a function, None where SymPy has to know it."""
+    *parameters, z = f.args
+    end = _by_sympy(z, variable, towards)
+    if end == 0 and f.func in _AT_ZERO:
+        return _AT_ZERO[f.func](parameters, z)
+    if end == 1 and isinstance(f, sympy.hyper):
+        return _gauss_at_one(parameters, sympy.expand(1 - z))
+    if end == -1 and isinstance(f, sympy.legendre) and not parameters[0].is_integer:
+        return sin(pi * parameters[0]) / pi * log(sympy.expand(1 + z) / 2)
+    if end in (sympy.oo, -sympy.oo) and f.func in _AT_INFINITY:
+        at_plus, at_minus = _AT_INFINITY[f.func]
+        return at_plus(parameters, z) if end == sympy.oo else at_minus(parameters, sympy.expand(-z))
+    return None
+
+
+#: (parameters, z) -> the leading term; at minus infinity, and for Gauss' function at 1, z tends to +oo or 0 as well.
+Rule = Callable[[Sequence[Any], Expr], Any]
+
+
+def _none(_: Sequence[Any], z: Expr) -> None:
+    return None
+
+
+def _zeta(z: Expr) -> Expr:
+    return 2 * z ** Rational(3, 2) / 3
+
+
+def _airy(constant: Expr, sign: int, power: Rational) -> Rule:
+    """Ai, Bi and their derivatives at infinity: a constant times exp(-+2 z^(3/2)/3) z^(-+1/4)."""
+    return lambda _, z: constant * exp(sign * _zeta(z)) * z**power / sqrt(pi)
+
+
+def _airy_wave(wave: Any, shift: Expr, power: Rational, constant: int = 1) -> Rule:
+    """The same at minus infinity: waves."""
+    return lambda _, z: constant * wave(_zeta(z) + shift) * z**power / sqrt(pi)
+
+
+def _bessel_wave(wave: Any) -> Rule:
+    """J and Y: waves with the amplitude sqrt(2/(pi z))."""
+    return lambda p, z: sqrt(2 / (pi * z)) * wave(z - p[0] * pi / 2 - pi / 4)
+
+
+def _polynomial(leading: Callable[..., Expr]) -> tuple[Rule, Rule]:
+    """A polynomial of the symbolic degree N: its leading coefficient, and (-1)^N of it at minus infinity."""
+    return lambda p, z: leading(*p) * z ** p[0], lambda p, z: leading(*p) * (-1) ** p[0] * z ** p[0]
+
+
+def _confluent(parameters: Sequence[Any], z: Expr) -> Expr | None:
+    """1F1, z to +oo; 0F1, which is Bessel's I."""
+    top, bottom = parameters
+    if not top and len(bottom) == 1:
+        (b,) = bottom
+        return gamma(b) / (2 * sqrt(pi)) * z ** ((1 - 2 * b) / 4) * exp(2 * sqrt(z))
+    if len(top) != 1 or len(bottom) != 1:
+        return _tricomi(parameters, z)
+    (a,), (b,) = top, bottom
+    if _is_natural(-a):
+        return (-z) ** (-a) * gamma(b) / gamma(b - a)
+    return gamma(b) / gamma(a) * exp(z) * z ** (a - b)
+
+
+def _confluent_below(parameters: Sequence[Any], z: Expr) -> Expr | None:
+    """1F1(-z) = exp(-z) 1F1(b - a; b; z); 0F1(-z), which is Bessel's J."""
+    top, bottom = parameters
+    if not top and len(bottom) == 1:
+        (b,) = bottom
+        return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
+    if len(top) != 1 or len(bottom) != 1:
+        return _tricomi(parameters, -z)
+    (a,), (b,) = top, bottom
+    other = _confluent(((sympy.expand(b - a),), (b,)), z)
+    return None if other is None else sympy.powsimp(sympy.expand(exp(-z) * other))
+
+
+def _tricomi(parameters: Sequence[Any], z: Expr) -> Expr | None:
+    """2F0(a, b; z) = w^a U(a, a - b + 1, w), w = -1/z to 0: the smaller of the powers w^a and w^b, by the sign of a - b."""
+    top, bottom = parameters
+    if bottom or len(top) != 2:
+        return None
+    a, b = top
+    c = sympy.expand(a - b)
+    w = -1 / z
+    if any(_is_natural(-v) for v in top):  # a polynomial
+        N, other = (-a, b) if _is_natural(-a) else (-b, a)
+        return rf(other, N) * (-z) ** N
+    if c == 0:
+        return -(w**a) * log(w) / gamma(a)
+    if c.is_negative:
+        return gamma(-c) / gamma(b) * w**a
+    return gamma(c) / gamma(a) * w**b if c.is_positive else None
+
+
+def _gauss_at_one(parameters: Sequence[Any], w: Expr) -> Expr | None:
+    """2F1(a, b; c; 1 - w), by the sign of s = c - a - b; a polynomial is left."""
+    top, bottom = parameters
+    if len(top) != 2 or len(bottom) != 1:
+        return None
+    a, b = top
+    (c,) = bottom
+    for N, other in ((-a, b), (-b, a)):
+        if _is_natural(N):
+            return _rising(sympy.expand(c - other), N) / _rising(c, N)
+    s = sympy.expand(c - a - b)
+    if s == 0:
+        psi = sympy.polygamma(0, a) + sympy.polygamma(0, b) + 2 * sympy.EulerGamma
+        return -gamma(a + b) / (gamma(a) * gamma(b)) * (log(w) + psi)
+    if s.is_positive:
+        return gamma(c) * gamma(s) / (gamma(c - a) * gamma(c - b))
+    return gamma(c) * gamma(-s) / (gamma(a) * gamma(b)) * w**s if s.is_negative else None
+
+
+def _rising(x: Expr, N: Expr) -> Expr:
+    """(x)_N, by factorials where x is an integer <= -N."""
+    if _is_natural(-x):
+        return (-1) ** N * factorial(-x) / factorial(sympy.expand(-x - N))
+    return gamma(x + N) / gamma(x)
+
+
+def _is_natural(N: Expr) -> bool:
+    return bool(N.is_integer and N.is_nonnegative)
+
+
+def _series(parameters: Sequence[Any], z: Expr) -> Expr:
+    """Of a hypergeometric function at 0; an asymptotic one of 2F0."""
+    top, bottom = parameters
+    terms = []
+    for k in range(_TERMS):
+        above = sympy.Mul(*(rf(a, k) for a in top))
+        below = sympy.Mul(*(rf(b, k) for b in bottom))
+        terms.append(above / below * z**k / factorial(k))
+    return sympy.Add(*terms)
+
+
+def _first_kind(sign: int) -> Rule:
+    """J and I at 0, of an order that isn't an integer known to SymPy."""
+
+    def rule(parameters: Sequence[Any], z: Expr) -> Expr | None:
+        (nu,) = parameters
+        if nu.is_Integer:
+            return None
+        return (z / 2) ** nu / gamma(nu + 1) * _series(((), (nu + 1,)), sign * z**2 / 4)
+
+    return rule
+
+
+def _second_kind(constant: Expr, sign: int) -> Rule:
+    """Y and K at 0: Gamma(nu)/2 (2/z)^nu times a constant, or the logarithm."""
+
+    def rule(parameters: Sequence[Any], z: Expr) -> Expr | None:
+        (nu,) = parameters
+        if nu == 0:
+            return -constant * (log(z / 2) + sympy.EulerGamma)
+        if nu.is_integer or not nu.is_number:
+            return constant * gamma(nu) / 2 * (2 / z) ** nu if nu.is_positive else None
+        first, other = _first_kind(sign)((nu,), z), _first_kind(sign)((-nu,), z)
+        if sign < 0:
+            return (cos(nu * pi) * first - other) / sin(nu * pi)
+        return pi / 2 * (other - first) / sin(nu * pi)
+
+    return rule
+
+
+#: What is taken where the argument tends to 0.
+_AT_ZERO: dict[Any, Rule] = {
+    sympy.besselj: _first_kind(-1),
+    sympy.besseli: _first_kind(1),
+    sympy.bessely: _second_kind(-2 / pi, -1),
+    sympy.besselk: _second_kind(_ONE, 1),
+    sympy.hyper: _series,
+}
+#: For arguments z and -z, z to +oo.
+_AT_INFINITY: dict[Any, tuple[Rule, Rule]] = {
+    sympy.airyai: (_airy(sympy.S.Half, -1, -Rational(1, 4)), _airy_wave(cos, -pi / 4, -Rational(1, 4))),
+    sympy.airybi: (_airy(_ONE, 1, -Rational(1, 4)), _airy_wave(cos, pi / 4, -Rational(1, 4))),
+    sympy.airyaiprime: (_airy(-sympy.S.Half, -1, Rational(1, 4)), _airy_wave(sin, -pi / 4, Rational(1, 4))),
+    sympy.airybiprime: (_airy(_ONE, 1, Rational(1, 4)), _airy_wave(sin, pi / 4, Rational(1, 4))),
+    sympy.besselj: (_bessel_wave(cos), _none),
+    sympy.bessely: (_bessel_wave(sin), _none),
+    sympy.besseli: (lambda _, z: exp(z) / sqrt(2 * pi * z), _none),
+    sympy.besselk: (lambda _, z: exp(-z) * sqrt(pi / (2 * z)), _none),
+    sympy.hyper: (_confluent, _confluent_below),
+    sympy.hermite: _polynomial(lambda N: 2**N),
+    sympy.laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),
+    sympy.assoc_laguerre: _polynomial(lambda N, a: (-1) ** N / factorial(N)),
+}

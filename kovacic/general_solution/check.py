@@ -2,15 +2,16 @@
 
 What is checked is what is returned, in the user's symbols, at values of the parameters that fit their assumptions.  Where the
 right-hand side jumps, the equation is checked between the jumps, and y and y' at them; a function that is given by its name
-stands for any function, and is tried with an exponential one.  A value at a singular point or at infinity was a statement on
-all monomials of the expansion, and isn't computed again.
+stands for any function, and is tried with an exponential one.  A limit at a singular point or at infinity is refuted by values
+near it, where these aren't lost to cancellation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
+from types import MappingProxyType
 from typing import Any
 
 import sympy
@@ -24,6 +25,7 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.check import value_at as value_of_fraction
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
+from kovacic.general_solution.behaviour import Approach, is_refuted
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.jumps import break_points, in_steps, on_piece
@@ -49,22 +51,27 @@ def check_answer(
     question: Question,
     value: Expr,
     start: Expr | None = None,
-    limits: Sequence[Expr] = (),
+    limits: Mapping[Expr, Approach] = MappingProxyType({}),
     *,
     natural: Expr | None = None,
 ) -> list[str]:
     """What couldn't be checked, in a sentence each.  Raises `VerificationFailed` where the answer isn't one: a defect.
 
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
-    are the points at which conditions are on limits.  The answer holds where the integer `natural` isn't negative.
+    says where conditions are on limits, and from which side.  The answer holds where the integer `natural` isn't negative.
     """
     if not is_finite(value):
         raise _failed(question, value, "has no value")
     numbers = _numbers_for(question, value, natural)
     unchecked = _check_equation(question, value, start, numbers)
     for condition in question.conditions:
-        if set(condition.points).isdisjoint(limits):
+        place = limits.get(condition.points[0])
+        if place is None:
             unchecked += _check_condition(question, value, condition, numbers)
+            continue
+        part = value.diff(question.x, condition.terms[0].order).xreplace(numbers)
+        if is_refuted(condition.value, part, question.x, place):
+            raise _failed(question, value, f"doesn't satisfy {condition.text}")
     a, b, c, f = map(question.own, _coefficients(question))
     parts = [value, b / a, c / a, f / a]
     if question.function.args[0].is_positive:  # the whole line, where x = exp(t)

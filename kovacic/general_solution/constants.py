@@ -153,6 +153,10 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
     norm = _norm(row)
     if norm is not None:
         return _along(row, norm, others, names[0])
+    if row.r == 0 and _are_gammas_without_common_poles(row):
+        return DeterminedConstants(
+            (row.v * names[0], -row.u * names[0]), [other.rest(row.v, -row.u) for other in others]
+        )
     c1, c2 = names
     if pivot.is_first:  # C1 = r/u - v/u C2 with a free C2
         c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
@@ -166,6 +170,18 @@ def _along(row: Row, norm: Expr, others: Sequence[Row], name: Expr) -> Determine
     c1 = tidy(row.r * row.u / norm) + row.v * name
     c2 = tidy(row.r * row.v / norm) - row.u * name
     return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(name, 0) for other in others])
+
+
+def _are_gammas_without_common_poles(row: Row) -> bool:
+    """Are u and v multiples of 1/gamma(a) and 1/gamma(b), which never are zero together as a - b is no integer?"""
+    arguments = []
+    for entry in (row.u, row.v):
+        factors = [factor for factor in sympy.Mul.make_args(entry) if not is_nowhere_zero(factor)]
+        if len(factors) != 1 or not isinstance(1 / factors[0], sympy.gamma):
+            return False
+        arguments.append((1 / factors[0]).args[0])
+    difference = sympy.expand(arguments[0] - arguments[1])
+    return bool(difference.is_number and difference.is_integer is False)
 
 
 @dataclass(frozen=True)
@@ -236,6 +252,8 @@ def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Pa
 def condition_of(zero: Expr) -> str:
     """`zero = 0` in a short form: without factors that aren't zero."""
     left = vanishing_factors(zero)
+    if isinstance(1 / left, sympy.gamma):
+        return f"{(1 / left).args[0]} is one of 0, -1, -2, ..."
     if left.could_extract_minus_sign():
         left = -left
     return f"{left} = 0"
@@ -253,7 +271,8 @@ def vanishing_factors(zero: Expr) -> Expr:
     powers = {power for power in zero.atoms(sympy.Pow) if not power.exp.is_Integer}
     atoms = {*zero.free_symbols, *zero.atoms(sympy.Function), *powers}
     if size(zero) <= _LONGEST_FACTORED and len(atoms) <= _MOST_ATOMS:
-        whole = sympy.numer(sympy.together(zero))
+        whole, below = sympy.fraction(sympy.together(zero))
+        whole /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, sympy.gamma)))  # 0 at its poles
         waves = sympy.expand(TR8(sympy.expand(whole)))
         factored = min(map(sympy.factor, (whole, waves)), key=size)
     factors = [factor for factor in sympy.Mul.make_args(factored) if not is_nowhere_zero(factor)]

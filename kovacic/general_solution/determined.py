@@ -3,24 +3,23 @@
 A condition l(y) = v with a linear l gives the row (l(y1), l(y2), v - l(y0)), where everything is in the user's symbols, so
 that sin(n pi) is 0 before anything is compared.
 
-At a singular point and at infinity, y1, y2 and y0 are sums of monomials (`expansion`).  That y is bounded says that the
-coefficients of all unbounded monomials in C1 y1 + C2 y2 + y0 are zero, a row for each; that y tends to v says that those of
-the oscillating ones are zero as well, and the constant term is v.
+At a singular point and at infinity y is bounded, or tends to v.  If y1 and y2 are, the limits are such a row.  Else let y2 be
+the larger one, r = lim y1/y2: then C2 + r C1 = 0, and y = C1 (y1 - r y2).  As (y1 - r y2)/y2 tends to 0 and has the slope
+-W/y2^2, the limit of y1 - r y2 is by L'Hospital's rule that of W/y2'.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import sympy
 
 from kovacic.errors import InputError
-from kovacic.general_solution.behaviour import Approach, behaviour
+from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, Row, determine
-from kovacic.general_solution.expansion import CONSTANT, Expansion, ExpansionTerm, UnknownBehaviour
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.variation import Basis
@@ -28,20 +27,9 @@ from kovacic.general_solution.zero import agree
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
-Growth = tuple[tuple[Expr, Expr], ...]
-#: Sizes of monomials that don't tend to 0 [`ExpansionTerm.size`].
-_OSCILLATING = 0
-_UNBOUNDED = 1
+_ONE = sympy.Integer(1)
 #: The determinant of the rows for values of these orders at one point is W, or -W.
 _SIGNS: dict[tuple[int, ...], int] = {(0, 1): 1, (1, 0): -1}
-
-
-@dataclass(frozen=True)
-class Limit:
-    """The rows of a condition on a limit; `uncertain`: why y1 (0) or y2 (1) mustn't be part of y, as far as is known."""
-
-    rows: list[Row]
-    uncertain: Mapping[int, str]
 
 
 class _Solutions(NamedTuple):
@@ -61,27 +49,20 @@ def constants_of(
     """
     solutions = _Solutions(question.own(basis.y1), question.own(basis.y2), question.own(particular))
     rows: list[Row] = []
-    uncertain: dict[int, str] = {}
+    exceptional: set[Expr] = set()
     for condition in question.conditions:
         place = _limit_place(condition, limits)
         if place is None:
             rows.append(_row(condition, solutions, question.x))
         else:
-            limit = _limit(condition, solutions, basis, question, place)
-            rows += limit.rows
-            uncertain |= limit.uncertain
+            limit = _Limit(condition, place, question.own(basis.wronskian), question.x)
+            of_limit, zeros = _rows_of_limit(limit, solutions)
+            rows += of_limit
+            exceptional |= zeros
     found = determine(rows, names, _wronskian(question, basis, rows, limits))
-    _check_certainty(found.generic, uncertain)
+    for symbol in sorted(exceptional, key=str):
+        found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
     return found
-
-
-def _check_certainty(case: ParameterCase, uncertain: Mapping[int, str]) -> None:
-    """Raises `NotImplementedError` where a solution is a part of y whose behaviour isn't known well enough."""
-    if case.outcome is not Outcome.SOLUTIONS:
-        return
-    for k, reason in uncertain.items():
-        if case.values[k] != 0:
-            raise NotImplementedError(f"undecided: {reason}")
 
 
 def _row(condition: Condition, solutions: _Solutions, x: Expr) -> Row:
@@ -145,115 +126,94 @@ def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach
     return limits[place]
 
 
-def _limit(condition: Condition, solutions: _Solutions, basis: Basis, question: Question, place: Approach) -> Limit:
-    """Of a condition on the limit of y, or of y', at a singular point or at infinity."""
-    (term,) = condition.terms
-    try:
-        found = [behaviour(y.diff(question.x, term.order), question.x, place) for y in solutions]
-        rows = _rows_of_limit(condition, found)
-    except UnknownBehaviour as unknown:
-        raise NotImplementedError(f"undecided: the solutions' behaviour at {place.point}: {unknown}") from None
-    whole = None
-    if any(_is_irregular(expansion) for expansion in found):
-        whole = _growth(question.own(basis.wronskian), question.x, place)
-    *of_basis, of_particular = (_uncertainty(expansion, whole, _least_forbidden(condition)) for expansion in found)
-    if of_particular:
-        raise NotImplementedError(
-            f"undecided: the behaviour of a particular solution at {place.point}: {of_particular}"
-        )
-    return Limit(rows, _said(of_basis, place))
+@dataclass(frozen=True)
+class _Limit:
+    """A condition on the limit of y, or of y', at a place; W is the Wronskian."""
+
+    condition: Condition
+    place: Approach
+    W: Expr
+    x: Expr
+
+    @property
+    def order(self) -> int:
+        return self.condition.terms[0].order
+
+    def of(self, e: Expr) -> Expr:
+        return limit_at(e, self.x, self.place)
+
+    def is_allowed(self, limit: Expr) -> bool:
+        """May y behave like this?  A value excludes oscillations as well."""
+        return limit != sympy.oo and (limit != OSCILLATING or self.condition.value is None)
+
+    def rows(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
+        """What the condition says of C1 and C2.  Raises `UnknownLimit`."""
+        first, second, rest = (self.of(y) for y in (y1, y2, y0))
+        if not self.is_allowed(rest):
+            return self._with_a_large_particular(y1, y2, y0)
+        if self.is_allowed(first) and self.is_allowed(second):
+            return self._of_limits(first, second, rest)
+        if self.is_allowed(second):  # y1 is excluded
+            return [Row(_ONE, _ZERO, _ZERO), *self._of_limits(_ZERO, second, rest)]
+        if self.is_allowed(first):
+            return [Row(_ZERO, _ONE, _ZERO), *self._of_limits(first, _ZERO, rest)]
+        both = [Row(_ONE, _ZERO, _ZERO), Row(_ZERO, _ONE, _ZERO), *self._of_limits(_ZERO, _ZERO, rest)]
+        ratio = self.of(y1 / y2)
+        if ratio in (0, sympy.oo, OSCILLATING):  # of other sizes, or waves in other phases: no combination is smaller
+            return both
+        smaller = self._of_smaller(y2)
+        if not self.is_allowed(smaller):
+            return both
+        return [_without_gammas(ratio), *self._of_limits(smaller, _ZERO, rest)]
+
+    def _of_limits(self, first: Expr, second: Expr, rest: Expr) -> list[Row]:
+        """For limits that are allowed."""
+        if self.condition.value is None:
+            return []
+        return [Row(first, second, self.condition.value - rest)]
+
+    def _of_smaller(self, larger: Expr) -> Expr:
+        """The limit of the combination that is smaller than y1 and y2."""
+        if self.order:
+            raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
+        return self.of(self.W / larger.diff(self.x))
+
+    def _with_a_large_particular(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
+        """Where y0 isn't allowed: r = lim y0/y for the larger one of y1 and y2, and y0 - r y in its place."""
+        for k, y in enumerate((y1, y2)):
+            ratio = self.of(y0 / y)
+            if ratio not in (0, sympy.oo, OSCILLATING):
+                shifted = self.rows(y1, y2, sympy.expand(y0 - ratio * y))  # with C + r in the place of C
+                return [Row(row.u, row.v, row.r - (row.u, row.v)[k] * ratio) for row in shifted]
+        if any(self.of(y) == OSCILLATING for y in (y1, y2)) and self.of(y0) == OSCILLATING:
+            raise UnknownLimit("the particular solution oscillates as others do")
+        return [Row(_ZERO, _ZERO, _ONE)]  # no solution
 
 
-def _rows_of_limit(condition: Condition, found: Sequence[Expansion]) -> list[Row]:
-    """That no monomial occurs that mustn't, and for a value that the constant term is the value."""
-    rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, _least_forbidden(condition))]
-    if condition.value is not None:
-        rows.append(_coefficients(CONSTANT, found, condition.value))
-    return rows
+def _rows_of_limit(limit: _Limit, solutions: _Solutions) -> tuple[list[Row], set[Expr]]:
+    """The rows, and symbols that were taken for positive where it is only known that they aren't negative."""
+    forms = [y.diff(limit.x, limit.order) for y in solutions]
+    symbols = set().union(*(y.free_symbols for y in forms))
+    natural = {s: sympy.Dummy(s.name, integer=s.is_integer, positive=True) for s in symbols if _is_zero_open(s)}
+    for positive in ({}, natural):
+        try:
+            own = replace(limit, W=limit.W.xreplace(positive))
+            rows = own.rows(*(y.xreplace(positive) for y in forms))
+        except UnknownLimit as unknown:
+            reason = unknown
+            continue
+        back = {dummy: symbol for symbol, dummy in positive.items()}
+        return [Row(*(part.xreplace(back) for part in (row.u, row.v, row.r))) for row in rows], {*positive}
+    raise NotImplementedError(f"undecided: the solutions' behaviour at {limit.place.point}: {reason}")
 
 
-def _least_forbidden(condition: Condition) -> int:
-    """The size from which on monomials mustn't occur: where y is bounded, and where it tends to a value."""
-    if condition.value is None:
-        return _UNBOUNDED
-    return _OSCILLATING
+def _is_zero_open(symbol: Expr) -> bool:
+    return bool(symbol.is_nonnegative and not symbol.is_positive)
 
 
-def _said(reasons: Sequence[str | None], place: Approach) -> dict[int, str]:
-    """Why solutions mustn't be part of y, by their indices."""
-    t = f"|x - {place.point}|"
-    if place.is_infinite:
-        t = "1/|x|"
-    return {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(reasons) if reason}
-
-
-def _is_irregular(expansion: Expansion) -> bool:
-    """Is there an exponential?"""
-    return any(m.growth for m in (*expansion.terms, *expansion.errors))
-
-
-def _growth(wronskian: Expr, x: Expr, place: Approach) -> Growth | None:
-    """The exponential part of the Wronskian, None where it isn't known."""
-    try:
-        return behaviour(wronskian, x, place).leading().monomial.growth
-    except (UnknownBehaviour, NotImplementedError):
-        return None
-
-
-def _coefficients(m: ExpansionTerm, found: Sequence[Expansion], value: Expr) -> Row:
-    """That a monomial has this coefficient in y."""
-    u, v, w = (expansion.terms.get(m, _ZERO) for expansion in found)
-    return Row(u, v, sympy.expand(value - w))
-
-
-def _forbidden(found: Sequence[Expansion], least: int) -> list[ExpansionTerm]:
-    """The monomials of this size, or more, but for the constant; of those with one growing exponential, the largest ones.
-
-    The coefficients of the smaller ones follow: the series after one exponential is determined up to a factor.
-    """
-    forbidden: dict[ExpansionTerm, None] = {}
-    for expansion in found:
-        large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least)]
-        forbidden |= dict.fromkeys(m for m in large if not _follows(m, large))
-    return list(forbidden)
-
-
-def _follows(m: ExpansionTerm, large: Sequence[ExpansionTerm]) -> bool:
-    """Has it a growing exponential, and isn't the largest one with that?"""
-    if m.growth_sign <= 0:
-        return False
-    return any(other != m and other.growth == m.growth and m.is_below(other) for other in large)
-
-
-def _is_large(m: ExpansionTerm, least: int) -> bool | None:
-    """Is its size this, or more?  None where the assumptions don't tell."""
-    try:
-        return m.size >= least
-    except UnknownBehaviour:
-        return None
-
-
-def _uncertainty(expansion: Expansion, whole: Growth | None, least: int) -> str | None:
-    """Why the expansion may have other terms of this size, or more; None if it hasn't."""
-    for error in expansion.errors:
-        if not _is_known(error, expansion, whole) and _is_large(error, least) is not False:
-            return f"terms beyond {error} aren't known"
-    for m in expansion.terms:
-        if _is_large(m, least) is None:
-            return f"whether {m} is bounded isn't known"
-    return None
-
-
-def _is_known(error: ExpansionTerm, expansion: Expansion, whole: Growth | None) -> bool:
-    """Is what the error stands for 0 where the first term of its series is?
-
-    A solution is the sum of two series, each after an exponential, whose product is that of the Wronskian (`whole`).  If
-    these differ, a series is 0 where its first term is.
-    """
-    if whole is None:
-        return False
-    series = ExpansionTerm(error.growth)
-    if series.power(sympy.Integer(2)).growth == whole:
-        return False
-    is_among_terms = any(m.growth == error.growth for m in expansion.terms)
-    return is_among_terms and bool(_is_large(series, _UNBOUNDED))
+def _without_gammas(ratio: Expr) -> Row:
+    """r C1 + C2 = 0, for r = p/q as p C1 + q C2 = 0 with 1/gamma, which has values everywhere, in the place of gamma."""
+    p, q = sympy.fraction(sympy.powsimp(ratio))
+    gammas = [f for f in ratio.atoms(sympy.gamma) if f.free_symbols]
+    common = sympy.Mul(*gammas)
+    return Row(p / common, q / common, _ZERO)

@@ -354,7 +354,7 @@ def _determined(question: Question, found: DecidedBasis) -> tuple[Expr, list[str
     is_general = bool(set(names) & set().union(*(c.free_symbols for c in generic.values)))
     value = in_book_form(value, question.x, is_general=is_general)
     notices = _by_sign(question, found, particular, None)
-    notices += check_answer(question, value, start, tuple(limits), natural=found.natural)
+    notices += check_answer(question, value, start, limits, natural=found.natural)
     return value, notices + [f"this holds unless {said}" for said in exceptions]
 
 

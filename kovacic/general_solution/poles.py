@@ -18,8 +18,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
-from kovacic.general_solution.behaviour import Approach, behaviour
-from kovacic.general_solution.expansion import UnknownBehaviour
+from kovacic.general_solution.behaviour import Approach, finite_limit
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.zero import is_zero
@@ -232,7 +231,4 @@ def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
 
 def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
     """Have the coefficients limits at the point?"""
-    try:
-        return all(not behaviour(rate, x, Approach(point)).parts.large for rate in rates)
-    except (UnknownBehaviour, NotImplementedError):
-        return False
+    return all(finite_limit(rate, x, Approach(point)) is not None for rate in rates)

@@ -14,6 +14,7 @@ from typing import Any
 import sympy
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
+from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, exact
@@ -110,8 +111,8 @@ def read_question(
         known, assume = positive_variable(assume, function.args[0])
         function = function.xreplace(known)
         renamed = renamed | known
-    if assume:
-        known = _with_assumptions(assume, read.equation, conditions, symbols)
+    known = _with_assumptions(assume or {}, read.equation, conditions, symbols)
+    if known:
         renamed = renamed | known
         symbols |= {symbol.name: symbol for symbol in known.values()}
         conditions = tuple(condition.in_symbols(known) for condition in conditions)
@@ -163,8 +164,21 @@ def _with_assumptions(
     own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols}
     own |= {name: sympy.Symbol(name) for name in parameters_of(equation.S.field)} | dict(symbols)
     own.pop(equation.variable, None)
-    assumed = read_assumptions(assume, sympy.Tuple(*symbols.values()), tuple(own))
-    return {own[name]: symbol for name, symbol in assumed.symbols().items() if symbol != own[name]}
+    known = dict(own)
+    if assume:
+        known |= read_assumptions(assume, sympy.Tuple(*symbols.values()), tuple(own)).symbols()
+    return {own[name]: symbol for name, symbol in _with_meaning(known, equation).items() if symbol != own[name]}
+
+
+def _with_meaning(symbols: Mapping[str, Expr], equation: Equation) -> dict[str, Expr]:
+    """Positive symbols for those that aren't negative, if the equation has no meaning where they are 0."""
+    open_at_zero = {name for name, symbol in symbols.items() if symbol.is_nonnegative and not symbol.is_positive}
+    if not open_at_zero:
+        return dict(symbols)
+    below = sympy.denom(sympy.together(Atoms(sympy.Symbol(equation.variable)).ratio(equation.S)))
+    excluded = {name for name in open_at_zero if below.subs(sympy.Symbol(name), 0) == 0}
+    positive = {name: sympy.Symbol(name, integer=symbols[name].is_integer, positive=True) for name in excluded}
+    return dict(symbols) | positive
 
 
 def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:

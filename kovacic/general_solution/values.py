@@ -7,11 +7,10 @@ from typing import Any
 
 import sympy
 
-from kovacic.general_solution.behaviour import Approach, behaviour
-from kovacic.general_solution.expansion import UnknownBehaviour
+from kovacic.general_solution.behaviour import Approach, finite_limit
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value
-from kovacic.general_solution.zero import Zero, agree, is_zero, when_zero
+from kovacic.general_solution.zero import agree, is_zero
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -111,24 +110,7 @@ def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
 
     A closed form with roots may be another solution on the other side.
     """
-    limits = []
-    for direction in (1, -1):
-        limit = _limit_from(expression, x, Approach(point, direction))
-        if limit is None:
-            return None
-        limits.append(limit)
-    right, left = limits
-    if agree(right, left):
-        return right
-    return None
-
-
-def _limit_from(expression: Expr, x: Expr, place: Approach) -> Expr | None:
-    """The limit from one side; None without, or where it isn't known."""
-    try:
-        parts = behaviour(expression, x, place).parts
-    except (UnknownBehaviour, NotImplementedError):
+    right, left = (finite_limit(expression, x, Approach(point, direction)) for direction in (1, -1))
+    if right is None or left is None or not agree(right, left):
         return None
-    if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in parts.large.values()):
-        return None
-    return parts.constant
+    return right
