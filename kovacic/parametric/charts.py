@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, product
 
+from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -84,6 +85,8 @@ def _where_solvable(equation: Poly, chart: ParameterPoint) -> list[ParameterPoin
 
 def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
     if not value:
+        return [chart]
+    if isinstance(value, ExtensionPoly):  # over a number field, maybe a function of further parameters
         return [chart]
     if not isinstance(value, FunctionPoly):
         return []
