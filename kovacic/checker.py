@@ -788,12 +788,23 @@ def form(data: dict[str, Any], m: int, S: Value, names: dict[str, Value], modulu
     slope = read(data["theta"], names) + P.derivative() / P
     G = slope.den * (S.den // slope.den.gcd(S.den))
     T = S.num * (G * G // S.den)
-    N = [PLANE.constant(1), slope.num * (G // slope.den)]
-    for k in range(1, m + 1):
-        total = G * N[k].derivative(1) + (N[1] - k * G.derivative(1)) * N[k] - (m - k + 1) * T * N[k - 1]
-        N.append(total * fmpq(1, k + 1))
+    first = slope.num * (G // slope.den)
+    if slope.has_c:
+        N = numerators(m, lambda f: f.derivative(1), G, T, first)
+    else:  # polynomials in x alone are far faster
+        alone = (in_one_variable(f, 1) for f in (G, T, first))
+        N = [from_one_variable(f) for f in numerators(m, lambda f: f.derivative(), *alone)]
     demand(divmod(N.pop(), modulus)[1] == 0, f"there is this form of degree {m}")
     return Form(slope, G, N)
+
+
+def numerators(m: int, derivative: Callable[[Any], Any], G: Any, T: Any, first: Any) -> list[Any]:
+    """N_0, ..., N_(m+1), for T = G^2 S and the given N_1."""
+    N = [G**0, first]
+    for k in range(1, m + 1):
+        total = G * derivative(N[k]) + (first - k * derivative(G)) * N[k] - (m - k + 1) * T * N[k - 1]
+        N.append(total * fmpq(1, k + 1))
+    return N
 
 
 def residues(slope: Value) -> list[tuple[Any, int]]:
@@ -1003,7 +1014,7 @@ def polynomial(value: Value) -> Any:
 
 def from_one_variable(f: Any) -> Any:
     """The polynomial in x as one in c and x."""
-    return sum((PLANE.constant(f[k]) * X2**k for k in range(f.degree() + 1)), start=PLANE.constant(0))
+    return PLANE.from_dict({(0, k): f[k] for k in range(f.degree() + 1)})
 
 
 class Piece(NamedTuple):
@@ -1925,7 +1936,10 @@ class Answer:
             self.exclusions.hold(entry["structure"], entry["evidence"])
 
     def omega(self, n: int) -> Form:
-        """The polynomial of omega is that of a form f of degree n, over Q(c); f, with its polynomials reduced."""
+        """The polynomial of omega is that of a form f of degree n, over Q(c); f, with its polynomials reduced.
+
+        Of degree 6 and 12 it needn't be written out: N_0, ..., N_n follow from f.
+        """
         riccati = self.data["riccati"]
         semi_invariant = self.proof["semi_invariant"]
         demand_keys(riccati, "the polynomial of omega", "variable degree coefficients")
@@ -1934,11 +1948,14 @@ class Answer:
         demand_names(riccati["variable"], *self.names)
         f = form(semi_invariant, n, self.S, self.names, modulus)
         self.normal_form(semi_invariant)
-        a = [read(text, self.names) for text in reversed(the_list(riccati["coefficients"], "the polynomial"))]
-        demand_equal((riccati["degree"], len(a) - 1), (n, n), "the degree of omega, twice")
-        for k in range(n + 1):
-            difference = a[k].num * f.G**k - (-1) ** k * f.N[k] * a[k].den
-            demand(divmod(difference, modulus)[1] == 0, "the roots of the polynomial solve omega' + omega^2 = S")
+        demand_equal(riccati["degree"], n, "the degree of omega")
+        a = [f.slope]
+        if n < 6 or riccati["coefficients"] is not None:
+            a = [read(text, self.names) for text in reversed(the_list(riccati["coefficients"], "the polynomial"))]
+            demand_equal(len(a) - 1, n, "the number of coefficients")
+            for k in range(n + 1):
+                difference = a[k].num * f.G**k - (-1) ** k * f.N[k] * a[k].den
+                demand(divmod(difference, modulus)[1] == 0, "the roots of the polynomial solve omega' + omega^2 = S")
         demand(modulus == C or any(value.has_c for value in a), "c occurs in omega")
         return f.modulo(modulus)
 

@@ -413,7 +413,8 @@ class Solution(Answer):
         Parameters
         ----------
         full : bool
-            With True, the group and two solutions in closed form are added, which have to be computed.  False by default.
+            With True, the group and two solutions in closed form are added, which have to be computed, and the coefficients of
+            the polynomial of omega where that has the degree 6 or 12.  False by default.
 
         Returns
         -------

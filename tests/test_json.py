@@ -6,17 +6,20 @@ import json
 from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import pytest
 import sympy
-from build import parametrize
+from build import QQ, RatFunc, parametrize
 from published import Published, load
 
 import kovacic
 from kovacic import InputError, Limits, VerificationFailed, checker
+from kovacic.special.gauss import Gauss
+from kovacic.special.pullback import Pullback
 
 loads = kovacic.Solution.from_json
 
@@ -391,3 +394,51 @@ def test_what_json_has_no_number_for_is_refused(number: str) -> None:
     line = kovacic.solve("x").to_json()
     with pytest.raises(InputError, match="isn't a number in JSON"):
         loads(line.replace('"seconds"', f'"mine": {number}, "seconds"'))
+
+
+def _primitive_answers() -> list[kovacic.Solution]:
+    """Pull-backs with each of the three primitive finite groups, and shifted exponent differences."""
+    x = RatFunc(QQ.poly([0, 1]))
+    functions = [x**2 / (x + 1), x**3 / (x**2 + 1), (x**2 + 3 * x + 5) / (x + 1)]
+    differences = ["1/2 1/3 1/3", "1/2 1/3 1/4", "1/2 1/3 1/5", "1/2 1/3 6/5"]
+    squares = [[QQ.poly([Fraction(d) ** 2]) for d in row.split()] for row in differences]
+    return [kovacic.solve(str(Pullback(Gauss(*row), f).S)) for row in squares for f in functions]
+
+
+def test_long_polynomials_of_omega_follow_from_the_semi_invariant() -> None:
+    """Of degree 6 and 12 they aren't written out; an answer is a few times as long as S, and checked without them."""
+    for answer in _primitive_answers()[::5]:
+        text = answer.to_json()
+        data = json.loads(text)
+        VALIDATOR.validate(data)
+        degree = data["riccati"]["degree"]
+        assert (data["riccati"]["coefficients"] is None) == (degree >= 6)
+        assert len(text) < 2000 + 5 * len(data["S"]) or degree == 4
+        assert loads(text) == answer
+        assert checker.verdict(text).startswith("checked: S from input; case; omega")
+        full = json.loads(answer.to_json(full=True))
+        assert len(full["riccati"]["coefficients"]) == degree + 1
+        assert loads(full) == answer
+
+
+@pytest.mark.long
+def test_answers_without_the_polynomial_are_checked() -> None:
+    """All of them; a P, a theta or a degree that isn't the right one is found, by both checks."""
+    for answer in _primitive_answers():
+        data = json.loads(answer.to_json())
+        assert loads(data) == answer
+        assert checker.verdict(json.dumps(data)).startswith("checked")
+        form = data["proof"]["semi_invariant"]
+        changes: list[tuple[dict[str, Any], str, object]] = [
+            (form, "P", f"({form['P']}) + 1"),
+            (form, "theta", f"({form['theta']}) + 1/x"),
+            (data["riccati"], "degree", 16 - data["riccati"]["degree"]),
+            (data["riccati"], "coefficients", [] if data["riccati"]["degree"] > 4 else None),
+        ]
+        for part, key, value in changes:
+            kept = part[key]
+            part[key] = value
+            with pytest.raises((InputError, VerificationFailed)):
+                loads(data)
+            assert checker.verdict(json.dumps(data)).startswith("refuted")
+            part[key] = kept

@@ -195,9 +195,7 @@ def label_of(data: Mapping[str, Any]) -> str:
         return UNDECIDED
     label, case, degree = _LABELS[data["proof"]["structure"]]
     status = "none" if case is None else "liouvillian"
-    found = 0
-    if data["riccati"]:
-        found = len(data["riccati"]["coefficients"]) - 1
+    found = data["riccati"]["degree"] if data["riccati"] else 0
     if (data["status"], data["case"], found) != (status, case, degree) or not data["verified"]:
         raise ValueError("the answer contradicts itself")
     return label

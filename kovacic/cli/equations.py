@@ -28,7 +28,11 @@ if TYPE_CHECKING:
     latex="The equation and its solutions in LaTeX.",
     code="Two solutions as code of another system.",
 )
-@click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
+@click.option(
+    "--full",
+    is_flag=True,
+    help="With --json: the group, two solutions, and any polynomial of omega as well.",
+)
 @click.option("--no-solutions", is_flag=True, help="Only the verdict and omega: faster.")
 @click.option("--explain", "derived", is_flag=True, hidden=True)
 @click.option("--ics", multiple=True, hidden=True)

@@ -6,7 +6,9 @@
      "verified": true, "proof": {...}, "notices": [], "seconds": 0.001}
 
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
-"1".  `proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
+"1".  Those of degree 6 and 12 are null unless they are asked for: they follow from the semi-invariant by the recurrence of
+`kovacic.verify.identity`, and would be most of the answer.
+`proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
 rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
 `group`, on request, has the name, the order, and the family of the group with its parameter n; on a curve of positive genus
 also the function, in pieces, that shows whether it is finite, or the orders modulo primes that show an infinite one.
@@ -57,6 +59,9 @@ SCHEMA = 1
 #: Those of an equation a y'' + b y' + c y = f.
 _COEFFICIENTS = ("a", "b", "c", "f")
 
+#: The degrees of omega from which on the coefficients follow from the semi-invariant.
+_LEAST_BY_RECURRENCE = 6
+
 # An answer may be larger than an input may be by default.
 _READING_LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
 
@@ -64,7 +69,7 @@ _ARITHMETIC = Arithmetic(_READING_LIMITS)
 
 
 def dumps(answer: Answer, *, full: bool = False) -> str:
-    """The answer as one line of JSON; `full` adds the group and two solutions in closed form, which have to be computed."""
+    """The answer as one line of JSON; `full` adds the group, two solutions in closed form, and any polynomial of omega."""
     return json_line(to_dict(answer, full=full))
 
 
@@ -104,10 +109,11 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         from kovacic.parametric.restriction import generic_conditions
 
         conditions = {key: [*map(str, functions)] for key, functions in vars(generic_conditions(answer)).items()}
-    riccati = None
+    riccati: dict[str, Any] | None = None
     if decision.riccati is not None:
-        coefficients = [names.python(coefficient) for coefficient in decision.riccati.coefficients]
-        riccati = {"variable": names.unknown, "degree": decision.riccati.degree, "coefficients": coefficients}
+        riccati = {"variable": names.unknown, "degree": decision.riccati.degree, "coefficients": None}
+        if full or decision.riccati.degree < _LEAST_BY_RECURRENCE:
+            riccati["coefficients"] = [*map(names.python, decision.riccati.coefficients)]
     constants = None
     if answer.constants is not None:
         constants = {"symbol": names.symbol, "minimal_polynomial": answer.constants.to_str(names.symbol)}
@@ -248,7 +254,7 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     riccati = None
     if form is not None:
         D = over_constants.poly(proof["semi_invariant"]["D"])
-        riccati = _riccati(form.P, D, data["riccati"], over_constants)
+        riccati = _riccati(S, form, D, data["riccati"], over_constants)
     undecided = _typed(proof, "undecided", str, type(None))
     decision = Decision(
         structure=structure,
@@ -449,8 +455,14 @@ class _Reader(WrittenReader):
         return SemiInvariant(_typed(data, "degree", int), self.ratfunc(data["theta"]), self.poly(data["P"]))
 
 
-def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> RiccatiPolynomial:
+def _riccati(S: RatFunc, form: SemiInvariant, D: Poly, data: Mapping[str, Any], reader: _Reader) -> RiccatiPolynomial:
     """The numerators A_k with (-1)^k A_k/(P D^k) the coefficient of W^(m-k)."""
+    P = form.P
+    if data["coefficients"] is None:
+        by_recurrence = form_numerators(S, form, D)
+        if by_recurrence is None or not _LEAST_BY_RECURRENCE <= form.degree == data["degree"]:
+            raise ValueError("the polynomial of omega is missing, and isn't that of the semi-invariant")
+        return RiccatiPolynomial(P, D, tuple(by_recurrence))
     *coefficients, leading = (reader.ratfunc(text) for text in data["coefficients"])
     if leading != 1 or len(coefficients) != data["degree"] or data["degree"] not in (1, 2, 4, 6, 12):
         raise ValueError("the polynomial of omega isn't monic of its degree")
