@@ -276,12 +276,13 @@ def test_what_isnt_an_expression(text: str, position: int, words: str) -> None:
 @given(expressions())
 @example(Expression(" 2e-3**x' -\u2003(y″ (x) + .5x⁻²) = é ", "", lambda x: x, 0))
 @settings(max_examples=100)
-@pytest.mark.slow
 def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
     text = expression.text
     tokens = tokenize(text)
-    assert "".join(tokens.pieces) == "".join(text.split())
-    assert [text[i:j] for i, j in zip(tokens.starts, tokens.ends, strict=True)] == tokens.pieces
+    plain = str.maketrans({"″": "''", "−": "-", "·": "*", "×": "*"})
+    assert "".join(tokens.pieces) == "".join(text.split()).translate(plain)
+    written = [text[i:j].translate(plain) for i, j in zip(tokens.starts, tokens.ends, strict=True)]
+    assert written == tokens.pieces
     assert tokens.starts == sorted(tokens.starts)
     assert tokens.kinds[-1] == "$END"
     assert tokens.starts[-1] == len(text)
@@ -692,7 +693,6 @@ WRONG = [
     "gama(x)",
     "sin x y",
     "sinx",
-    "Sin(x)",
     "EXP(x)",
     "ln x",
     "e^(x^2)",

@@ -134,10 +134,13 @@ NAMES = {"ω_0": "omega_0", "omega0": "omega_0", "α": "alpha"}
 
 
 @parametrize("name", NOTATIONS, ordinary=0, long=8)
-@pytest.mark.slow
 def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
     for parts in EQUATIONS:
         text = NOTATIONS[name](parts)
+        if text.startswith("(2) "):  # a coefficient, or the number of the equation
+            with pytest.raises(kovacic.InputError, match="may be the number of the equation, or a factor"):
+                read_input(text)
+            continue
         found = read_input(text, exponentials=True)
         S, f = found.S.to_str(), f"{found.equation.f.to_str()} + {found.equation.h or 0}"
         for other, usual in NAMES.items():
@@ -435,6 +438,7 @@ def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
         ("y'' + 3y' + 2y = δ(t)", "δ(t)", "dirac(t)"),
         ("y'' = 3⁄4 y", "3⁄4 y", "(3/4)*y"),
         ("solve y'' + x*y = 0", "solve ", ""),
+        ("(2) y'' + y = sec(x)", "(2)", "2*"),
         ("y''+4y=0 (y(0)=1)", " (y(0)=1)", ", y(0)=1"),
         ("dsolve(y(x).diff(x,2)+y(x), hint='best')", "dsolve(y(x).diff(x,2)+y(x), hint='best')", "y(x).diff(x,2)+y(x)"),
         (r"y'' + y = \operatorname{artanh} x", r"\operatorname{artanh} x", "x"),

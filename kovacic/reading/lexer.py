@@ -15,15 +15,17 @@ from kovacic.errors import InputError, LimitExceeded, ParseError
 from kovacic.limits import Limits
 
 PRIMES = "'"
+#: Derivatives by the time: ẋ.
+DOTS = "˙"
 #: Names of derivatives.
 DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
 
 _SUPERSCRIPTS = "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
 _LOWERED = "₀₁₂₃₄₅₆₇₈₉"
 _FRACTIONS = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
-#: A prime for each dot above a letter that functions have; others with dots are letters of an alphabet.
+#: What functions are called has dots for derivatives; others with dots are letters of an alphabet.
 _DOTTED = frozenset("xyzuvwqrsθφψ")
-_DOTS = {"\u0307": "'", "\u0308": "''"}
+_DOTS = {"\u0307": DOTS, "\u0308": 2 * DOTS}
 #: What a character stands for; all else stands for itself.
 _CHARACTERS = {
     **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015−", "-"),
@@ -44,9 +46,10 @@ _NO_LETTERS = f"Α-Ωα-ωħ{_SUPERSCRIPTS}{_LOWERED}{_FRACTIONS}"
 _TOKEN = re.compile(
     rf"""
     (?P<NUMBER> (?: [0-9]+ (?:\.[0-9]*)? | \.[0-9]+ ) (?: [eE][+-]?[0-9]+(?!\w) )? )
+  | (?P<CHARACTER> \\\[[A-Z][a-z]+\][0-9]* )
   | (?P<COMMAND> \\[A-Za-z]+ | \\. )
   | (?P<WORD> [Α-Ωα-ωħ] (?: _[A-Za-z0-9]+ | [0-9]+ )? | [^\W\d_{_NO_LETTERS}] [^\W{_NO_LETTERS}]* )
-  | (?P<PRIMES> ['"`]+ )
+  | (?P<PRIMES> ['"`˙]+ )
   | (?P<SUPERSCRIPT> [⁺⁻]? [⁰¹²³⁴⁵⁶⁷⁸⁹]+ )
   | (?P<NEWLINE> \n )
   | (?P<SIGN> \*\* | := | == | @@ | <= | >= | \.[*/^] | \S )
@@ -68,7 +71,7 @@ def scanned(text: str) -> list[Token]:
     """The tokens of a text.
 
     >>> [token.text for token in scanned("ẍ + ½x² = 3e-1")]
-    ['x', "''", '+', '(', '1', '/', '2', ')', 'x', '²', '=', '3e-1']
+    ['x', '˙˙', '+', '(', '1', '/', '2', ')', 'x', '²', '=', '3e-1']
     """
     plain, origins = text, None
     if not text.isascii():
@@ -80,7 +83,10 @@ def scanned(text: str) -> list[Token]:
         start, end = found.span()
         if origins is not None:
             start, end = origins[start], origins[end - 1] + 1
-        tokens.append(Token(str(found.lastgroup), found[0], start, end))
+        if found.lastgroup == "CHARACTER":  # Mathematica's \[Alpha]1
+            tokens.append(Token("WORD", found[0][2:].replace("]", "").lower(), start, end))
+        else:
+            tokens.append(Token(str(found.lastgroup), found[0], start, end))
     return tokens
 
 
@@ -109,15 +115,6 @@ def _ordinary(text: str, k: int) -> str:
     if letter in _DOTTED and "".join(dots) in _DOTS:
         return letter + _DOTS["".join(dots)]
     return plain if kind == "<font" else character
-
-
-def has_dots(text: str) -> bool:
-    """True if a letter has dots above it, which are derivatives by the time."""
-    for character in () if text.isascii() else text:
-        letter, *dots = list(unicodedata.normalize("NFD", character))
-        if letter in _DOTS or (letter in _DOTTED and "".join(dots) in _DOTS):
-            return True
-    return False
 
 
 def _is_super(text: str, k: int) -> bool:
