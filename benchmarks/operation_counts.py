@@ -97,7 +97,7 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.algebra.modular", "series_solution"): _terms(3),
     ("kovacic.algebra.modular", "square_root_series"): _terms(1),
     ("kovacic.algebra.modular", "null_space"): _system,
-    ("kovacic.engine.expansion", "_null_vector"): _system,
+    ("kovacic.engine.expansion", "_unique_null_vector"): _system,
     ("kovacic.verify", "_invariant_holds"): _verification,
     ("kovacic.verify.primes", "homomorphisms_modulo"): _prime,
     ("kovacic.verify.primes", "roots_modulo"): _roots,

@@ -114,7 +114,7 @@ def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
     >>> squared(answer) is squared(answer)
     True
     """
-    name = _name(compute)
+    name = _key_of(compute)
 
     @wraps(compute)
     def found(answer: Answer) -> _T:
@@ -128,8 +128,8 @@ def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
 
 def was_computed(function: Callable[[Any], Any], answer: Answer) -> bool:
     """True if this function of `computed_once` has been called for the answer."""
-    return _name(function) in answer.__dict__
+    return _key_of(function) in answer.__dict__
 
 
-def _name(function: Callable[..., Any]) -> str:
+def _key_of(function: Callable[..., Any]) -> str:
     return f"{function.__module__}.{function.__qualname__}"

@@ -63,7 +63,7 @@ def find_answer(
     """What `kovacic.solve` returns, as data: arguments and exceptions are the same."""
     start = time.perf_counter()
     coefficients = {"a": a, "b": b, "c": c, "f": f}
-    S, parsed, assume = _read(S, coefficients, var, assume, parameters, limits)
+    S, parsed, assume = _read_question(S, coefficients, var, assume, parameters, limits)
     budget = Budget(limits)
     decision, notices, assumed, known = _decided(parsed, S, assume, budget, certify=True)
     try:
@@ -156,12 +156,12 @@ def decide(
     >>> kovacic.decide("a/x^2", assume={"a": 2}).case
     1
     """
-    S, parsed, assume = _read(S, {}, var, assume, parameters, limits)
+    S, parsed, assume = _read_question(S, {}, var, assume, parameters, limits)
     decision, *_ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
-def _read(
+def _read_question(
     S: Any,
     coefficients: Mapping[str, Any],
     var: str | None,

@@ -23,7 +23,7 @@ from kovacic.sturm_liouville.solve import Eigenproblem
 
 Expr = Any
 PARAMETER = "lambda"
-_INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+_INFINITE_ENDS = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
 
 
 @limited
@@ -116,12 +116,12 @@ def read_eigenproblem(
 ) -> Eigenproblem:
     """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
     values = {str(name): read_expression(exact_text(value, str(name))) for name, value in (params or {}).items()}
-    linear = _linear(equation, var, parameter, values, limits)
+    linear = _linear_in_parameter(equation, var, parameter, values, limits)
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
     reader = ConditionReader(linear.function, linear.function.func.__name__)
     given = [_with_values(reader.read(key, value), values) for key, value in as_mapping(conditions).items()]
-    ends = _ends(given, domain)
+    ends = _interval_ends(given, domain)
     wrap, wishes = _wishes(given, ends)
     pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
     problem = SturmProblem(linear.x, pieces, wishes, wrap, B, sign)
@@ -153,7 +153,9 @@ def _with_values(condition: Condition, values: Mapping[str, Expr]) -> Condition:
     return replace(condition, terms=tuple(terms))
 
 
-def _linear(equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits) -> _Linear:
+def _linear_in_parameter(
+    equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits
+) -> _Linear:
     expression, function = _expression(equation, var, words_among((parameter, *values)), limits)
     x = function.args[0]
     named = {s: values[s.name] for s in expression.free_symbols if s.name in values}
@@ -209,7 +211,7 @@ def _expression(equation: Any, var: str | None, names: Sequence[str], limits: Li
     return expression.doit().xreplace(plain), function.func(plain[x])
 
 
-def _ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tuple[Expr, Expr]:
+def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tuple[Expr, Expr]:
     """The ends of the interval, from the points of the conditions and from what was given."""
     points = {point for condition in conditions for point in condition.points}
     for point in points:
@@ -222,7 +224,7 @@ def _ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tupl
     if domain is not None:
         if isinstance(domain, str) or len(domain) != 2:
             raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-        ends = [_end(value) for value in domain]
+        ends = [_domain_end(value) for value in domain]
         if not points <= {*ends}:
             raise InputError("the conditions are at points that aren't the ends of the domain")
     elif not points:
@@ -233,21 +235,21 @@ def _ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tupl
         raise InputError(
             f"the conditions name {len(ends)} points, and an interval has two ends", hint='domain=(0, "oo") gives both'
         )
-    low, high = sorted(ends, key=_place)
-    if not _place(low) < _place(high):
+    low, high = sorted(ends, key=_position_of)
+    if not _position_of(low) < _position_of(high):
         raise InputError("the interval is empty")
     return low, high
 
 
-def _place(end: Expr) -> float:
+def _position_of(end: Expr) -> float:
     if end.is_infinite:
         return float("inf") if end is sympy.oo else -float("inf")
     return float(ball(end).mid())
 
 
-def _end(value: Any) -> Expr:
+def _domain_end(value: Any) -> Expr:
     text = exact_text(value, "an end of the domain")
-    return _INFINITE.get(text) or read_expression(text, what="an end of the domain")
+    return _INFINITE_ENDS.get(text) or read_expression(text, what="an end of the domain")
 
 
 def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[int, tuple[Wish, Wish]]:
@@ -258,7 +260,7 @@ def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[i
                 f"{condition.text}: the conditions of eigenvalue problems are homogeneous, with 0 on one side"
             )
     if any(len(set(condition.points)) > 1 for condition in conditions):
-        return _wrap(conditions, ends), (None, None)
+        return _periodicity(conditions, ends), (None, None)
     wishes: list[Wish] = [None, None]
     for condition in conditions:
         side = ends.index(condition.points[0])
@@ -274,7 +276,7 @@ def _wish(condition: Condition) -> Wish:
     return Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
 
 
-def _wrap(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
+def _periodicity(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
     """1 for y(a) = y(b), y'(a) = y'(b), and -1 for the same with a sign.  Raises `InputError` for others."""
     quotients = {}
     for condition in conditions:

@@ -41,7 +41,7 @@ def exact(value: Any, name: str) -> Parts:
     if isinstance(value, bool):
         raise InputError(f"{name} is a truth value ({value}), not a number")
     if isinstance(value, str):
-        return _of_text(value, name), fmpq(0)
+        return _rational_of_text(value, name), fmpq(0)
     reader = _READERS.get(_library(value), _of_python)
     parts = reader(value, name)
     if parts is None:
@@ -88,7 +88,7 @@ def exact_text(value: Any, name: str) -> str:
     if _library(value) == "sympy":
         return as_text(value)
     number = exact_real(value, name)
-    if isinstance(value, float | Decimal) or _kind(value) == "f":
+    if isinstance(value, float | Decimal) or _numpy_kind(value) == "f":
         return str(value)
     return str(fmpq(number.numerator, number.denominator))
 
@@ -97,7 +97,7 @@ def is_complex(value: Any) -> bool:
     """True for a complex number, by its type."""
     if _library(value) == "mpmath":
         return hasattr(value, "_mpc_")
-    return isinstance(value, complex | acb) or _kind(value) == "c"
+    return isinstance(value, complex | acb) or _numpy_kind(value) == "c"
 
 
 def _library(value: Any) -> str:
@@ -106,7 +106,7 @@ def _library(value: Any) -> str:
     return next((name for name in names if name in _READERS), "")
 
 
-def _kind(value: Any) -> str:
+def _numpy_kind(value: Any) -> str:
     """NumPy's letter for the type of a scalar, or of an array without dimensions; empty for anything else."""
     is_scalar = _library(value) == "numpy" and getattr(value, "ndim", None) == 0
     return str(value.dtype.kind) if is_scalar else ""
@@ -114,23 +114,23 @@ def _kind(value: Any) -> str:
 
 def _is_duration(value: Any) -> bool:
     """NumPy counts its durations among the integers."""
-    return _kind(value) in ("m", "M")
+    return _numpy_kind(value) in ("m", "M")
 
 
 def _of_python(value: Any, name: str) -> Parts | None:
     if isinstance(value, complex):
-        return _real(value.real, name), _real(value.imag, name)
+        return _rational_of(value.real, name), _rational_of(value.imag, name)
     if isinstance(value, int | float | Decimal | Rational):
-        return _real(value, name), fmpq(0)
+        return _rational_of(value, name), fmpq(0)
     return None
 
 
 def _of_numpy(value: Any, name: str) -> Parts | None:
-    kind = _kind(value)
+    kind = _numpy_kind(value)
     if kind == "c":
-        return _real(value.real[()], name), _real(value.imag[()], name)
+        return _rational_of(value.real[()], name), _rational_of(value.imag[()], name)
     if kind and kind in "iuf":
-        return _real(value[()], name), fmpq(0)
+        return _rational_of(value[()], name), fmpq(0)
     if kind and kind in "OU":
         return exact(value.item(), name)
     return None
@@ -168,7 +168,7 @@ def _of_kovacic(value: Any, name: str) -> Parts | None:
         return None
     _demand_exact(value.is_exact(), name)
     real, imaginary = value.midpoint
-    return _real(real, name), _real(imaginary, name)
+    return _rational_of(real, name), _rational_of(imaginary, name)
 
 
 _READERS = {
@@ -185,7 +185,7 @@ def _demand_exact(is_exact: bool, name: str) -> None:
         raise InputError(f"{name} is a ball of positive radius; an exact point is needed", hint="use its midpoint")
 
 
-def _real(value: Any, name: str) -> Any:
+def _rational_of(value: Any, name: str) -> Any:
     """The rational number of an object with `numerator` and `denominator`, or with `as_integer_ratio`."""
     if isinstance(value, Decimal) and value.is_finite() and abs(value.adjusted()) > _MAX_EXPONENT:
         raise InputError(f"{name} = {value} has an exponent beyond {_MAX_EXPONENT}")
@@ -200,12 +200,12 @@ def _real(value: Any, name: str) -> Any:
     return fmpq(int(above), int(below))
 
 
-def _of_text(text: str, name: str) -> Any:
+def _rational_of_text(text: str, name: str) -> Any:
     match = _NUMBER.fullmatch(text) if len(text) <= _MAX_TEXT else None
     if match is None:
         raise InputError(f"{name} isn't a decimal number or a fraction p/q: {text[:60]!r}", hint="e.g. '0.1' or '1/3'")
     if match[3] is not None:
-        return _real(Decimal(match[3]), name)
+        return _rational_of(Decimal(match[3]), name)
     above, below = (fmpz(part.lstrip("+")) for part in (match[1], match[2]))  # Python reads 4300 digits only
     if below == 0:
         raise InputError(f"{name} = {text[:60]} divides by zero")
@@ -242,7 +242,7 @@ def radical(value: Any, n: int = 2) -> Any:
     from sympy import root, sympify
 
     number, _ = sympify(value, strict=True).as_coeff_Mul(rational=True)
-    bits = _bits(number)
+    bits = _size_in_bits(number)
     if bits > _LONGEST_RADICAND:
         reason = (
             f"a root of a number of {bits} bits, above the limit of {_LONGEST_RADICAND}, isn't written as a formula"
@@ -255,8 +255,8 @@ def has_long_numbers(expression: Any) -> bool:
     """True if the expression has numbers so long that SymPy would take seconds for a root of them, as a value may bring up."""
     from sympy import Rational as Number
 
-    return any(_bits(number) > _LONGEST_RADICAND for number in expression.atoms(Number))
+    return any(_size_in_bits(number) > _LONGEST_RADICAND for number in expression.atoms(Number))
 
 
-def _bits(number: Any) -> int:
+def _size_in_bits(number: Any) -> int:
     return max(int(number.p).bit_length(), int(number.q).bit_length())

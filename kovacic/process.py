@@ -25,7 +25,9 @@ from contextlib import suppress
 from typing import IO, Any, cast
 
 # The interpreter looks for modules where this one does, and not in the current directory.
-_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import main; main()"
+_INTERPRETER_SOURCE = (
+    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import main; main()"
+)
 _SHOWN_ERROR_BYTES = 20_000
 _PARENT_CHECK_SECONDS = 1.0
 _LONGEST_SECONDS = 1e8
@@ -62,7 +64,7 @@ class Process:
     def __init__(self, serve: Callable[[Channel], None]) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by close()
         self._process = subprocess.Popen(
-            [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
+            [sys.executable, "-P", "-c", _INTERPRETER_SOURCE, json.dumps(sys.path)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._errors,

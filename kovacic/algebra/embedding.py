@@ -20,28 +20,29 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 
 #: Bits of the approximations.
-_PRECISION = 512
+_EMBEDDING_BITS = 512
 #: What is smaller than this is zero, where it is known that one of several candidates is.
 _TINY_BITS = 200
 
 
 def approximation(constant: Poly) -> Any:
     """The complex number that an element of Q or of Q(theta) is, as an `acb`."""
-    with working_precision(_PRECISION):
-        return _value(
-            constant, _complex(constant.field.approximation) if isinstance(constant, ExtensionPoly) else acb(0)
-        )
+    with working_precision(_EMBEDDING_BITS):
+        theta = _complex(constant.field.approximation) if isinstance(constant, ExtensionPoly) else acb(0)
+        return _value_for_generator(constant, theta)
 
 
 def enclosure(constant: Poly) -> Any:
     """A ball with the complex number that an element of Q or of Q(theta) is."""
-    with working_precision(_PRECISION):
+    with working_precision(_EMBEDDING_BITS):
         if not isinstance(constant, ExtensionPoly):
-            return _value(constant, acb(0))
-        return _value(constant, _roots(constant.field.modulus, _complex(constant.field.approximation))[0])
+            return _value_for_generator(constant, acb(0))
+        return _value_for_generator(
+            constant, _roots_by_distance(constant.field.modulus, _complex(constant.field.approximation))[0]
+        )
 
 
-def _value(constant: Poly, theta: Any) -> Any:
+def _value_for_generator(constant: Poly, theta: Any) -> Any:
     """The constant for this value of the generator, by Horner's rule."""
     parts = constant.parts if isinstance(constant, ExtensionPoly) else (constant,)
     total = acb(0)
@@ -54,7 +55,7 @@ def _value(constant: Poly, theta: Any) -> Any:
 
 def principal_root(radicand: Poly, n: int) -> Any:
     """The principal n-th root of an element that isn't zero, as an `acb`."""
-    with working_precision(_PRECISION):
+    with working_precision(_EMBEDDING_BITS):
         value = approximation(radicand)
         if abs(value.imag) < arb(2) ** -_TINY_BITS:
             value = acb(value.real)
@@ -66,7 +67,7 @@ def vanishing_factor(equation: Poly, target: Any) -> Poly:
     factors = [factor for factor, _ in equation.field.factor(equation)]
     if len(factors) == 1:
         return factors[0]
-    with working_precision(_PRECISION):
+    with working_precision(_EMBEDDING_BITS):
         sizes = []
         for factor in factors:
             total = acb(0)
@@ -92,11 +93,11 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
     tower = AlgebraicField(old, factor)
     n = tower.absolute_degree
     shift, powers = _primitive_element(tower, old)
-    columns = [powers[n], _coordinates(tower.embed(old.generator), n), _coordinates(tower.generator, n)]
+    columns = [powers[n], _padded_coordinates(tower.embed(old.generator), n), _padded_coordinates(tower.generator, n)]
     solved = _matrix(powers[:n]).solve(_matrix(columns))
     power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
     modulus = QQ.poly([*(-q for q in power), 1])
-    with working_precision(_PRECISION):
+    with working_precision(_EMBEDDING_BITS):
         position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
     field = AlgebraicField(QQ, modulus, "alpha", position)
     return field.element(QQ.poly(theta)), field.element(QQ.poly(c))
@@ -114,7 +115,7 @@ def _primitive_element(tower: AlgebraicField, old: AlgebraicField) -> tuple[int,
         powers = [tower.poly([1])]
         for _ in range(n):
             powers.append(powers[-1] * primitive)
-        rows = [_coordinates(power, n) for power in powers]
+        rows = [_padded_coordinates(power, n) for power in powers]
         if _matrix(rows[:n]).det() != 0:
             return shift, rows
     raise AssertionError("count() doesn't end")
@@ -134,7 +135,7 @@ def substituted(constant: Poly, theta: Poly) -> Poly:
     return total
 
 
-def _coordinates(constant: Poly, n: int) -> list[Any]:
+def _padded_coordinates(constant: Poly, n: int) -> list[Any]:
     coordinates = list(constant.rational_coefficients())
     return coordinates + [fmpq(0)] * (n - len(coordinates))
 
@@ -147,8 +148,8 @@ def _complex(pair: tuple[Fraction, Fraction] | None) -> Any:
 
 def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int | None:
     """How many real roots of a polynomial over Q lie below the real root at `position`; None if that one isn't real."""
-    with working_precision(_PRECISION):
-        nearest, *others = _roots(modulus, _complex(position))
+    with working_precision(_EMBEDDING_BITS):
+        nearest, *others = _roots_by_distance(modulus, _complex(position))
         if not nearest.imag.contains(0) or any(abs(root - nearest.conjugate()).contains(0) for root in others):
             return None
         return sum(1 for root in others if root.imag.contains(0) and root.real < nearest.real)
@@ -156,14 +157,14 @@ def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int |
 
 def refined_root(minimal: Poly, approximation: Any) -> Any:
     """The root of a polynomial over Q that lies nearest to an approximation, to full precision."""
-    with working_precision(_PRECISION):
+    with working_precision(_EMBEDDING_BITS):
         return _complex(_nearest_root(minimal, approximation))
 
 
 def _nearest_root(modulus: Poly, target: Any) -> tuple[Fraction, Fraction]:
     """The root of a rational polynomial that lies nearest to the target."""
-    with working_precision(_PRECISION):
-        nearest = _roots(modulus, target)[0]
+    with working_precision(_EMBEDDING_BITS):
+        nearest = _roots_by_distance(modulus, target)[0]
         return _fraction(nearest.real), _fraction(nearest.imag)
 
 
@@ -173,7 +174,7 @@ def root_near(polynomial: fmpz_poly, target: Any) -> Any:
         return _by_distance(polynomial, target)[0]
 
 
-def _roots(modulus: Poly, target: Any) -> list[Any]:
+def _roots_by_distance(modulus: Poly, target: Any) -> list[Any]:
     """Balls around the roots of a polynomial over Q, the nearest one to the target first."""
     return _by_distance(fmpz_poly([int(c * modulus.content()[1]) for c in modulus.rational_coefficients()]), target)
 

@@ -26,7 +26,7 @@ from kovacic.exact import radical
 from kovacic.limits import check_time
 
 #: Up to this degree of the modulus, Euclid's algorithm is as fast as lifting.
-_EUCLID_DEGREE = 2
+_EUCLID_IN_TOWERS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,7 +263,7 @@ class ExtensionPoly(Poly):
         raise AssertionError("there are infinitely many primes")
 
     def inverse_modulo(self, modulus: Poly) -> ExtensionPoly:
-        small = modulus.degree <= _EUCLID_DEGREE or self.field.ground != QQ
+        small = modulus.degree <= _EUCLID_IN_TOWERS or self.field.ground != QQ
         return super().inverse_modulo(modulus) if small else inverse_by_primes(self, modulus)
 
     def derivative(self) -> ExtensionPoly:

@@ -13,16 +13,16 @@ from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 
-#: For this many factors of a denominator or more, leading terms are tried that are short enough for `_PRIMES` primes.
+#: For this many factors of a denominator or more, leading terms are tried that are short enough for a few primes.
 _MANY_FACTORS = 50
-_PRIMES = 6
+_PRIMES_FOR_LEADING_TERMS = 6
 #: Trees of products don't pay for fewer factors.
-_FEW_FACTORS = 12
+_LEAST_FOR_A_TREE = 12
 
 
 def product(factors: Sequence[Poly]) -> Poly:
     """The product of at least one polynomial."""
-    return products(factors)[-1][0] if len(factors) >= _FEW_FACTORS else reduce(mul, factors)
+    return products(factors)[-1][0] if len(factors) >= _LEAST_FOR_A_TREE else reduce(mul, factors)
 
 
 def products(factors: Sequence[Any]) -> list[list[Any]]:
@@ -60,7 +60,7 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     [('2', '1'), ('3', '1')]
     """
     moduli = [p ** max(1, k // 2) for p, k in factors]
-    if len(factors) < _FEW_FACTORS:
+    if len(factors) < _LEAST_FOR_A_TREE:
         return [(num % modulus, den // p**k % modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
     one = num.field.poly([1])
     tree = products([p**k for p, k in factors])
@@ -68,9 +68,9 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
         simple = _leading_terms(num, factors, moduli, tree)
         if simple is not None:
             return [(N, one) for N in simple]
-    cofactors = _combined([one] * len(factors), tree)
+    cofactors = _over_common_denominator([one] * len(factors), tree)
     of_moduli = products(moduli)
-    return list(zip(_remainders(num, of_moduli), _remainders(cofactors, of_moduli), strict=True))
+    return list(zip(_remainders_in_tree(num, of_moduli), _remainders_in_tree(cofactors, of_moduli), strict=True))
 
 
 def _leading_terms(
@@ -82,7 +82,7 @@ def _leading_terms(
     and the sum of N den/p^k have the same remainder modulo all p^nu.
     """
     terms = [_LiftedTerm(num.field) for _ in factors]
-    for bundle in islice(num.field.bundles(), _PRIMES):
+    for bundle in islice(num.field.bundles(), _PRIMES_FOR_LEADING_TERMS):
         check_time()
         try:
             by_prime = [_leading_terms_modulo(h, num, factors, moduli) for h in bundle]
@@ -95,7 +95,7 @@ def _leading_terms(
         if open_terms:
             continue
         leading = [term.proposed for term in terms if term.proposed is not None]
-        if not (num - _combined(leading, tree)) % product(moduli):
+        if not (num - _over_common_denominator(leading, tree)) % product(moduli):
             return leading
     return None
 
@@ -128,9 +128,9 @@ def _leading_terms_modulo(
     powers = [h(p) ** k for p, k in factors]
     tree = products(powers)
     terms = list[Any]()
-    cofactors = _combined([powers[0] ** 0] * len(powers), tree)
-    remainders = _remainders(image, tree)
-    for N, q, modulus in zip(remainders, _remainders(cofactors, tree), map(h, moduli), strict=True):
+    cofactors = _over_common_denominator([powers[0] ** 0] * len(powers), tree)
+    remainders = _remainders_in_tree(image, tree)
+    for N, q, modulus in zip(remainders, _remainders_in_tree(cofactors, tree), map(h, moduli), strict=True):
         common, inverse, _ = (q % modulus).xgcd(modulus)
         if common.degree() > 0:
             raise BadPrimeError("factors meet modulo this prime")
@@ -138,7 +138,7 @@ def _leading_terms_modulo(
     return terms
 
 
-def _combined(values: Sequence[Any], tree: list[list[Any]]) -> Any:
+def _over_common_denominator(values: Sequence[Any], tree: list[list[Any]]) -> Any:
     """The sum of value * (product of all factors)/factor."""
     for level in tree[:-1]:
         check_time()
@@ -147,7 +147,7 @@ def _combined(values: Sequence[Any], tree: list[list[Any]]) -> Any:
     return values[0]
 
 
-def _remainders(polynomial: Any, tree: list[list[Any]]) -> list[Any]:
+def _remainders_in_tree(polynomial: Any, tree: list[list[Any]]) -> list[Any]:
     """The polynomial modulo each of the factors."""
     rests = [polynomial]
     for level in reversed(tree):

@@ -19,9 +19,9 @@ from kovacic.algebra.modular import null_space
 from kovacic.errors import LimitExceeded
 
 #: Samples beyond the number of unknowns.
-_MARGIN = 4
+_MORE_SAMPLES = 4
 #: The largest linear system: beyond it the answer has too many terms in the parameters.
-_LARGEST = 2400
+_LARGEST_SYSTEM = 2400
 
 
 class Samples(Collector):
@@ -56,7 +56,7 @@ class Samples(Collector):
     def _proposal(self) -> list[Any] | None:
         for p, points in self._points.items():
             for index, unknown in enumerate(self._unknowns):
-                if p not in unknown.primes and len(points) >= unknown.size + _MARGIN:
+                if p not in unknown.primes and len(points) >= unknown.size + _MORE_SAMPLES:
                     unknown.solve(p, points, [row[index] for row in self._values[p]])
         functions = []
         for unknown in self._unknowns:
@@ -81,7 +81,7 @@ class _Unknown:
     @property
     def needed(self) -> int:
         """Samples for the next degree."""
-        return 2 * len(list(_monomials(self.parameters, self.degree))) + _MARGIN
+        return 2 * len(list(_exponents_up_to(self.parameters, self.degree))) + _MORE_SAMPLES
 
     @property
     def size(self) -> int:
@@ -93,8 +93,8 @@ class _Unknown:
         Raises `LimitExceeded` where these are too many.
         """
         if self.terms is None:
-            monomials = list(_monomials(self.parameters, self.degree))
-            if 2 * len(monomials) > _LARGEST:
+            monomials = list(_exponents_up_to(self.parameters, self.degree))
+            if 2 * len(monomials) > _LARGEST_SYSTEM:
                 reason = f"the answer has coefficients of degree above {self.degree - 1} in the parameters"
                 raise LimitExceeded(reason, limit="parameters")
             self.degree += 1
@@ -133,7 +133,7 @@ def _occurring(monomials: list[Exponents], coefficients: list[int]) -> list[Expo
     return [monomial for monomial, c in zip(monomials, coefficients, strict=True) if c]
 
 
-def _monomials(parameters: int, degree: int) -> Iterator[Exponents]:
+def _exponents_up_to(parameters: int, degree: int) -> Iterator[Exponents]:
     """All exponents of total degree at most `degree`."""
     for choice in combinations_with_replacement(range(parameters + 1), degree):
         yield tuple(choice.count(i) for i in range(parameters))

@@ -24,8 +24,8 @@ from kovacic.limits import check_duration, check_time, may_be_late, watched_seco
 _SECONDS = 4e-6
 _MOST_SECONDS = 1e-5
 _MOST_SECONDS_PER_BIT = 3e-7
-#: Bits of coefficients for which it takes no longer: `_SHORT`, and `_SHORT_PER_DEGREE` for each degree.
-_SHORT = 400
+#: Bits of coefficients for which it takes no longer: `_SHORT_COEFFICIENTS`, and `_SHORT_PER_DEGREE` for each degree.
+_SHORT_COEFFICIENTS = 400
 _SHORT_PER_DEGREE = 4
 
 Zeros = tuple[tuple[Any, int], ...]
@@ -42,17 +42,17 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
         return ()
     check_duration(_SECONDS * degree**2, f"the isolation of the zeros of a polynomial of degree {degree}")
     bits = polynomial.height_bits()
-    is_short = bits <= _SHORT + _SHORT_PER_DEGREE * degree
+    is_short = bits <= _SHORT_COEFFICIENTS + _SHORT_PER_DEGREE * degree
     # At once where the time suffices for zeros of any kind, clusters included.
     if degree == 1 or (is_short and not may_be_late(degree**2 * (_MOST_SECONDS + _MOST_SECONDS_PER_BIT * bits))):
-        return _isolated(polynomial)
+        return _isolated_here(polynomial)
     if degree == 2:
         return _of_quadratic(polynomial)
     found = _isolated_apart(tuple([int(c) for c in polynomial.coeffs()]), ctx.prec)
-    return tuple((acb(_ball(real), _ball(imaginary)), k) for real, imaginary, k in found)
+    return tuple((acb(_ball_of_dyadic(real), _ball_of_dyadic(imaginary)), k) for real, imaginary, k in found)
 
 
-def _isolated(polynomial: fmpz_poly) -> Zeros:
+def _isolated_here(polynomial: fmpz_poly) -> Zeros:
     return tuple((root, int(k)) for root, k in polynomial.complex_roots())
 
 
@@ -85,7 +85,7 @@ def _isolated_apart(coefficients: tuple[int, ...], prec: int) -> tuple[tuple[Any
 
 def _yield_zeros(coefficients: tuple[int, ...], prec: int) -> Iterator[list[tuple[Any, Any, int]]]:
     with working_precision(prec):
-        zeros = _isolated(fmpz_poly(list(coefficients)))
+        zeros = _isolated_here(fmpz_poly(list(coefficients)))
         yield [(_dyadic(root.real), _dyadic(root.imag), k) for root, k in zeros]
 
 
@@ -97,6 +97,6 @@ def _dyadic(ball: arb) -> tuple[tuple[int, int], tuple[int, int]]:
     return (first[0], first[1]), (second[0], second[1])
 
 
-def _ball(dyadic: tuple[tuple[int, int], tuple[int, int]]) -> arb:
+def _ball_of_dyadic(dyadic: tuple[tuple[int, int], tuple[int, int]]) -> arb:
     middle, radius = dyadic
     return arb((fmpz(middle[0]), fmpz(middle[1])), (fmpz(radius[0]), fmpz(radius[1])))

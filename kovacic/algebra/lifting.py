@@ -18,15 +18,15 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 
 #: Primes are taken downwards from here: large enough that a bad one is rare, small enough for flint's fast arithmetic.
-_LARGEST = 1 << 60
+_PRIMES_BELOW = 1 << 60
 #: Bits that a reconstruction must leave unused, so that a chance hit is improbable; exactness comes from verification.
-_SLACK_BITS = 10
+_UNUSED_BITS = 10
 
 
 @lru_cache(maxsize=4096)
 def prime(index: int) -> int:
     """The index-th prime below 2**60, counted downwards from 0."""
-    candidate = _LARGEST - 1 if index == 0 else prime(index - 1) - 2
+    candidate = _PRIMES_BELOW - 1 if index == 0 else prime(index - 1) - 2
     while not fmpz(candidate).is_prime():
         candidate -= 2
     return candidate
@@ -141,7 +141,7 @@ class Residues(Collector):
 
 def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:
     """Integers and one common denominator that give the residues, short enough for no others to be probable; else None."""
-    bound = modulus >> (_SLACK_BITS + modulus.bit_length().bit_length())
+    bound = modulus >> (_UNUSED_BITS + modulus.bit_length().bit_length())
     denominator = 1
     for residue in reversed(residues):
         value = residue * denominator % modulus

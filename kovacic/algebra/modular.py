@@ -116,7 +116,7 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
 #: FLINT's time for the shortest recurrence, per term; it is one call, which can't be interrupted.
 _RECURRENCE_SECONDS = 4e-5
 #: Terms of a solution that are computed one by one before their share of all later ones is added.
-_BLOCK = 64
+_TERMS_IN_A_BLOCK = 64
 
 
 def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
@@ -131,7 +131,7 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
     second_1 = int(second[1])
     first_0 = int(first[0])
     operators = [second.right_shift(2), first.right_shift(1), zeroth]
-    a, b, c = ([int(v) for v in f.coeffs()[:_BLOCK]] for f in operators)
+    a, b, c = ([int(v) for v in f.coeffs()[:_TERMS_IN_A_BLOCK]] for f in operators)
     terms = twice_weighted, weighted, u = [0, 0], [0, 0], [0, 1]  # k (k - 1) u_k, k u_k and u_k, from place 1 on
     shares = [0] * order
     reach = max(map(len, (a, b, c)))
@@ -153,7 +153,7 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
 
     def extend(start: int, end: int) -> None:
         check_time()
-        if end - start <= _BLOCK:
+        if end - start <= _TERMS_IN_A_BLOCK:
             extend_one_by_one(start, end)
             return
         middle = (start + end + 1) // 2

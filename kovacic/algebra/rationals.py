@@ -19,15 +19,15 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
-_EUCLID_DEGREE = 16
+_EUCLID_OVER_Q = 16
 #: Above this degree it is tried first whether a polynomial to be factored is a power: gcds with derivatives are slow.
 _ROOT_DEGREE = 100
 #: Above this degree polynomials are factored in a process that can be stopped.
-_LONG_DEGREE = 400
+_LONGEST_FACTORED_HERE = 400
 #: Up to this degree they are factored at once, and up to this number of factors modulo a small prime; and FLINT's seconds at
 #: most for a degree between these, over its cube.
 _SHORT_DEGREE = 60
-_FEW_FACTORS = 16
+_FEW_MODULAR_FACTORS = 16
 _FACTOR_SECONDS = 1e-7
 _SMALL_PRIME = 65267
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones, factors of up to `_SMOOTH_BITS` bits.
@@ -38,15 +38,16 @@ _POWER_SECONDS = 1.2e-9
 _GCD_SECONDS = 1.2e-11
 #: FLINT's time for a division over Z per bit of the products of coefficients.
 _QUOTIENT_SECONDS = 2e-11
-#: Above this degree products and divisions look at the clock; a division by a divisor of degree n every n/`_PIECES` terms.
+#: Above this degree products and divisions look at the clock.
 _LOOK_DEGREE = 100
-_PIECES = 8
+#: A division by a divisor of degree n looks after each n/8 terms of the quotient, but not before 64.
+_PIECES_OF_A_DIVISION = 8
 _SHORTEST_PIECE = 64
 #: FLINT's time for a long product per bit of its coefficients.
 _PRODUCT_SECONDS = 2e-9
 _LONG_PRODUCT = 10**7
 #: The time that it takes to write down a polynomial around a rational point, over a power of the bits of all coefficients.
-_MOVE_SECONDS = 2e-10
+_TRANSLATION_SECONDS = 2e-10
 _MOVE_POWER = 1.21
 
 
@@ -167,7 +168,7 @@ class RationalPoly(Poly):
         if type(point) is not RationalPoly:
             return super().__call__(point)
         constant = point.degree <= 0  # evaluation is much faster than composition with a constant
-        if not constant and self.degree > _LONG_DEGREE:
+        if not constant and self.degree > _LONGEST_FACTORED_HERE:
             foresee_move(self.degree * point.degree, self.height_bits(), point.height_bits())
         return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
@@ -186,7 +187,7 @@ class RationalPoly(Poly):
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
-        if (degree := self.degree * exponent) > _LONG_DEGREE:
+        if (degree := self.degree * exponent) > _LONGEST_FACTORED_HERE:
             check_duration(_POWER_SECONDS * degree * exponent * self.height_bits(), f"a power of degree {degree}")
         return RationalPoly(self.rep**exponent)
 
@@ -198,7 +199,7 @@ class RationalPoly(Poly):
         return bool(self.rep.leading_coefficient() == 1)
 
     def _gcd(self, other: RationalPoly) -> RationalPoly:
-        if self.degree > _LONG_DEGREE and other.degree > _LONG_DEGREE:
+        if self.degree > _LONGEST_FACTORED_HERE and other.degree > _LONGEST_FACTORED_HERE:
             degree, least = sorted((self.degree, other.degree), reverse=True)
             seconds = _GCD_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
             if seconds > watched_seconds(inf):  # coprime ones take a moment only, and one prime tells
@@ -219,7 +220,7 @@ class RationalPoly(Poly):
             return None
 
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
-        small = modulus.degree <= _EUCLID_DEGREE
+        small = modulus.degree <= _EUCLID_OVER_Q
         return super().inverse_modulo(modulus) if small else inverse_by_primes(self, modulus)
 
     def derivative(self) -> RationalPoly:
@@ -311,11 +312,13 @@ class RationalField(Field):
         check_time()
         numerator = polynomial.rep.numer()  # type: ignore[attr-defined]
         if _may_take_long(numerator):
-            factors = [(fmpz_poly(list(factor)), k) for factor, k in _factored_apart(_integers(numerator))]
+            factors = [
+                (fmpz_poly(list(factor)), k) for factor, k in _factored_by_process(_integer_coefficients(numerator))
+            ]
         else:
-            factors = _factored(numerator)
+            factors = _factored_over_z(numerator)
         if len(factors) > 1:
-            factors.sort(key=lambda pair: (pair[0].degree(), _integers(pair[0])))
+            factors.sort(key=lambda pair: (pair[0].degree(), _integer_coefficients(pair[0])))
         return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
 
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
@@ -341,7 +344,7 @@ def foresee_move(degree: int, bits: int, point_bits: int) -> None:
     """Raise `LimitExceeded` if there isn't the time to expand a polynomial, with coefficients of this size, around a point."""
     written = degree * (bits + degree * point_bits)
     what = f"a polynomial of degree {degree} around a point of {point_bits} bits"
-    check_duration(_MOVE_SECONDS * float(written) ** _MOVE_POWER, what)
+    check_duration(_TRANSLATION_SECONDS * float(written) ** _MOVE_POWER, what)
 
 
 def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
@@ -358,7 +361,7 @@ def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
         return dividend.right_shift(size) / divisor[size], dividend.mul_low(fmpq_poly([1]), size)
     over_integers = divisor.numer().leading_coefficient() == 1
     above, below = (dividend.numer(), divisor.numer()) if over_integers else (dividend, divisor)
-    quotient, rest = _in_pieces(above, below, max(size // _PIECES, _SHORTEST_PIECE))
+    quotient, rest = _divided_in_pieces(above, below, max(size // _PIECES_OF_A_DIVISION, _SHORTEST_PIECE))
     if not over_integers:
         return quotient, rest
     scale = fmpq(1, dividend.denom())
@@ -381,11 +384,11 @@ def _exact_quotient(dividend: Any, divisor: Any) -> Any:
     check_duration(seconds, f"a division by a polynomial of degree {size} with {bits} bits")
     contents = dividend.content(), divisor.content()
     above, below = (part / content for part, content in zip((dividend, divisor), contents, strict=True))
-    quotient, rest = _in_pieces(above, below, max(size // _PIECES, _SHORTEST_PIECE))
+    quotient, rest = _divided_in_pieces(above, below, max(size // _PIECES_OF_A_DIVISION, _SHORTEST_PIECE))
     return None if rest else fmpq_poly(quotient) * fmpq(*contents)
 
 
-def _in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
+def _divided_in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
     """Quotient and remainder, `size` coefficients of the dividend at a time from the leading one on, each piece behind the rest
     of the last."""
     coefficients = dividend.coeffs()
@@ -405,15 +408,15 @@ def _may_take_long(polynomial: Any) -> bool:
     degree = polynomial.degree()
     if degree <= _SHORT_DEGREE:
         return False
-    if degree > _LONG_DEGREE:
+    if degree > _LONGEST_FACTORED_HERE:
         return watched_seconds(inf) < inf
     if not may_be_late(_FACTOR_SECONDS * degree**3):
         return False
     _, factors = nmod_poly(polynomial, _SMALL_PRIME).factor()
-    return len(factors) > _FEW_FACTORS or any(k > 1 for _, k in factors)  # a few modulo p are soon put together
+    return len(factors) > _FEW_MODULAR_FACTORS or any(k > 1 for _, k in factors)  # a few modulo p are soon put together
 
 
-def _factored(polynomial: Any) -> list[tuple[Any, int]]:
+def _factored_over_z(polynomial: Any) -> list[tuple[Any, int]]:
     """The factors; of a power of a squarefree polynomial, as which a prime shows it, those of its root."""
     degree = polynomial.degree()
     if degree > _ROOT_DEGREE and (image := nmod_poly(polynomial, next(primes()))).degree() == degree:
@@ -421,13 +424,13 @@ def _factored(polynomial: Any) -> list[tuple[Any, int]]:
         n, rest = divmod(degree, radical.degree())
         leading = int(image.leading_coefficient())  # of the radical, too
         if n > 1 and not rest and image * pow(leading, n - 1, image.modulus()) == radical**n:
-            root = _root(fmpq_poly(polynomial, polynomial.leading_coefficient()), n)
+            root = _monic_root(fmpq_poly(polynomial, polynomial.leading_coefficient()), n)
             if root is not None:
                 return [(factor, n * k) for factor, k in root.numer().factor()[1]]
     return polynomial.factor()[1]  # type: ignore[no-any-return]
 
 
-def _root(power: Any, n: int) -> Any:
+def _monic_root(power: Any, n: int) -> Any:
     """The monic r with r^n = power, from the leading coefficients by Newton's iteration for 1/r; None without one."""
     size = power.degree() // n + 1
     top = fmpq_poly(power.coeffs()[: -size - 1 : -1])
@@ -442,14 +445,14 @@ def _root(power: Any, n: int) -> Any:
 
 
 @lru_cache(maxsize=16)
-def _factored_apart(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
+def _factored_by_process(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
     """The factors, found where it can be stopped: that may take hours, for x^5040 - 1 or where many factors lie modulo p.
 
     The last ones are kept, since the kernel and the views ask for them again.
     """
     from kovacic.process import last_of
 
-    found = last_of(_yield_factors, coefficients, seconds=watched_seconds(inf))
+    found = last_of(_yield_integer_factors, coefficients, seconds=watched_seconds(inf))
     if found is None:  # for want of time, of memory, or of a process: here it might have no end
         check_time()
         reason = f"a process of its own gave no factors of a polynomial of degree {len(coefficients) - 1}"
@@ -457,11 +460,11 @@ def _factored_apart(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...]
     return cast("list[tuple[tuple[int, ...], int]]", found)
 
 
-def _yield_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
-    yield [(_integers(f), k) for f, k in _factored(fmpz_poly(list(coefficients)))]
+def _yield_integer_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
+    yield [(_integer_coefficients(f), k) for f, k in _factored_over_z(fmpz_poly(list(coefficients)))]
 
 
-def _integers(polynomial: Any) -> tuple[int, ...]:
+def _integer_coefficients(polynomial: Any) -> tuple[int, ...]:
     return tuple([int(c) for c in polynomial.coeffs()])
 
 

@@ -86,7 +86,7 @@ class FieldSeries:
         return self._zero if pivot else -total
 
 
-def _at(coefficients: tuple[Any, ...], k: int) -> Any:
+def _operator_value(coefficients: tuple[Any, ...], k: int) -> Any:
     """L(k) = a k (k-1) + b k + c."""
     a, b, c = coefficients
     return a * (k * (k - 1)) + b * k + c
@@ -107,7 +107,7 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
         scale = lcm(*(f.content()[1] for f in parts))
         parts = [(f * scale).rep.numer() for f in parts]
     operator = [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)]
-    if _at(operator[0], degree):
+    if _operator_value(operator[0], degree):
         return None
     main = _descend(first.field, operator, degree)
     if main is None:
@@ -136,8 +136,10 @@ def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple
     for k in range(start - 1, -1, -1):
         if k % 64 == 0:
             check_time()
-        pivot = _at(lowest, k)
-        obstruction = series.extend(pivot, [_at(row, k + j) for j, row in enumerate(others[: start - k], 1)])
+        pivot = _operator_value(lowest, k)
+        obstruction = series.extend(
+            pivot, [_operator_value(row, k + j) for j, row in enumerate(others[: start - k], 1)]
+        )
         if obstruction:
             return None
         if not pivot:

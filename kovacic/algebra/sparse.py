@@ -14,9 +14,9 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, watched_seconds
 
 #: Above this degree in one of the variables, polynomials are factored in a process that can be stopped.
-_LONG_DEGREE = 400
+_LONGEST_AT_ONCE = 400
 
-_Terms = tuple[tuple[tuple[int, ...], int], ...]
+_SparseTerms = tuple[tuple[tuple[int, ...], int], ...]
 
 
 def laurent_constant(num: Any, den: Any, variable: int) -> Any:
@@ -55,7 +55,7 @@ def constant_term(polynomial: Any) -> int:
     return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
 
 
-def terms_of(polynomial: Any) -> _Terms:
+def terms_of(polynomial: Any) -> _SparseTerms:
     """Exponents and coefficients as Python's integers."""
     return tuple((tuple(int(i) for i in e), int(c)) for e, c in polynomial.to_dict().items())
 
@@ -63,33 +63,37 @@ def terms_of(polynomial: Any) -> _Terms:
 def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     """The content with its sign, and the primitive irreducible factors with their multiplicities."""
     check_time()
-    if polynomial.is_constant() or max(polynomial.degrees()) <= _LONG_DEGREE or watched_seconds(inf) == inf:
-        return _factored(polynomial)
+    if polynomial.is_constant() or max(polynomial.degrees()) <= _LONGEST_AT_ONCE or watched_seconds(inf) == inf:
+        return _factored_at_once(polynomial)
     context = polynomial.context()
-    content, factors = _factored_apart(tuple(context.names()), terms_of(polynomial))
+    content, factors = _sparse_factors_by_process(tuple(context.names()), terms_of(polynomial))
     return content, [(context.from_dict(dict(terms)), k) for terms, k in factors]
 
 
 @lru_cache(maxsize=16)
-def _factored_apart(names: tuple[str, ...], terms: _Terms) -> tuple[int, list[tuple[_Terms, int]]]:
+def _sparse_factors_by_process(
+    names: tuple[str, ...], terms: _SparseTerms
+) -> tuple[int, list[tuple[_SparseTerms, int]]]:
     """The factorisation by a process that can be stopped, as for long polynomials over Q."""
     from kovacic.process import last_of
 
-    found = last_of(_yield_factors, names, terms, seconds=watched_seconds(inf))
+    found = last_of(_yield_sparse_factors, names, terms, seconds=watched_seconds(inf))
     if found is None:
         check_time()
         reason = "a process of its own gave no factors of a polynomial in the variable and the parameters"
         raise LimitExceeded(f"{reason}; with seconds=inf none is started", limit="seconds")
-    return cast("tuple[int, list[tuple[_Terms, int]]]", found)
+    return cast("tuple[int, list[tuple[_SparseTerms, int]]]", found)
 
 
-def _yield_factors(names: tuple[str, ...], terms: _Terms) -> Iterator[tuple[int, list[tuple[_Terms, int]]]]:
+def _yield_sparse_factors(
+    names: tuple[str, ...], terms: _SparseTerms
+) -> Iterator[tuple[int, list[tuple[_SparseTerms, int]]]]:
     context = fmpz_mpoly_ctx.get(names, Ordering.lex)
-    content, factors = _factored(context.from_dict(dict(terms)))
+    content, factors = _factored_at_once(context.from_dict(dict(terms)))
     yield content, [(terms_of(factor), k) for factor, k in factors]
 
 
-def _factored(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
+def _factored_at_once(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     try:
         content, factors = polynomial.factor()
     except OverflowError:  # python-flint 0.9.0 sorts factors of one shape by coefficients that must be machine integers

@@ -29,7 +29,7 @@ _TRIED_PRIMES = 12
 #: Primes that are tried where a number field of such a degree has parameters.
 _MOST_PRIMES = 20000
 #: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
-_SLACK_BITS = 12
+_UNUSED_LATTICE_BITS = 12
 
 
 def homomorphisms_modulo(field: Any, p: int) -> Iterator[Homomorphism]:
@@ -226,6 +226,6 @@ class Ideals(Collector):
             ([int(reduced[i, k]) for k in range(n + 1)] for i in range(n + 1)), key=lambda v: sum(c * c for c in v)
         )
         size = max(abs(c) for c in shortest).bit_length()
-        if shortest[0] == 0 or (n + 1) * size + _SLACK_BITS > self._modulus.bit_length():
+        if shortest[0] == 0 or (n + 1) * size + _UNUSED_LATTICE_BITS > self._modulus.bit_length():
             return None
         return [fmpq(c, shortest[0]) for c in shortest[1:]]

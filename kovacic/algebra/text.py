@@ -9,11 +9,11 @@ from typing import Any
 def joined_terms(coefficients: Sequence[str], variable: str) -> str:
     """The polynomial with these coefficients, low to high."""
     powers = ["", variable, *(f"{variable}**{k}" for k in range(2, len(coefficients)))]
-    terms = [_term(c, power) for c, power in zip(coefficients, powers, strict=False) if c != "0"]
+    terms = [_monomial_text(c, power) for c, power in zip(coefficients, powers, strict=False) if c != "0"]
     return " + ".join(reversed(terms)).replace("+ -", "- ") or "0"
 
 
-def _term(coefficient: str, monomial: str) -> str:
+def _monomial_text(coefficient: str, monomial: str) -> str:
     if not monomial:
         return coefficient
     if coefficient in ("1", "-1"):

@@ -13,7 +13,7 @@ from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 
 #: Primes at which a norm is tested for being a square: one that isn't passes with probability 2^-24.
-_TESTS = 24
+_NORM_TESTS = 24
 #: Fractional parts that `largest_integer_total` keeps apart before it stops looking at them.
 _RESIDUES = 4096
 
@@ -51,7 +51,7 @@ def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:
             return False
         if modulus.degree == 1:
             return True
-    for h in islice(field.homomorphisms(), _TESTS):
+    for h in islice(field.homomorphisms(), _NORM_TESTS):
         try:
             residue = int(h.keeping_degree(modulus).resultant(h(element)))
         except BadPrimeError:

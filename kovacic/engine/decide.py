@@ -48,7 +48,7 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
                 budget.check()
                 outcome = decider(problem)
                 if isinstance(outcome, Found):
-                    return _positive(problem, outcome, tuple(exclusions), certify)
+                    return _certified(problem, outcome, tuple(exclusions), certify)
                 exclusions += outcome
     except LimitExceeded as limit:
         return Decision(None, tuple(exclusions), undecided=str(limit))
@@ -63,12 +63,12 @@ def decide_reducible(S: RatFunc, budget: Budget) -> Decision | None:
             if Structure.REDUCIBLE in excluded_by_local_data(problem):
                 return None
             outcome = reducible.decide(problem)
-            return _positive(problem, outcome, (), True) if isinstance(outcome, Found) else None
+            return _certified(problem, outcome, (), True) if isinstance(outcome, Found) else None
     except LimitExceeded:
         return None
 
 
-def _positive(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...], certify: bool) -> Decision:
+def _certified(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...], certify: bool) -> Decision:
     invariant = None if found.invariant is None else found.invariant.semi_invariant(problem)
     if not certify:
         return Decision(found.structure, exclusions, invariant=invariant)

@@ -135,9 +135,9 @@ def irregular_difference_squared(place: Place) -> Poly:
     extension = AlgebraicField(p.field, p) if p.degree > 1 else None
     t = (extension or p.field).poly([0, 1])
     end = t**nu
-    N, E = (_moved(f, p, extension, nu) for f in (num, cofactor))
+    N, E = (_taylor_shifted(f, p, extension, nu) for f in (num, cofactor))
     if extension:
-        slope = _moved(p, p, extension, nu + 1) // t  # p = t slope
+        slope = _taylor_shifted(p, p, extension, nu + 1) // t  # p = t slope
         power = extension.poly([1])
         for digit in f"{place.order:b}":
             power = power * power % end
@@ -159,7 +159,7 @@ def irregular_difference_squared(place: Place) -> Poly:
     return value if p.degree == 1 else p.field.poly([part[0] for part in value.parts])
 
 
-def _moved(f: Poly, p: Poly, extension: AlgebraicField | None, count: int) -> Poly:
+def _taylor_shifted(f: Poly, p: Poly, extension: AlgebraicField | None, count: int) -> Poly:
     """f(t + c) modulo t^count, c the class of x modulo p: by Taylor's formula over the extension by c, if there is one."""
     if extension is None:
         t = p.field.poly([0, 1])

@@ -32,7 +32,7 @@ from kovacic.algebra.sparse import constant_term
 from kovacic.engine.places import Kind, Place, Problem
 
 #: Coefficients beyond the degree that must vanish, besides one for each unknown.
-_MARGIN = 4
+_EXTRA_COEFFICIENTS = 4
 
 
 def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[int]) -> Poly | None:
@@ -41,9 +41,9 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
     `valuations` are the least ones at all places, infinity included.  The caller verifies the proposal.
     """
     place = _cheapest_place(problem, m, valuations)
-    D, R, T, point = _coefficients(problem, place, valuations)
-    solutions, conditions = _local_solutions(problem, _recurrence(m, D, R, T), N)
-    combination = _null_vector(conditions, len(solutions))
+    D, R, T, point = _local_coefficients(problem, place, valuations)
+    solutions, conditions = _local_solutions(problem, _recurrence_factors(m, D, R, T), N)
+    combination = _unique_null_vector(conditions, len(solutions))
     if combination is None:
         return None
     P = fmpq_poly([])
@@ -87,7 +87,7 @@ def _local_solutions(problem: Problem, factors: Sequence[Any], N: int) -> tuple[
             if any(obstructions):
                 conditions.append(obstructions)
             solutions.append(_Solution(i, RationalSeries(len(others))))
-            end = N + 1 + len(solutions) + _MARGIN
+            end = N + 1 + len(solutions) + _EXTRA_COEFFICIENTS
         i += 1
     conditions += [[solution.term(k) for solution in solutions] for k in range(N + 1, end)]
     return solutions, conditions
@@ -109,7 +109,7 @@ def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Plac
     return best
 
 
-def _coefficients(
+def _local_coefficients(
     problem: Problem, place: Place | None, valuations: Sequence[int]
 ) -> tuple[Any, Any, Any, Fraction | int]:
     """D, R, T as integer polynomials in the coordinate of the place, t = x - point or t = 1/x; and the point."""
@@ -134,7 +134,7 @@ def _coefficients(
     return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]
 
 
-def _recurrence(m: int, D: Any, R: Any, T: Any) -> list[Any]:
+def _recurrence_factors(m: int, D: Any, R: Any, T: Any) -> list[Any]:
     """The factors l_(m+1,j0+h) of equation (2), h = 0, 1, ..., polynomials in i: L_(m+1) of equation (1) by its action on t^i.
 
     M_k = t^k L_k t^i/t^i is a polynomial in t and i, since t d/dt (M t^i) = (i M + t M') t^i.
@@ -156,7 +156,7 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> list[Any]:
     return [fmpz_poly([terms.get(k, 0) for k in range(max(terms) + 1)]) for terms in polynomials]
 
 
-def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
+def _unique_null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
     """The vector v with rows v = 0 if it is unique up to a factor, else None.
 
     Short rows are filled with zeros: a condition that is met early doesn't concern the solutions that begin later.

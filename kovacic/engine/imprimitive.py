@@ -39,8 +39,8 @@ def _squares_in_pencil(problem: Problem, basis: list[Form]) -> list[Form]:
     if len(basis) != 2:
         raise AssertionError("an irreducible equation has at most two invariants of degree 4")
     F1, F2 = basis
-    pure1, pure2 = (_coordinates(problem, hessian(F, problem), basis) for F in basis)
-    both = _coordinates(problem, hessian(Form(4, F1.R, F1.P + F2.P), problem), basis)
+    pure1, pure2 = (_coordinates_in_pencil(problem, hessian(F, problem), basis) for F in basis)
+    both = _coordinates_in_pencil(problem, hessian(Form(4, F1.R, F1.P + F2.P), problem), basis)
     mixed = tuple(s - u - v for s, u, v in zip(both, pure1, pure2, strict=True))
     (a0, b0), (a1, b1), (a2, b2) = pure1, mixed, pure2
     field = problem.field
@@ -56,7 +56,7 @@ def _squares_in_pencil(problem: Problem, basis: list[Form]) -> list[Form]:
     return [Form(4, F1.R, F1.P + value * F2.P)]
 
 
-def _coordinates(problem: Problem, H: Form, basis: list[Form]) -> tuple[Poly, Poly]:
+def _coordinates_in_pencil(problem: Problem, H: Form, basis: list[Form]) -> tuple[Poly, Poly]:
     """H = a F1 + b F2, for H = Q0^2/D^2 P_H and F_i = Q0 P_i: P_H = (a P1 + b P2) D^2/Q0."""
     F1, F2 = basis
     # The basis is reduced: the leading power of one P doesn't occur in the other one.

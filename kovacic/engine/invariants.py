@@ -33,7 +33,7 @@ from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, numerators, singular_part
 
 #: Equations beyond the number of unknowns, so that accidental solutions are improbable.
-_MARGIN = 6
+_EXTRA_EQUATIONS = 6
 
 
 def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | None:
@@ -115,7 +115,7 @@ class _Search:
         self.valuations = valuations
         self.N = N
         self.R0 = singular_part(problem, valuations[:-1])
-        self.margin = _MARGIN
+        self.margin = _EXTRA_EQUATIONS
         self.lifter = Lifter(problem.field)
         self.recurrence_tried = False
 

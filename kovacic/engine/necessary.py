@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from kovacic.decision import NecessaryCondition, Rule, Structure
 from kovacic.engine.places import Kind, Place, Problem
 
-_PRIMITIVE = (Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL)
-_ORDERS = {
+_PRIMITIVE_STRUCTURES = (Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL)
+_MONODROMY_ORDERS = {
     Structure.TETRAHEDRAL: frozenset({1, 2, 3}),
     Structure.OCTAHEDRAL: frozenset({1, 2, 3, 4}),
     Structure.ICOSAHEDRAL: frozenset({1, 2, 3, 5}),
@@ -54,15 +54,15 @@ def _failures(places: Sequence[Place]) -> Iterator[_Failure]:
         yield _Failure(Rule.RAMIFIED, ramified, [Structure.REDUCIBLE])
     logarithmic = [place for place in places if place.logarithm]
     if logarithmic:
-        yield _Failure(Rule.LOGARITHM, logarithmic, [Structure.IMPRIMITIVE, *_PRIMITIVE])
+        yield _Failure(Rule.LOGARITHM, logarithmic, [Structure.IMPRIMITIVE, *_PRIMITIVE_STRUCTURES])
     branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
     if sum(place.degree for place in branched) < 2:
         yield _Failure(Rule.TOO_FEW_BRANCH_POINTS, branched, [Structure.IMPRIMITIVE])
     irregular = _of_kinds(places, Kind.RAMIFIED, Kind.UNRAMIFIED)
     if irregular:
-        yield _Failure(Rule.IRREGULAR, irregular, _PRIMITIVE)
+        yield _Failure(Rule.IRREGULAR, irregular, _PRIMITIVE_STRUCTURES)
     regular = _of_kinds(places, Kind.REGULAR)
-    for structure, orders in _ORDERS.items():
+    for structure, orders in _MONODROMY_ORDERS.items():
         culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
         if culprits:
             yield _Failure(Rule.EXPONENTS, culprits, [structure])

@@ -43,13 +43,13 @@ from kovacic.limits import check_time
 
 _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
-_MOST_POINTS = 24
-_HIGHEST_ORDER = 40
+_MOST_SUMMED_POINTS = 24
+_HIGHEST_POLE_ORDER = 40
 #: Of the coefficients of r, and of all numbers.
 _HIGHEST_DEGREE = 6
 _MOST_ROOTS = 256
 #: Multiplications of coefficients.
-_MOST_WORK = 1_000_000
+_MOST_TRIAL_WORK = 1_000_000
 #: Coefficients of P whose conditions are written out.
 _MOST_UNKNOWNS = 3
 #: alpha or e at infinity where it is an ordinary point: 0 and 1, 0, 2 and 4; for m = 4, 6, 12 all integers up to 12.
@@ -139,15 +139,15 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     order.
     """
     highest = max(place.order for place in problem.places)
-    if highest > _HIGHEST_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
+    if highest > _HIGHEST_POLE_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
         return None
     roots = Roots(problem.field)
     *poles, infinity = problem.places
-    points = (SingularPoint(infinity), *chain.from_iterable(_points(place, roots) for place in poles))
+    points = (SingularPoint(infinity), *chain.from_iterable(_points_of_place(place, roots) for place in poles))
     chosen_at = []
     for point in points:
         check_time()
-        chosen = _choices(point, m, roots)
+        chosen = _exponent_choices(point, m, roots)
         if chosen is None:
             return None
         chosen_at.append(chosen)
@@ -156,7 +156,7 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     if prod(map(len, choices)) > _MOST_FAMILIES:
         return Search(m, points, choices, total, natural=_naturals(choices, points, m), families=None)
 
-    every = _families(choices, points, m, roots.field)
+    every = _all_families(choices, points, m, roots.field)
     hopeful = [family for family in every if _may_succeed(family, m)]
     are_one_by_one = all(point.count == 1 for point in points)
     natural = len(hopeful) if are_one_by_one else _naturals(choices, points, m)
@@ -165,7 +165,7 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     return Search(m, points, choices, total, natural, _tried(shown, trial))
 
 
-def _families(
+def _all_families(
     choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int, field: Field
 ) -> list[Family]:
     """Step 2: all families, each with its d; conjugate poles that are taken together have equal exponents."""
@@ -194,19 +194,19 @@ def _may_succeed(family: Family, m: int) -> bool:
 
 def is_natural(d: Number) -> bool:
     """True for 0, 1, 2, ..."""
-    value = _rational(d)
+    value = _as_rational(d)
     return value is not None and value >= 0 and value.denominator == 1
 
 
 def natural(d: Number) -> int:
     """The number 0, 1, 2, ... as an integer."""
-    value = _rational(d)
+    value = _as_rational(d)
     assert value is not None
     assert value.denominator == 1
     return value.numerator
 
 
-def _rational(number: Number) -> Fraction | None:
+def _as_rational(number: Number) -> Fraction | None:
     return number.field.rational_value(number) if isinstance(number, Poly) else Fraction(number)
 
 
@@ -215,7 +215,7 @@ def in_sympy(value: Any, x: Any) -> Any:
     return expand(value.to_sympy(x)) if isinstance(value, Poly) else sympify(value, strict=True)
 
 
-def _points(place: Place, roots: Roots) -> list[SingularPoint]:
+def _points_of_place(place: Place, roots: Roots) -> list[SingularPoint]:
     """The roots of the factor one by one where they are simple enough, or all of them as one."""
     p = place.factor
     if place.degree == 1:
@@ -229,7 +229,7 @@ def _points(place: Place, roots: Roots) -> list[SingularPoint]:
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:
     """How many families have a natural d, conjugate poles counted one by one; None for many poles."""
-    if len(points) > _MOST_POINTS:
+    if len(points) > _MOST_SUMMED_POINTS:
         return None
     # By d, and whether all e are even so far, which for m = 2 excludes the family.
     sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
@@ -247,7 +247,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
     return sum(count for (d, all_even), count in sums.items() if is_natural(d) and not all_even)
 
 
-def _choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
+def _exponent_choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
     """Step 1; None where the exponents aren't square roots of constants."""
     place = point.place
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
@@ -287,7 +287,7 @@ def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
     count = place.order // 2  # of the terms up to w_k
     sign = -1 if place.at_infinity else 1
     nu = count - 2 if place.at_infinity else count
-    leading, w = _square_root(place, count)
+    leading, w = _series_square_root(place, count)
     a = roots.root(leading)
     if a is None:
         return None
@@ -300,7 +300,7 @@ def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
     return tuple(choices)
 
 
-def _square_root(place: Place, count: int) -> tuple[Poly, list[Poly]]:
+def _series_square_root(place: Place, count: int) -> tuple[Poly, list[Poly]]:
     """The coefficient s, and w_1, ..., w_count of w = 1 + w_1 t + ..., with r = s t^(-2 nu) w^2 at the place."""
     field = place.num.field
     shift = field.poly([0, 2]) - place.factor
@@ -327,7 +327,7 @@ def _tried(families: Sequence[Family], trial: _Trial) -> tuple[Family, ...]:
         if not _may_succeed(family, trial.m):
             continue
         work += trial.work(family)
-        if work > _MOST_WORK:
+        if work > _MOST_TRIAL_WORK:
             break
         found[i] = trial.outcome(family)
         if found[i].P is not None and len(families) > _FEW_FAMILIES:
@@ -368,10 +368,10 @@ class _Trial:
         # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
         images = [numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]
         theta = self._theta(family)
-        P = _null_vector(images)
+        P = _highest_null_polynomial(images)
         if P is not None or d > _MOST_UNKNOWNS:
             return replace(family, theta=theta, P=P)
-        unknowns, conditions = _conditions(images, parameters_of(self.field))
+        unknowns, conditions = _vanishing_conditions(images, parameters_of(self.field))
         return replace(family, theta=theta, conditions=conditions, unknowns=unknowns)
 
     def _theta_numerator(self, family: Family) -> Poly:
@@ -400,7 +400,7 @@ class _Trial:
         return Add(*terms)
 
 
-def _null_vector(images: Sequence[Poly]) -> Poly | None:
+def _highest_null_polynomial(images: Sequence[Poly]) -> Poly | None:
     """The monic polynomial P of the highest degree whose image is zero, those of 1, x, x^2, ... being given."""
     found = None
     reduced = dict[int, tuple[Poly, Poly]]()
@@ -419,7 +419,7 @@ def _null_vector(images: Sequence[Poly]) -> Poly | None:
     return found
 
 
-def _conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+def _vanishing_conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
     """The lower coefficients of P, of a low degree, and what would have to vanish."""
     letter = next(c for c in ascii_letters if not any(name[0] == c for name in parameters))
     unknowns = symbols(f"{letter}:{len(images) - 1}")

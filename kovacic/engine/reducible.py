@@ -140,7 +140,7 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
             continue
         if not isinstance(images, list):
             return images
-        form = _lifted(problem, lifter, bundle, images)
+        form = _lifted_omega(problem, lifter, bundle, images)
         if form is not None:
             return form
     raise AssertionError("the sequence of primes is infinite")
@@ -194,7 +194,7 @@ def _omegas_of_low_degree(problem: Problem) -> list[Form]:
         lifter = Lifter(problem.field)
         for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
             problem.budget.check()
-            count_work(_PRIME)
+            count_work(_WORK_PER_PRIME)
             try:
                 parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign=sign) for h in bundle]
             except BadPrimeError:
@@ -202,14 +202,14 @@ def _omegas_of_low_degree(problem: Problem) -> list[Form]:
             images = [part for part in parts if part is not None]
             if len(images) < len(parts):
                 break
-            form = _lifted(problem, lifter, bundle, images)
+            form = _lifted_omega(problem, lifter, bundle, images)
             if form is not None:
                 found.append(form)
                 break
     return found
 
 
-def _lifted(
+def _lifted_omega(
     problem: Problem, lifter: Lifter, bundle: Sequence[Homomorphism], images: list[tuple[Any, int]]
 ) -> Form | None:
     """The form with these R and degrees of P modulo p, once there are enough primes; None as long as there aren't."""
@@ -228,7 +228,7 @@ _FIRST_DEGREES = [8, 32]
 #: How many primes the lift of an omega may take that is looked for without a proof at hand.
 _PRIMES_FOR_A_SIMPLE_OMEGA = 400
 #: What one of them costs, in units of work, about.
-_PRIME = 25
+_WORK_PER_PRIME = 25
 
 
 def _ladder(bound: int) -> list[int]:

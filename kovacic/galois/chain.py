@@ -111,7 +111,7 @@ def model_of(H: RatFunc) -> Model:
     poles = []
     for q, multiplicity in field.factor(moved.den):
         if multiplicity == 2:
-            poles.append(_pole(moved, h, s, q))
+            poles.append(_pole_over(moved, h, s, q))
     return Model(r, h, s, tuple(poles))
 
 
@@ -128,7 +128,7 @@ def _squarefree_part(H: RatFunc) -> tuple[Poly, RatFunc]:
     return h, s
 
 
-def _pole(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fraction]:
+def _pole_over(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fraction]:
     """The point over the roots of q at which s y dt has a positive residue, and the residue: y = residue q'/(s q) there."""
     regular = s * q
     y = q.derivative() * regular.den * regular.num.inverse_modulo(q) % q  # for the residue 1
@@ -152,7 +152,7 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
     for piece in f.pieces:
         degree = max(piece.a.degree, piece.b.degree + half)
         pair = cleared(piece.a, degree), cleared(piece.b, degree - half)
-        pieces.append(Piece(piece.exponent, *_primitive(*pair)))
+        pieces.append(Piece(piece.exponent, *_without_content(*pair)))
     return CurveFunction(f.multiple, cleared(f.h, 2 * half), tuple(pieces), -cleared(f.rest, half - 2))
 
 
@@ -166,11 +166,11 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     pieces: list[Piece] = []
     for digit in reversed(range(max(multiples).bit_length())):
         check_time()
-        total = _sum(model.h, total, total)
+        total = _sum_of_divisors(model.h, total, total)
         for (points, _), N in zip(model.poles, multiples, strict=True):
             if N >> digit & 1:
-                total = _sum(model.h, total, points)
-        total, found = _reduced(model, total)
+                total = _sum_of_divisors(model.h, total, points)
+        total, found = _small_divisor(model, total)
         if total.u.height_bits() > _LARGEST_HEIGHT:
             return None
         if found is not None:
@@ -178,7 +178,7 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     return None if total.u.degree else pieces
 
 
-def _sum(h: Poly, first: Points, second: Points) -> Points:
+def _sum_of_divisors(h: Poly, first: Points, second: Points) -> Points:
     """The sum of two divisors, without pairs of conjugate points [Cantor]."""
     u1 = first.u
     v1 = first.v
@@ -191,7 +191,7 @@ def _sum(h: Poly, first: Points, second: Points) -> Points:
     return Points(u, v)
 
 
-def _reduced(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]:
+def _small_divisor(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]:
     """A divisor of the class of E, of degree deg h/2 at most, and (a, b) of the function a + b y that shows it."""
     if E.u.degree <= model.half:
         return E, None
@@ -204,7 +204,7 @@ def _reduced(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]
     if others.degree:
         ordinate = -a * b.inverse_modulo(others) % others
     conjugate = Points(others, ordinate)
-    return _sum(model.h, conjugate, Points(common, E.v % common)), (a, -b)
+    return _sum_of_divisors(model.h, conjugate, Points(common, E.v % common)), (a, -b)
 
 
 def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
@@ -219,8 +219,8 @@ def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
     before = a0.degree
     after = b1.degree + model.half
     if before == after:
-        return _shortest((a0, b0), (a1, b1))
-    return _primitive(a0, b0) if before < after else _primitive(a1, b1)
+        return _shortest_pair((a0, b0), (a1, b1))
+    return _without_content(a0, b0) if before < after else _without_content(a1, b1)
 
 
 def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
@@ -244,12 +244,12 @@ def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
 # ------------------------------------------------------------------------------------------------ short functions
 
 
-def _primitive(a: Poly, b: Poly) -> tuple[Poly, Poly]:
+def _without_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:
     """The pair, divided by the rational content of its coordinates."""
     return a.field.ground.cleared(a, b)
 
 
-def _shortest(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
+def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
     """A short one of the pairs c first + d second; over a field with parameters, simply the first one.
 
     The pairs with integral coordinates are a lattice, which LLL reduces.  It is M' = T^-1 M, where the rows of M are
@@ -257,10 +257,10 @@ def _shortest(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly
     """
     field = first[0].field
     if field.ground != QQ:
-        return _primitive(*first)
-    basis = [_primitive(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
+        return _without_content(*first)
+    basis = [_without_content(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
     lengths = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
-    M = fmpz_mat([[*_coordinates(a, lengths[0]), *_coordinates(b, lengths[1])] for a, b in basis])
+    M = fmpz_mat([[*_integral_coordinates(a, lengths[0]), *_integral_coordinates(b, lengths[1])] for a, b in basis])
     size = len(basis)
     columns = M.transpose().hnf()
     T = fmpz_mat([[columns[j, i] for j in range(size)] for i in range(size)])
@@ -285,7 +285,7 @@ def _power_basis(field: Field) -> list[Poly]:
     return [c * field.generator**k for k in range(field.dimension) for c in below]
 
 
-def _coordinates(polynomial: Poly, length: int) -> list[int]:
+def _integral_coordinates(polynomial: Poly, length: int) -> list[int]:
     """The integral coordinates of the first coefficients."""
     result: list[int] = []
     for leaf in polynomial.leaves():

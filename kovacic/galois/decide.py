@@ -46,16 +46,16 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
     if decision.structure is Structure.IMPRIMITIVE:
         return imprimitive_group(problem, decision.semi_invariant)
     try:
-        return _reducible(problem, decision.semi_invariant, decision.invariant)
+        return _reducible_group(problem, decision.semi_invariant, decision.invariant)
     except LimitExceeded:
         return None
 
 
-def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
+def _reducible_group(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
     """By the rational forms of degree 2: none, y1^2 alone, y1 y2 alone, or all; F is one that is known, if any is."""
     residues = rational_residues(f.theta)
     are_all_rational = False
-    if F is None or _is_square(problem, F):
+    if F is None or _is_square_of_solution(problem, F):
         found = invariants(problem, 2)
         forms = found if isinstance(found, list) else []  # else evidence that there are none
         are_all_rational = len(forms) == 3
@@ -65,7 +65,7 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
         kind = GroupKind.BOREL if F is None else GroupKind.MULTIPLICATIVE
         return Group(kind, residues, form=F)
     n = lcm(1, *(r.denominator for r in residues))
-    has_two_omegas = F is not None and not _is_square(problem, F)
+    has_two_omegas = F is not None and not _is_square_of_solution(problem, F)
     if has_two_omegas:
         return Group(GroupKind.CYCLIC, Ground.RESIDUES, n, F)
     if are_all_rational:
@@ -74,7 +74,7 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
     return Group(GroupKind.ADDITIVE, Ground.RESIDUES, n, F)
 
 
-def _is_square(problem: Problem, F: SemiInvariant) -> bool:
+def _is_square_of_solution(problem: Problem, F: SemiInvariant) -> bool:
     """True if the quadratic form is the square of a solution: F'^2 - 2 F F'' + 4 S F^2, A1^2 - 4 A0 A2 over D^2, is 0."""
     R = (F.theta * problem.D).num
     A0, A1, A2 = Form(2, R, F.P).numerators(problem)[:3]

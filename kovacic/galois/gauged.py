@@ -108,11 +108,11 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         return EquationGroup(normal_form, N, name, False)
     assert f is not None
     if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):
-        torus = _torus(*_forms(f.theta, rho))
+        torus = _torus(*_lattice_forms(f.theta, rho))
         name = "G_a" if torus.order == 1 else f"G_a extended by {torus.name}"
         return EquationGroup(normal_form, N, name, False)
     if kind in (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE):
-        torus = _torus(*_forms(f.theta, rho))
+        torus = _torus(*_lattice_forms(f.theta, rho))
         return EquationGroup(normal_form, N, torus.name, torus.order is not None, torus.order)
     if N is None:
         return EquationGroup(normal_form, N, f"{normal_form.name} with the scalars G_m", False)
@@ -196,7 +196,7 @@ def _order_on_curve(group: Group, f: SemiInvariant, rho: RatFunc, N: int) -> int
     if (n + is_in_K) % 2 == 0:
         rational = rho * M - f.theta if is_in_K else rho * M
         factors = [part.factor for part in decompose(rational).residues if (part.rational or 0) % 2]
-        coincide = _is_square(*_up_to_squares(function, [*factors, f.P] if is_in_K else factors), function.h)
+        coincide = _is_square_on_curve(*_up_to_squares(function, [*factors, f.P] if is_in_K else factors), function.h)
     order = 4 * n * M // (2 if coincide else 1)  # of H
     # (zeta, chi) in the diagonal part satisfy zeta^n chi^(M/2) = 1 if they coincide: is (-1, -1) one of them?
     has_minus_one = not coincide or (n + M // 2) % 2 == 0
@@ -223,7 +223,7 @@ def _up_to_squares(function: CurveFunction, factors: Sequence[Poly]) -> tuple[Po
     return A * rational, B * rational
 
 
-def _is_square(A: Poly, B: Poly, h: Poly) -> bool:
+def _is_square_on_curve(A: Poly, B: Poly, h: Poly) -> bool:
     """True if A + B y on the curve y^2 = h is a square, up to a constant.
 
     The norm A^2 - h B^2 of a square is the square of some m, and 2 (A + m) (A + B y) = (A + m + B y)^2; so it is one exactly
@@ -267,22 +267,24 @@ def _residues_on_curve(curve: SquareRootCurve, rho: RatFunc) -> list[tuple[Fract
     return rows
 
 
-def _forms(theta: RatFunc, rho: RatFunc) -> tuple[list[tuple[Fraction, Fraction]], list[tuple[Fraction, Fraction]]]:
+def _lattice_forms(
+    theta: RatFunc, rho: RatFunc
+) -> tuple[list[tuple[Fraction, Fraction]], list[tuple[Fraction, Fraction]]]:
     """Linear forms in (a, b) that must vanish, and those that must be integers, for a lambda_1 + b lambda_2 to be in L."""
     zero = theta * 0 + rho * 0
     pair = [decompose(zero + rho + theta), decompose(zero + rho - theta)]
     den = product([part.exact.den for part in pair])
-    vanishing = _coordinates([part.exact.num * (den // part.exact.den) for part in pair])
+    vanishing = _rational_coordinates([part.exact.num * (den // part.exact.den) for part in pair])
     integral: list[tuple[Fraction, Fraction]] = []
     residues = [{residue.factor: residue.value for residue in part.residues} for part in pair]
     for factor in residues[0] | residues[1]:
-        constant, *rest = _coordinates([part.get(factor, factor * 0) for part in residues])
+        constant, *rest = _rational_coordinates([part.get(factor, factor * 0) for part in residues])
         integral.append(constant)
         vanishing += rest
     return vanishing, integral
 
 
-def _coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
+def _rational_coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
     """The rational coordinates of two polynomials, side by side; that of the constant 1 comes first."""
     columns = [[to_fraction(c) for c in part.rational_coefficients()] for part in pair]
     length = max(map(len, columns))

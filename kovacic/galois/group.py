@@ -86,7 +86,7 @@ _FACTS = {
     GroupKind.SL2: _Facts("SL2", r"\mathrm{{SL}}_2(\mathbb{{C}})", "all matrices of determinant 1", 3),
 }  # fmt: skip
 #: Where a small n has a name of its own.
-_SMALL = {
+_FACTS_FOR_SMALL_N = {
     (GroupKind.CYCLIC, 1): _Facts("trivial", r"\{{1\}}", "the trivial group"),
     (GroupKind.ADDITIVE, 1): _Facts("G_a", r"\mathbb{{G}}_a", _UPPER + "c = 1", 1),
     (GroupKind.ADDITIVE, 2): _FACTS[GroupKind.ADDITIVE]._replace(description=_UPPER + "c = 1 or -1"),
@@ -144,7 +144,7 @@ class Group:
 
     @property
     def _facts(self) -> _Facts:
-        return _SMALL.get((self.kind, self.n or 0), _FACTS[self.kind])
+        return _FACTS_FOR_SMALL_N.get((self.kind, self.n or 0), _FACTS[self.kind])
 
     @property
     def name(self) -> str:

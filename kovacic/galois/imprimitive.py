@@ -198,7 +198,7 @@ def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # no
     if together.gcd(together.derivative()).degree() > 0:
         raise BadPrimeError("points meet")
     if curve.infinity.e % 2 == 0:
-        images = _moved(images, curve.infinity, h.p)
+        images = _with_branch_point_at_infinity(images, curve.infinity, h.p)
     # With g = c b Q^2, b the product over the branch points, eta = dx/(s Q) on the curve s^2 = b/c', c' a constant that one
     # of its points tells.
     poles = [(image, _ordinate(image, images)) for image in images if image.residue]
@@ -212,7 +212,7 @@ def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # no
     return jacobian.order(total)
 
 
-def _moved(images: list[_Image], infinity: CurvePoint, p: int) -> list[_Image]:
+def _with_branch_point_at_infinity(images: list[_Image], infinity: CurvePoint, p: int) -> list[_Image]:
     """The points in a coordinate t = 1/(x - r), which keeps eta, with a branch point at infinity; the old infinity is 0."""
     r = next((root for image in images if image.e % 2 for root in simple_roots(image.factor)), None)
     if r is None:

@@ -33,10 +33,11 @@ from kovacic.verify.factors import factors_of
 from kovacic.verify.primes import homomorphisms_modulo
 from kovacic.verify.reduction import BadPrimeError, Homomorphism
 
-#: Primes are taken upwards from `_SMALLEST`, at most `_PRIMES` of them, and `_POINTS` values of x modulo each.
-_SMALLEST = 1 << 40
-_PRIMES = 100
-_POINTS = 40
+#: Primes are taken upwards from here.
+_PRIMES_FROM = 1 << 40
+#: Homomorphisms under which classes are compared, and values of x that are tried under each.
+_MOST_HOMOMORPHISMS = 100
+_VALUES_OF_X = 40
 #: The largest prime factor of n for which there are such primes within a machine word.
 _LARGEST_FACTOR = 1 << 50
 
@@ -101,10 +102,10 @@ def _root_of_odd_norms(f: CurveFunction) -> Poly | None:
 def _is_no_power(f: CurveFunction, G: Poly, l: int) -> bool:  # noqa: E741 - as in the module's text
     """True if two values of f modulo a prime lie in different classes modulo l-th powers."""
     # Primes p = k l + 1: F_p contains the l-th roots of unity.
-    primes = (p for p in count(_SMALLEST // l * l + l + 1, l) if fmpz(p).is_prime())
-    for h in islice((h for p in primes for h in homomorphisms_modulo(f.h.field, p)), _PRIMES):
+    primes = (p for p in count(_PRIMES_FROM // l * l + l + 1, l) if fmpz(p).is_prime())
+    for h in islice((h for p in primes for h in homomorphisms_modulo(f.h.field, p)), _MOST_HOMOMORPHISMS):
         try:
-            classes = {pow(value, (h.p - 1) // l, h.p) for value in _values(f, G, h)}
+            classes = {pow(value, (h.p - 1) // l, h.p) for value in _curve_values(f, G, h)}
         except BadPrimeError:
             continue
         if len(classes) > 1:
@@ -112,7 +113,7 @@ def _is_no_power(f: CurveFunction, G: Poly, l: int) -> bool:  # noqa: E741 - as 
     return False
 
 
-def _values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
+def _curve_values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
     """Values of the function at points over F_p, neither zeros nor poles of a piece, of a curve that stays squarefree."""
     p = h.p
     curve = h.keeping_degree(f.h)
@@ -120,7 +121,7 @@ def _values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
     if curve.gcd(curve.derivative()).degree() > 0:
         raise BadPrimeError("branch points meet")
     pieces = [(h(piece.a), h(piece.b), piece.exponent) for piece in f.pieces]
-    for x in range(_POINTS):
+    for x in range(_VALUES_OF_X):
         square = fmpz(int(curve(x)))
         if square.jacobi(p) != 1:
             continue

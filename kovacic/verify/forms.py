@@ -18,7 +18,7 @@ from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
 
 #: Equations beyond the number of unknowns.
-_MARGIN = 7
+_MORE_EQUATIONS = 7
 
 
 def least_valuation(point: Point, m: int) -> int | None:
@@ -66,7 +66,7 @@ def dimension_modulo(
     They are expanded at the integer `at`, to some terms more than there are unknowns.  Raises `BadPrimeError` where the point
     is singular, or the series would be longer than the prime allows.
     """
-    count = degree + m + 1 + _MARGIN
+    count = degree + m + 1 + _MORE_EQUATIONS
     bottom = translated(h.keeping_degree(S.den), at)
     if h.p <= 2 * count or not int(bottom[0]):
         raise BadPrimeError("the point is singular, or the prime is small")

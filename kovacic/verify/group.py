@@ -55,16 +55,16 @@ def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> 
         return (claim.family, claim.n) == ("SL2", None)
     if decision.structure is Structure.REDUCIBLE:
         F = decision.invariant or claim.form
-        return _reducible(inspector, f, riccati, F) == (claim.family, claim.n)
+        return _reducible_named(inspector, f, riccati, F) == (claim.family, claim.n)
     if decision.structure is Structure.IMPRIMITIVE:
-        return _imprimitive(inspector, f, riccati, claim)
+        return _imprimitive_holds(inspector, f, riccati, claim)
     return decision.structure is not None and (claim.family, claim.n) == (decision.structure.value, None)
 
 
 # ------------------------------------------------------------------------------------------- reducible groups
 
 
-def _reducible(
+def _reducible_named(
     inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, F: SemiInvariant | None
 ) -> _Named | None:
     """The group of y1 = exp(int theta) P, by a rational form F of degree 2; None if there is less proof than that.
@@ -134,7 +134,9 @@ class FormCurve:
         return lcm(*(difference.denominator for difference in self.differences))
 
 
-def _imprimitive(inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim) -> bool | None:
+def _imprimitive_holds(
+    inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim
+) -> bool | None:
     """The rules for f = y1 y2, in their order: the first one that concerns the group decides."""
     named = (claim.family, claim.n)
     if any(point.order > 2 or point.difference is None for point in inspector.points):

@@ -25,7 +25,7 @@ from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import solution_at_singular_point
 
 #: Up to this number of points each is expanded alone: the products for all of them cost more.
-_FEW = 4
+_FEW_POINTS = 4
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Point:
         """N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1."""
         if self.expansions is not None:
             return self.expansions.at(self.factor)
-        return _near(self.num, self.den, self.factor, self.order)
+        return _expansion_near(self.num, self.den, self.factor, self.order)
 
     @cached_property
     def at_double_pole(self) -> tuple[Poly, Poly]:
@@ -157,7 +157,7 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     return [*found, Point(S.field.poly([0, 1]), max(k, 0), num, den, budget, at_infinity=True)]
 
 
-def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
+def _expansion_near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
     """N and q modulo p^nu with num/den = N/(p^order q), nu = order/2 or 1."""
     modulus = p ** max(order // 2, 1)
     return num % modulus, den // p**order % modulus
@@ -167,18 +167,18 @@ def _near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
 class Expansions:
     """What the points at some factors of the denominator, with these orders, have in common.
 
-    `_near` is computed for the first one alone, which is often enough, and for many others together.  A claim at irregular
-    points, where there are many digits, may need one of them, or all.
+    `_expansion_near` is computed for the first one alone, which is often enough, and for many others together.  A claim at
+    irregular points, where there are many digits, may need one of them, or all.
     """
 
     S: RatFunc
     factors: list[tuple[Poly, int]]
 
     def at(self, factor: Poly) -> tuple[Poly, Poly]:
-        alone = self.factors if len(self.factors) <= _FEW else self.factors[:1]
+        alone = self.factors if len(self.factors) <= _FEW_POINTS else self.factors[:1]
         for p, order in alone:
             if p == factor:
-                return _near(self.S.num, self.S.den, p, order)
+                return _expansion_near(self.S.num, self.S.den, p, order)
         return self.together[factor]
 
     def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
@@ -206,16 +206,16 @@ class Expansions:
         P = product(places)
         R = self.S.den // P**order
         moduli = [p**nu for p in places]
-        nums = _remainders(self.S.num, moduli)
-        outer = _remainders(R, moduli)
-        inner = _remainders(P, [p ** (nu + 1) for p in places])
+        nums = _remainders_by_halves(self.S.num, moduli)
+        outer = _remainders_by_halves(R, moduli)
+        inner = _remainders_by_halves(P, [p ** (nu + 1) for p in places])
         found = {}
         for p, modulus, N, far, near in zip(places, moduli, nums, outer, inner, strict=True):
             found[p] = (N, _power_modulo(near // p, order, modulus) * far % modulus)
         return found
 
 
-def _remainders(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
+def _remainders_by_halves(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
     """The polynomial modulo each of several ones, through its remainders modulo the products of halves of them."""
     if len(moduli) == 1:
         return [polynomial % moduli[0]]
@@ -223,7 +223,7 @@ def _remainders(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
     half = len(moduli) // 2
     first = polynomial % product(moduli[:half])
     second = polynomial % product(moduli[half:])
-    return [*_remainders(first, moduli[:half]), *_remainders(second, moduli[half:])]
+    return [*_remainders_by_halves(first, moduli[:half]), *_remainders_by_halves(second, moduli[half:])]
 
 
 def _power_modulo(base: Poly, exponent: int, modulus: Poly) -> Poly:

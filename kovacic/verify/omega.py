@@ -74,7 +74,7 @@ def no_expansion_is_rational(at: Chart, counts: ZeroCounts) -> bool:
             exponent = int(start[at.nu - 1])
             possible = [bound for e, bound in bounds if (exponent * e.denominator - e.numerator) % at.p == 0]
             degree = max(possible, default=-1)
-        if degree >= 0 and _is_rational(at, start, degree):
+        if degree >= 0 and _has_rational_omega(at, start, degree):
             return False
     return True
 
@@ -111,7 +111,7 @@ def _square_roots(value: int, p: int) -> list[int]:
     return [root, p - root]
 
 
-def _is_rational(at: Chart, start: Any, degree: int) -> bool:
+def _has_rational_omega(at: Chart, start: Any, degree: int) -> bool:
     """True if some omega = A/(den P) has this expansion, with deg P <= degree and deg A <= degree + growth.
 
     The only candidate with these terms, one more than there are unknowns, must solve the Riccati equation as well.

@@ -20,15 +20,15 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.verify.reduction import AtRoot, AtValues, BadPrimeError, Homomorphism, OfRationals
 
 #: The kernel's own primes are taken downwards from here; a record may name any prime below twice this.
-_LARGEST = 1 << 62
+_KERNEL_PRIMES_BELOW = 1 << 62
 #: Values of the parameters that are tried for one prime.
-_POINTS = 64
+_PARAMETER_POINTS = 64
 
 
 @lru_cache(maxsize=1024)
 def prime(index: int) -> int:
     """The kernel's prime number `index`, counted downwards from 2^62."""
-    candidate = _LARGEST - 1 if index == 0 else prime(index - 1) - 2
+    candidate = _KERNEL_PRIMES_BELOW - 1 if index == 0 else prime(index - 1) - 2
     while not fmpz(candidate).is_prime():
         candidate -= 2
     return candidate
@@ -36,10 +36,10 @@ def prime(index: int) -> int:
 
 def is_usable_prime(p: int) -> bool:
     """True for an odd prime number that fits arithmetic in machine words as a modulus."""
-    return 2 < p < 2 * _LARGEST and bool(fmpz(p).is_prime())
+    return 2 < p < 2 * _KERNEL_PRIMES_BELOW and bool(fmpz(p).is_prime())
 
 
-def homomorphisms_modulo(field: Field, p: int, *, points: int = _POINTS) -> Iterator[Homomorphism]:
+def homomorphisms_modulo(field: Field, p: int, *, points: int = _PARAMETER_POINTS) -> Iterator[Homomorphism]:
     """Homomorphisms of the field's p-integral elements to F_p: of Q the one; of Q(t) values of the parameters at some points.
 
     Of K(c) those that extend one of K: c goes to a simple root of its minimal polynomial, which keeps its degree.  Such a

@@ -24,7 +24,7 @@ def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     # 1/(N q)(theta) as an element of K[x]/p^nu: its value at theta is the root of the same polynomial over K.
     scale = inverse(radicand % p, p)
     if scale.degree > 0:
-        scale = _at(scale, _root(p, nu), modulus)
+        scale = _value_at(scale, _lifted_root(p, nu), modulus)
     unit = radicand * scale % modulus  # R^2, which is 1 modulo p
     root = p.field.poly([1])  # R^-1, by Newton's iteration
     over_q = inverse(q, p)
@@ -43,18 +43,18 @@ def _steps(p: Poly, nu: int) -> Iterator[Poly]:
         yield p**k
 
 
-def _root(p: Poly, nu: int) -> Poly:
+def _lifted_root(p: Poly, nu: int) -> Poly:
     """theta, the root of p in K[x]/p^nu that is x modulo p: theta - p(theta)/p'(theta), the inverse improved along with it."""
     slope = p.derivative()
     theta = p.field.poly([0, 1])
     over_slope = inverse(slope, p)
     for modulus in _steps(p, nu):
-        over_slope = over_slope * (2 - _at(slope, theta, modulus) * over_slope) % modulus
-        theta = (theta - _at(p, theta, modulus) * over_slope) % modulus
+        over_slope = over_slope * (2 - _value_at(slope, theta, modulus) * over_slope) % modulus
+        theta = (theta - _value_at(p, theta, modulus) * over_slope) % modulus
     return theta
 
 
-def _at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
+def _value_at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
     """The value at theta in K[x]/modulus, by Horner's rule."""
     value = theta * 0
     for k in range(polynomial.degree, -1, -1):

@@ -15,7 +15,7 @@ from kovacic.limits import check_time
 from kovacic.verify.reduction import BadPrimeError
 
 #: Terms that are computed one by one, between two looks at the clock.
-_BLOCK = 32
+_BLOCK_OF_TERMS = 32
 
 
 def solutions_at_ordinary_point(num: Any, den: Any, count: int) -> tuple[Any, Any]:
@@ -53,14 +53,14 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     p = second.modulus()
     # The coefficients from t^2, t^1 and t^0 on, as many as a block needs: u_k gets those of t^(j - k) in equation number j.
     of_second, of_first, of_zeroth = (
-        [int(c) for c in f.coeffs()[low : low + _BLOCK]] for f, low in ((second, 2), (first, 1), (zeroth, 0))
+        [int(c) for c in f.coeffs()[low : low + _BLOCK_OF_TERMS]] for f, low in ((second, 2), (first, 1), (zeroth, 0))
     )
     second_1 = int(second[1])
     first_0 = int(first[0])
     u = nmod_poly([1], p)
-    for start in range(1, count, _BLOCK):
+    for start in range(1, count, _BLOCK_OF_TERMS):
         check_time()
-        end = min(start + _BLOCK, count)
+        end = min(start + _BLOCK_OF_TERMS, count)
         slope = u.derivative()
         rest = second.mul_low(slope.derivative(), end) + first.mul_low(slope, end) + zeroth.mul_low(u, end)
         # u_k, k u_k and k (k - 1) u_k for the k of this block
@@ -87,7 +87,7 @@ def square_root(series: Any, root: int, count: int) -> Any:
     half = pow(2 * root, -1, p)
     r = [root]
     for k in range(1, count):
-        if k % _BLOCK == 0:
+        if k % _BLOCK_OF_TERMS == 0:
             check_time()
         rest = int(series[k]) - sum(r[i] * r[k - i] for i in range(1, k))
         r.append(rest * half % p)

@@ -102,23 +102,23 @@ def _class_of_poles(eta: Differential, residues: set[Fraction]) -> Points:
     total = curve.zero
     for q, multiplicity in eta.M.factor()[1]:
         if multiplicity == 2:
-            points, residue = _pole(eta, q, by_square)
+            points, residue = _pole_modulo(eta, q, by_square)
             total = curve.sum(total, curve.multiple(int(2 * l * residue), points))
     return total
 
 
-def _pole(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[Points, Fraction]:
+def _pole_modulo(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[Points, Fraction]:
     """The points over the roots of q, a double factor of M, where the residue of eta is positive, and this residue."""
     p = q.modulus()
-    y = q.derivative() * (eta.M // (q * q)) * _inverse(eta.T // q, q) % q  # where the residue is 1
-    square = eta.h * _inverse(y * y, q) % q
+    y = q.derivative() * (eta.M // (q * q)) * _inverse_modulo(eta.T // q, q) % q  # where the residue is 1
+    square = eta.h * _inverse_modulo(y * y, q) % q
     residue = by_square.get(int(square[0]))
     if square.degree() > 0 or residue is None:
         raise BadPrimeError("a residue is another one")
     return Points(q, y * (residue.numerator * pow(residue.denominator, -1, p) % p)), residue
 
 
-def _inverse(value: Any, modulus: Any) -> Any:
+def _inverse_modulo(value: Any, modulus: Any) -> Any:
     """1/value modulo an irreducible polynomial that doesn't divide it."""
     return (value % modulus).xgcd(modulus)[1]
 

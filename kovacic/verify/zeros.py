@@ -38,7 +38,7 @@ from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.residue import residue_over_leading_root
 
 #: Values that are tested: one that isn't a square is one modulo all of the primes with a probability of 2^-40.
-_TESTS = 40
+_SQUARE_TESTS = 40
 #: Norms come first, which cost less than a hundredth of the roots at degree 60; two of them tell as a rule.
 _NORMS = 8
 #: Sums with different fractional parts that are told apart, at most.
@@ -125,7 +125,7 @@ def _half_difference(point: Point) -> Fraction | None:
         scale = inverse(point.at_double_pole[1], p)
     else:
         scale = 2 * residue_over_leading_root(*point.near, p, point.order // 2)
-    difference = _square_root(radicand, p) * scale % p
+    difference = _proven_square_root(radicand, p) * scale % p
     trace = _trace(difference, p)
     # The first coordinate over Q is a linear map that leaves rational numbers alone.  Exponents and zeros add up to 1 in K;
     # applied to all of them, it makes this a relation of rational numbers, with the same number of zeros.
@@ -150,7 +150,7 @@ def is_no_square(element: Poly, p: Poly) -> bool:
     """
     if element.degree <= 0 and p.field.sqrt(element) is not None:  # which spares the tests
         return False
-    tests = chain(islice(_norms(element, p), _NORMS), islice(_values(element, p), _TESTS))
+    tests = chain(islice(_norms(element, p), _NORMS), islice(_values_at_roots(element, p), _SQUARE_TESTS))
     return any(fmpz(value).jacobi(h.p) == -1 for h, value in tests)
 
 
@@ -163,7 +163,7 @@ def _norms(element: Poly, p: Poly) -> Iterator[tuple[Homomorphism, int]]:
             continue
 
 
-def _values(element: Poly, p: Poly) -> Iterator[tuple[Homomorphism, int]]:
+def _values_at_roots(element: Poly, p: Poly) -> Iterator[tuple[Homomorphism, int]]:
     """The values of an element of K[x]/p at the simple roots of p modulo primes."""
     for h in homomorphisms(p.field):
         try:
@@ -174,7 +174,7 @@ def _values(element: Poly, p: Poly) -> Iterator[tuple[Homomorphism, int]]:
             yield h, int(image(root))
 
 
-def _square_root(element: Poly, p: Poly) -> Poly:
+def _proven_square_root(element: Poly, p: Poly) -> Poly:
     """A square root in K[x]/p of an element that is a square modulo many primes: found by the field, and squared again."""
     field = p.field
     if p.degree == 1:

@@ -76,11 +76,11 @@ def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ..
     """Names and formulas of two solutions, and notes; in special functions if there is no Liouvillian one, empty if unknown."""
     form = derived.closed_form(answer)
     if form is None:
-        return _named(answer, derived.special(answer)), ()
-    return _named(answer, form), form.notes
+        return _named_solutions(answer, derived.special(answer)), ()
+    return _named_solutions(answer, form), form.notes
 
 
-def _named(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:
+def _named_solutions(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:
     y = unknown_of(answer)
     names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
     return list(zip(names, map(of_sympy, values), strict=False))

@@ -47,7 +47,7 @@ _CONDITIONS = {
 }
 #: Families shown in a table, and trials of step 3.
 _MOST_SHOWN = 24
-_KINDS = {
+_LOCAL_TYPES = {
     Kind.ORDINARY: "ordinary",
     Kind.REGULAR: "regular",
     Kind.UNRAMIFIED: "irregular",
@@ -91,7 +91,7 @@ class Steps:
         if place.at_infinity:
             points = "1"
             order = str(-self.answer.S.degree) if self.answer.S else "-"
-        kind = _KINDS[place.kind]
+        kind = _LOCAL_TYPES[place.kind]
         if place.logarithm:
             kind += ", logarithm"
         return [self.formulas.place(str(place)), points, order, kind, self._delta(place)]

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
 
 #: Longer formulas aren't typeset in a table.
-_LONGEST = 3000
+_LONGEST_TYPESET = 3000
 _ROLES = {SOLVABLE: "good", UNSOLVABLE: "bad", UNDECIDED: "unsure"}
 _NEITHER = {Status.NONE_EXISTS: "no Liouvillian solution", Status.UNDECIDED: "undecided"}
 
@@ -42,7 +42,7 @@ Style = Callable[[str, str], str]
 
 def one_line(answer: Answer) -> str:
     """The equation and the verdict."""
-    equation = _given(answer)
+    equation = _given_text(answer)
     if answer.status is Status.UNDECIDED:
         said = in_one_line(answer.reason or "")
         return f"{equation}: {said}" if answer.assumed else f"{equation}: undecided, {said}"
@@ -61,7 +61,7 @@ def render(
 
     Each line is yielded as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
     """
-    yield style(_given(answer), "title")
+    yield style(_given_text(answer), "title")
     for notice in answer.notices:
         yield style(f"  note: {visible(notice)}", "faint")
     is_gauged = answer.equation is not None and not answer.equation.is_normal_form
@@ -107,7 +107,7 @@ def _how_verified(answer: Answer) -> str:
     return "omega' + omega^2 = S holds exactly"
 
 
-def _given(answer: Answer) -> str:
+def _given_text(answer: Answer) -> str:
     """The equation in the user's variable: a notice says what becomes of one that isn't rational in it."""
     if answer.change is None:
         return equation_of(answer).text
@@ -166,7 +166,7 @@ def _as_text(sentence: Iterable[str | Math]) -> str:
 
 def latex_view(answer: Answer) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
-    found, _ = _in_time(answer)
+    found, _ = _solutions_in_time(answer)
     lines = [equation_of(answer).latex, *(name.equals(value).latex for name, value in found)]
     if answer.status in _NEITHER:
         lines.insert(1, rf"\text{{{_NEITHER[answer.status]}}}")
@@ -201,12 +201,12 @@ def html_view(answer: Answer) -> str:
 
 def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
     """Two solutions, notes, and how the closed form was checked."""
-    found, notes = _in_time(answer)
+    found, notes = _solutions_in_time(answer)
     for name, value in found:
-        if len(value.latex) <= _LONGEST:
+        if len(value.latex) <= _LONGEST_TYPESET:
             yield name, value
         else:
-            yield name, Math(value.text[:_LONGEST], "")
+            yield name, Math(value.text[:_LONGEST_TYPESET], "")
     for note in notes:
         yield "note", note
     form = derived.closed_form(answer) if found else None
@@ -214,7 +214,7 @@ def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
         yield "solutions checked", form.checked
 
 
-def _in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
+def _solutions_in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Two solutions and notes; if a limit was reached, a note that says so."""
     if answer.status is Status.UNDECIDED:
         return [], ()

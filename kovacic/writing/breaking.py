@@ -15,12 +15,12 @@ Node = str | list["Node"]
 
 #: Characters in a line of the class article.
 LINE = 60
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
+_LATEX_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
 _BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)")
-_FRACTIONS = (r"\frac", r"\tfrac")
+_FRACTION_COMMANDS = (r"\frac", r"\tfrac")
 _WITH_NAME = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_")
 _WITH_ARGUMENT = (*_WITH_NAME, "^")
-_WIDER = {"+": 2.4, "-": 2.4, "=": 2.4, r"\cos": 3, r"\sin": 3, r"\exp": 3}
+_WIDTHS = {"+": 2.4, "-": 2.4, "=": 2.4, r"\cos": 3, r"\sin": 3, r"\exp": 3}
 _NO_WIDTH = ("", "{", "}", "$", " ", r"\left", r"\right", r"\displaystyle", r"\,", r"\;")
 
 
@@ -46,7 +46,7 @@ def pieces(latex: str) -> list[str]:
     found = [""]
     depth = 0
     before = ""
-    for token in _TOKEN.findall(breakable(latex)):
+    for token in _LATEX_TOKEN.findall(breakable(latex)):
         may_break = depth == 0 and found[-1] and before not in ("", "=", "(")
         if may_break and token in ("+", "-", r"\allowbreak"):
             found.append("")
@@ -61,7 +61,7 @@ def pieces(latex: str) -> list[str]:
 
 def _parsed(latex: str) -> list[Node]:
     stack: list[list[Node]] = [[]]
-    for token in _TOKEN.findall(latex):
+    for token in _LATEX_TOKEN.findall(latex):
         if token == "{":
             stack.append([])
         elif token == "}" and len(stack) > 1:
@@ -72,7 +72,7 @@ def _parsed(latex: str) -> list[Node]:
     return stack[0]
 
 
-def _argument(nodes: list[Node], k: int) -> list[Node]:
+def _nodes_of_argument(nodes: list[Node], k: int) -> list[Node]:
     node = nodes[k]
     return node if isinstance(node, list) else [node]
 
@@ -83,14 +83,14 @@ def _width(nodes: list[Node]) -> float:
     for node in rest:
         if isinstance(node, list):
             total += _width(node)
-        elif node in _FRACTIONS:
+        elif node in _FRACTION_COMMANDS:
             total += max(_width([next(rest, "")]), _width([next(rest, "")]))
         elif node in ("^", "_"):
             total += 0.7 * _width([next(rest, "")])
         elif node.isdigit():
             total += len(node)
         elif node not in _NO_WIDTH:
-            total += _WIDER.get(node, 1.1)
+            total += _WIDTHS.get(node, 1.1)
     return total
 
 
@@ -104,9 +104,9 @@ class _LineBreaker:
         written = ""
         k = 0
         while k < len(nodes):
-            end = _end(nodes, k)
+            end = _end_of_construct(nodes, k)
             construct = nodes[k:end]
-            exponent = _argument(construct, 1) if construct[0] == "^" and len(construct) > 1 else []
+            exponent = _nodes_of_argument(construct, 1) if construct[0] == "^" and len(construct) > 1 else []
             if written.endswith("e") and _width(exponent) > self.most:
                 written = rf"{written[:-1]}\exp\bigl({self.written(exponent)}\bigr)"
             else:
@@ -123,15 +123,15 @@ class _LineBreaker:
             return self._root(nodes)
         if first == r"\left":
             return self._parentheses(nodes)
-        if first in _FRACTIONS and _width(nodes) > self.most:
-            return f"{self._factor(_argument(nodes, 1))}/\\allowbreak {self._factor(_argument(nodes, 2))}"
+        if first in _FRACTION_COMMANDS and _width(nodes) > self.most:
+            return f"{self._factor(_nodes_of_argument(nodes, 1))}/\\allowbreak {self._factor(_nodes_of_argument(nodes, 2))}"
         if first.isdigit() and len(first) > self.most / 2:
             return r"\allowbreak ".join(re.findall(r"\d{1,10}", first))
         return r",\allowbreak " if first == "," else _verbatim(nodes)
 
     def _root(self, nodes: list[Node]) -> str:
         r"""\sqrt, perhaps with an index in brackets, and its radicand."""
-        inside = _argument(nodes, len(nodes) - 1)
+        inside = _nodes_of_argument(nodes, len(nodes) - 1)
         if _width(inside) <= self.most:
             return _verbatim(nodes)
         index = _verbatim(nodes[2:-2]) or "2"
@@ -158,28 +158,28 @@ class _LineBreaker:
         parts = [node for node in nodes if node != " "]
         end = 2 if parts[0] == r"\sqrt" else 1
         if parts[0] == r"\left":
-            end = _closing(parts, 1) + 2
+            end = _matching_right(parts, 1) + 2
         is_power = len(parts) == end + 2 and parts[end] == "^"
         written = self.written(nodes)
         return written if is_power or len(parts) == end else rf"\bigl({written}\bigr)"
 
 
-def _end(nodes: list[Node], k: int) -> int:
+def _end_of_construct(nodes: list[Node], k: int) -> int:
     """The index behind the construct that begins at k: a command with its arguments, a group, or a token."""
     node = nodes[k]
     if node == r"\sqrt":
         has_index = nodes[k + 1 : k + 2] == ["["]
         return nodes.index("]", k) + 2 if has_index else k + 2
     if node == r"\left":
-        return _closing(nodes, k + 1) + 2
-    if node in _FRACTIONS:
+        return _matching_right(nodes, k + 1) + 2
+    if node in _FRACTION_COMMANDS:
         return k + 3
     if node in _WITH_ARGUMENT:
         return k + 2
     return k + 1
 
 
-def _closing(nodes: list[Node], k: int) -> int:
+def _matching_right(nodes: list[Node], k: int) -> int:
     r"""The index of the \right that matches the \left before k."""
     depth = 1
     while depth:

@@ -21,7 +21,7 @@ from kovacic.errors import InputError
 Expr = Any  # SymPy publishes no types
 
 #: Functions that all of SymPy's printers write correctly.
-_ELEMENTARY = "exp log Abs sin cos tan cot sec csc asin acos atan sinh cosh tanh coth asinh acosh atanh"
+_WRITTEN_BY_SYMPY = "exp log Abs sin cos tan cot sec csc asin acos atan sinh cosh tanh coth asinh acosh atanh"
 #: SymPy's names with the others' names, or with a pattern for the printed arguments; E/1 is E with one argument.
 _MATHEMATICA = """
     besselj BesselJ, bessely BesselY, besseli BesselI, besselk BesselK, jn SphericalBesselJ, yn SphericalBesselY,
@@ -177,7 +177,7 @@ def _printer(language: _Language) -> Any:
     class Printer(language.printer):  # type: ignore[misc, name-defined]
         def _print(self, expr: Expr, **options: Any) -> str:
             kind = type(expr).__name__
-            arguments = _arguments(expr)
+            arguments = _pattern_arguments(expr)
             own = known.get(kind) or known.get(f"{kind}/{len(arguments)}")
             if own is not None:
                 return _filled(own, list(map(self._print, arguments)), language)
@@ -188,7 +188,7 @@ def _printer(language: _Language) -> Any:
                 return before + ", ".join(map(self._print, expr)) + after
             is_foreign = isinstance(expr, sympy.CRootOf | sympy.RootSum | sympy.Integral | sympy.Derivative)
             if isinstance(expr, sympy.Function):
-                is_foreign = kind not in _ELEMENTARY.split()
+                is_foreign = kind not in _WRITTEN_BY_SYMPY.split()
             if is_foreign:
                 raise InputError(f"{language.name} has no {kind}, or one with another meaning")
             corrected = _in_julia(self._print, expr) if language.name == "Julia" else None
@@ -197,7 +197,7 @@ def _printer(language: _Language) -> Any:
     return Printer({"contract": False} if language.name == "Julia" else {})
 
 
-def _arguments(expr: Expr) -> tuple[Expr, ...]:
+def _pattern_arguments(expr: Expr) -> tuple[Expr, ...]:
     """The arguments for a pattern: of a simple integral the integrand, the variable, and the ends if it has any; of a sum over
     roots p, f(a) and a, which is no letter of f."""
     if isinstance(expr, sympy.Integral) and len(expr.limits) == 1:

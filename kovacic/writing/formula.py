@@ -18,7 +18,7 @@ from kovacic.algebra.rationals import RationalPoly
 from kovacic.equation import parameters_of
 from kovacic.numerals import as_latex, as_text
 
-_GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
+_GREEK_LETTERS = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
 # What has another form in LaTeX, in the order in which it is replaced.
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
@@ -39,9 +39,9 @@ LARGEST_DEGREE = 300
 #: Bits of all coefficients together, above which a function isn't printed in `Math`: some twenty screens.
 _LARGEST_SIZE = 100_000
 #: Terms in the variable and the parameters together: some four screens.
-_MOST_TERMS = 500
+_MOST_PRINTED_TERMS = 500
 #: Characters; longer formulas are shortened.
-_LONGEST = 2000
+_SHORTENED_ABOVE = 2000
 # The names within the engine.
 _VARIABLE = "x"
 _SYMBOL = "c"
@@ -149,21 +149,21 @@ class Formulas:
 
 def shortened(text: str) -> str:
     """A formula of at most two screens."""
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... ({len(text)} characters)"
+    return text if len(text) <= _SHORTENED_ABOVE else f"{text[: _SHORTENED_ABOVE // 2]} ... ({len(text)} characters)"
 
 
 def _is_long(function: RatFunc) -> bool:
     """True if the function has more terms, or longer coefficients, than anybody reads."""
     for part in (function.num, function.den):
-        terms = _number_of_terms(part)
+        terms = _terms_to_print(part)
         if terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE:
             return True
-        if parameters_of(part.field) and part.extent()[0] > _MOST_TERMS:
+        if parameters_of(part.field) and part.extent()[0] > _MOST_PRINTED_TERMS:
             return True
     return False
 
 
-def _number_of_terms(polynomial: Poly) -> int:
+def _terms_to_print(polynomial: Poly) -> int:
     """The number of coefficients that aren't 0; for a low degree, an upper bound is enough."""
     if polynomial.degree < LARGEST_DEGREE:
         return polynomial.degree + 1
@@ -268,6 +268,6 @@ def symbol(name: str) -> str:
         base = match[1]
         index = match[2].replace("_", r"\_")
     letter = base if len(base) == 1 else rf"\mathrm{{{base}}}"
-    if base in _GREEK.split():
+    if base in _GREEK_LETTERS.split():
         letter = rf"\{base}"
     return f"{letter}_{{{index}}}" if index else letter
