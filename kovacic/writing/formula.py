@@ -18,7 +18,10 @@ from kovacic.algebra.rationals import RationalPoly
 from kovacic.equation import parameters_of
 from kovacic.numerals import as_latex, as_text
 
-_GREEK_LETTERS = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
+_GREEK_LETTERS = (
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon "
+    "phi chi psi omega"
+)
 # What has another form in LaTeX, in the order in which it is replaced.
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
