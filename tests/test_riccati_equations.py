@@ -70,6 +70,26 @@ def test_known_forms() -> None:
     assert kovacic.dsolve("w' = -w^2 + x*w + 1").rhs.has(erf)
 
 
+@pytest.mark.parametrize(
+    ("equation", "printed"),
+    [
+        ("w' = -w^2 - 4*w/x - 2/x^2", "1/(C1 + x) - 2/x"),
+        ("w' = -w^2 + (2*x + 1/x)*w - x^2", "x + 2*x/(C1 + x**2)"),
+        (
+            "w' = -w^2*(x+1) + x^2*(x+1) + 1",
+            "x + exp(-x**2*(2*x/3 + 1))/(C1 + Integral((x + 1)*exp(-x**2*(2*x/3 + 1)), x))",
+        ),
+        ("w' = -w^2 - 2/(x^3-x^2)", "-x**2/((x - 1)**2*(-C1 - x - 2*log(x - 1) + 1/(x - 1))) + 1/(x**2 - x)"),
+        ("w' = 2*I*(w^2+1)/x", "I + 2*I/(4*C1*x**4 - 1)"),
+        ("v' = g - k*v^2, v(0) = 0", "sqrt(g*k)*tanh(x*sqrt(g*k))/k"),
+        ("w' = 1 + w^2, w(0) = a", "tan(x + atan(a))"),
+    ],
+)
+def test_the_forms_are_reduced(equation: str, printed: str) -> None:
+    """No 0/0 at a regular point, and nothing that cancels."""
+    assert str(kovacic.dsolve(equation).rhs) == printed
+
+
 def test_the_unknown_may_stand_in_a_denominator() -> None:
     found = kovacic.dsolve(sympy.Eq(w(x).diff(x) / w(x), 2 / x + w(x)))
     assert sympy.checkodesol(sympy.Eq(w(x).diff(x), 2 * w(x) / x + w(x) ** 2), found) == (True, 0)

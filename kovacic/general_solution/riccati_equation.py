@@ -186,14 +186,15 @@ def _forms(found: _LinearSolution, equation: FirstOrderEquation) -> Iterator[Exp
         if V is None:
             V = sympy.Integral(E, x)
         rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
-        yield _sum([rational, -E / (equation.r * (found.constants[0] + sympy.factor_terms(V)))], x)
+        V = sympy.factor_terms(_sum(sympy.Add.make_args(V), x))
+        yield _sum([rational, -E / (equation.r * (found.constants[0] + V))], x)
 
 
 def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
-    """The rational terms as one fraction, and the others with their rational factors in lowest terms."""
-    rational = sympy.Add(*(term for term in terms if term.is_rational_function(x)))
+    """The rational terms as one fraction, in factors or in partial fractions, and the others in lowest terms."""
+    rational = sympy.cancel(sympy.Add(*(term for term in terms if term.is_rational_function(x))))
     others = (_reduced(term, x) for term in terms if not term.is_rational_function(x))
-    return sympy.Add(sympy.cancel(rational), *others)
+    return sympy.Add(shortest([rational, sympy.factor(rational), sympy.apart(rational, x)]), *others)
 
 
 def _reduced(term: Expr, x: Expr) -> Expr:
