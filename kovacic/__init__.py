@@ -36,7 +36,7 @@ _NAMES = {
         "ParseError",
         "VerificationFailed",
     ),
-    "general_solution": ("dsolve", "register", "solve_riccati", "unregister", "validity"),
+    "general_solution": ("dsolve", "explain", "register", "solve_riccati", "unregister", "validity"),
     "limits": ("Limits",),
     "parameters": ("conditions",),
     "solution": ("Solution", "solve"),

@@ -24,6 +24,7 @@ from kovacic.errors import NotRational as NotRational
 from kovacic.errors import ParseError as ParseError
 from kovacic.errors import VerificationFailed as VerificationFailed
 from kovacic.general_solution import dsolve as dsolve
+from kovacic.general_solution import explain as explain
 from kovacic.general_solution import register as register
 from kovacic.general_solution import solve_riccati as solve_riccati
 from kovacic.general_solution import unregister as unregister

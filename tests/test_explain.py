@@ -7,11 +7,14 @@ import shutil
 import subprocess
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import published
 import pytest
+import sympy
 from build import parametrize, run
 from clocks import controlled
+from sympy import Rational
 
 import kovacic
 
@@ -353,3 +356,66 @@ def test_the_page_names_its_equation_and_whose_the_solutions_are() -> None:
     html = answer.explain(format="html")
     assert "<h1 id=" in html
     assert html.count("overflow-x:auto") == html.count("overflow-x:auto; overflow-y:hidden")
+
+
+#: Problems with a right-hand side, values, or both; the last ones with jumps and letters.
+PROBLEMS = [
+    "y'' + y = 1/cos(x), y(0) = 1, y'(0) = 0",
+    "x^2*y'' - 2*y = 3*x^2 - 1, y(1) = 0, y'(1) = 1",
+    "y'' + 2*y' + y = exp(-x)/x^2",
+    "y'' - 3*y' + 2*y = exp(3*x), y(0) = 0, y(1) = 2",
+    "x*y'' + y' + x*y = 0, y(1) = 1, y'(1) = 0",
+    "y'' + k^2*y = cos(w*x), y(0) = 0, y'(0) = 0",
+    "y'' + y = Heaviside(x - 1), y(0) = 0, y'(0) = 0",
+]
+
+
+def parsed(printed: str) -> Any:
+    return sympy.sympify(printed.replace("^", "**"))
+
+
+@parametrize("text", PROBLEMS, ordinary=3)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_the_steps_to_a_solution_are_true(text: str) -> None:
+    """What is printed for the pair, the Wronskian, the integrands, y0 and the constants is put into what it is said to be."""
+    document = kovacic.explain(text, var="x")
+    formulas = [line.strip().partition(" = ") for line in document.splitlines() if line.startswith("    ")]
+    said = {left: parsed(right) for left, _, right in formulas if "'" not in left + right and " int " not in right}
+    x = sympy.Symbol("x")
+    y1, y2, W = said["y1"], said["y2"], said["W"]
+    at = {s: Rational(7 + k, 5) for k, s in enumerate(sorted(y1.free_symbols | said["y(x)"].free_symbols, key=str))}
+
+    def vanishes(e: Any) -> bool:
+        return bool(abs(sympy.N(e.doit().subs(at), 20)) < 1e-12)
+
+    assert vanishes(y1 * y2.diff(x) - y1.diff(x) * y2 - W)
+    constants = {sympy.Symbol(name): said.get(name, sympy.Symbol(name)) for name in ("C1", "C2")}
+    general = constants[sympy.Symbol("C1")] * y1 + constants[sympy.Symbol("C2")] * y2 + said.get("y0", 0)
+    assert vanishes((said["y(x)"] - general).subs({"C1": 2, "C2": 3}))
+    if "y0" in said:
+        F = said["y2 F/W"] * W / y2
+        assert vanishes(said["y1 F/W"] * W / y1 - F)
+        slopes = [y.diff(x) for y in (y1, y2)]
+        b, c = sympy.Matrix([[slopes[0], y1], [slopes[1], y2]]).LUsolve(-sympy.Matrix([s.diff(x) for s in slopes]))
+        assert vanishes(said["y0"].diff(x, 2) + b * said["y0"].diff(x) + c * said["y0"] - F)
+    for left, _, right in formulas:
+        if left not in constants and "C1" in left + right and "y" not in left:
+            assert vanishes((parsed(left) - parsed(right)).subs(constants))
+
+
+@pytest.mark.parametrize("format", ["text", "markdown", "latex", "html"])
+def test_the_steps_in_each_format(format: str) -> None:
+    for text in ("y'' + y = 1/cos(x), y(0) = 1, y'(0) = 0", "x*y' + 2*y = x^2, y(1) = 2", "w' = x^2 + w^2"):
+        document = kovacic.explain(text, format=format)
+        assert "The solution" in document
+    with pytest.raises(ValueError, match="the format is one of"):
+        kovacic.explain("y' = y", format="pdf")
+
+
+def test_the_command_explains_problems(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["explain", "y'' + y = x, y(0) = 0, y'(0) = 0"]) == 0
+    printed = capsys.readouterr().out
+    assert "Variation of parameters" in printed
+    assert printed.rstrip().endswith("y(x) = x - sin(x)")
+    assert run(["explain", "y'' + y = 0"]) == 0
+    assert "Kovacic's algorithm" in capsys.readouterr().out

@@ -144,7 +144,7 @@ def test_ranks(seed: int) -> None:
     spoiled = random.random() < 0.3
     if spoiled:
         rows.append(Row(rows[0].u, rows[0].v, rows[0].r + 1))
-    generic, others = determine(rows, (C1, C2))
+    generic, others, _ = determine(rows, (C1, C2))
     assert not others
     if spoiled:
         assert generic.outcome is Outcome.NONE

@@ -266,26 +266,43 @@ def explain(
 ) -> int:
     """Explain the answer for y'' = S(x) y, or for an equation with y'' in it; "-" reads one a line.
 
+    For an equation with a right-hand side or values, or of first order, these are the steps to its solution.
+
     \b
     kovacic explain "x^2 + 3"
     kovacic explain "x^2*y'' + x*y' + (x^2-1/4)*y = 0" -o bessel.html
+    kovacic explain "y'' + y = 1/cos(x), y(0) = 1, y'(0) = 0"
     """
+    from kovacic.general_solution import explain as explain_problem
+    from kovacic.general_solution import is_problem
+
     if cite:
         options.refuse({"form", "output", "no_solutions"}, "with --cite")
     if output is not None and (len(equations) > 1 or equations == ("-",)):
         raise click.UsageError("--output takes the explanation of one equation")
 
+    def written(text: str) -> str:
+        """What is printed."""
+        text = text.rstrip("\n")
+        if output is not None:
+            output.write_text(f"{text}\n", encoding="utf-8")
+            return f"wrote {output}"
+        return fitted(text) if form == "text" else text
+
     def show(answer: Solution) -> Iterable[str]:
         if cite:
             return (answer.citation(style="bibtex"),)
-        text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
-        if output is not None:
-            output.write_text(f"{text}\n", encoding="utf-8")
-            return (f"wrote {output}",)
-        if form == "text":
-            text = fitted(text)
-        return (text,)
+        return (written(answer.explain(format=form, solutions=not no_solutions)),)
 
+    if len(equations) == 1 and equations != ("-",) and not cite and is_problem(equations[0]):
+        try:
+            with options.waiting("solving"):
+                text = explain_problem(equations[0], format=form, **given)
+        except NotImplementedError as reason:
+            print(f"kovacic: {reason}", file=sys.stderr)
+            return UNDECIDED
+        print(written(text))
+        return DECIDED
     return options.answer_each(equations, show, gap="\n", **given)
 
 

@@ -8,6 +8,7 @@ among SymPy's own methods.
 """
 
 from kovacic.general_solution.dsolve import dsolve, in_special_functions
+from kovacic.general_solution.explained import explain, is_problem
 from kovacic.general_solution.homogeneous import NothingKnown
 from kovacic.general_solution.riccati import RiccatiSolutions, solve_riccati
 from kovacic.general_solution.sympy_hint import register, unregister
@@ -18,7 +19,9 @@ __all__ = [
     "RiccatiSolutions",
     "Validity",
     "dsolve",
+    "explain",
     "in_special_functions",
+    "is_problem",
     "register",
     "solve_riccati",
     "unregister",

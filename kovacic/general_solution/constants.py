@@ -70,6 +70,8 @@ class Determined(NamedTuple):
 
     generic: ParameterCase
     particular: list[ParameterCase]
+    #: The equations for the constants.
+    rows: tuple[Row, ...] = ()
 
 
 def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None) -> Determined:
@@ -84,11 +86,11 @@ def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | N
     """
     minor = _best_minor(rows, wronskian)
     if minor is None:
-        return _split(_of_rank_one(rows, names))
+        return _split(_of_rank_one(rows, names))._replace(rows=tuple(rows))
     found = _split(_of_rank_two(rows, minor))
     if minor.when is Zero.SOMETIMES:
         found.particular.append(_where_minor_vanishes(rows, names, minor.value))
-    return found
+    return found._replace(rows=tuple(rows))
 
 
 Values = tuple[Expr, Expr]

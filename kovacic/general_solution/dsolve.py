@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -25,7 +26,7 @@ from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
-from kovacic.general_solution.constants import Outcome, ParameterCase, can_be, condition_of
+from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, can_be, condition_of
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
@@ -196,6 +197,34 @@ def dsolve(
     return found
 
 
+@dataclass(frozen=True)
+class ProblemAnswer:
+    """What `dsolve` returns, and what is to be said beside."""
+
+    eq: Expr
+    notices: list[str]
+
+
+@dataclass(frozen=True)
+class SecondOrderAnswer(ProblemAnswer):
+    """y = C1 y1 + C2 y2 + y0, and what it was found from; what the values make of the constants `names`, if there are any."""
+
+    question: Question
+    found: DecidedBasis
+    basis: Basis
+    particular: Expr
+    names: tuple[Expr, Expr]
+    determined: Determined | None
+
+
+@dataclass(frozen=True)
+class FirstOrderAnswer(ProblemAnswer):
+    """The equation and its conditions, in symbols that know what is assumed."""
+
+    equation: FirstOrderEquation
+    conditions: Sequence[Condition]
+
+
 def _several(text: str, func: Any, ics: Any, parameters: Sequence[str]) -> tuple[Any, Any, Any]:
     """The equations, unknown functions and values of a text with several equations; anything else as it was given."""
     paste = taken_apart(text)
@@ -250,7 +279,13 @@ def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) ->
     return None
 
 
-def _answered(
+def _answered(eq: Any, func: Any, **given: Any) -> tuple[Expr, list[str]]:
+    """The answer, and what is to be said beside."""
+    answer = answer_to(eq, func, **given)
+    return answer.eq, answer.notices
+
+
+def answer_to(
     eq: Any,
     func: Any,
     *,
@@ -260,8 +295,8 @@ def _answered(
     assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
     special: bool = False,
-) -> tuple[Expr, list[str]]:
-    """The answer, and what is to be said beside."""
+) -> ProblemAnswer:
+    """The answer with what it rests on.  Raises what `dsolve` raises."""
     budget = Budget(limits)
     with budget.watched():
         try:
@@ -280,10 +315,9 @@ def _answered(
             found = found.xreplace({symbol: own for own, symbol in known.items()})
             if has_floats(eq, as_mapping(ics)):
                 found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
-            return found, [*equation.guesses, *notices]
+            return FirstOrderAnswer(found, [*equation.guesses, *notices], equation, conditions)
         try:
-            found, notices = _solved(question, budget, special=special)
-            return found, [*question.guesses, *notices]
+            return _solved(question, budget, special=special)
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
 
@@ -312,42 +346,41 @@ def _first_order(
     return found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions), known
 
 
-def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr, list[str]]:
+def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnswer:
     """The steps of the head of this module, after the first."""
+    notices = [*question.guesses]
     family = eigenfunctions(question)
     if family is not None:
-        return written(question, family[0]), family[1]
-    notices = []
+        return ProblemAnswer(written(question, family[0]), notices + family[1])
     found = find_basis(question, budget, special=special)
     solution = found.solution
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
-    if question.conditions:
-        value, others = _determined(question, found)
-    else:
-        value, others = _general(question, found)
-    return written(question, value), notices + others
+    answer = _determined(question, found) if question.conditions else _general(question, found)
+    return replace(answer, notices=notices + answer.notices)
 
 
-def _general(question: Question, found: DecidedBasis) -> tuple[Expr, list[str]]:
-    """C1 y1 + C2 y2 + y0, checked, and what is to be said beside."""
+def _general(question: Question, found: DecidedBasis) -> SecondOrderAnswer:
+    """C1 y1 + C2 y2 + y0, checked."""
     basis = found.basis
     particular = without_homogeneous(particular_solution(basis, None), basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, is_general=True)
     notices = _by_sign(question, found, particular, constants)
-    return value, notices + check_answer(question, value, natural=found.natural)
+    notices += check_answer(question, value, natural=found.natural)
+    return SecondOrderAnswer(written(question, value), notices, question, found, basis, particular, constants, None)
 
 
-def _determined(question: Question, found: DecidedBasis) -> tuple[Expr, list[str]]:
+def _determined(question: Question, found: DecidedBasis) -> SecondOrderAnswer:
     """The same with the constants that the conditions determine.  Raises `InputError` where they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
     basis = real_basis_at(question, found.basis, found.solution, start)
     particular = real_particular_at(question, basis, particular_solution(basis, start), start)
     names = free_constants(question, basis, particular)
-    generic, others = constants_of(question, basis, particular, names, limits)
-    exceptions = [_said(question, basis, particular, case) for case in others if can_be(case)]
+    determined = constants_of(question, basis, particular, names, limits)
+    generic = determined.generic
+    exceptions = [_said(question, basis, particular, case) for case in determined.particular if can_be(case)]
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
     value = combination(question, basis, particular, generic.values)
@@ -355,7 +388,8 @@ def _determined(question: Question, found: DecidedBasis) -> tuple[Expr, list[str
     value = in_book_form(value, question.x, is_general=is_general)
     notices = _by_sign(question, found, particular, None)
     notices += check_answer(question, value, start, limits, natural=found.natural)
-    return value, notices + [f"this holds unless {said}" for said in exceptions]
+    notices += [f"this holds unless {said}" for said in exceptions]
+    return SecondOrderAnswer(written(question, value), notices, question, found, basis, particular, names, determined)
 
 
 def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:

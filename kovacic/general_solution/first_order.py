@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice, pairwise
 from typing import Any, NamedTuple
 
@@ -79,6 +80,11 @@ class FirstOrderEquation:
     @property
     def is_linear(self) -> bool:
         return bool(self.r == 0)
+
+    @cached_property
+    def homogeneous(self) -> Expr:
+        """h with h'/h = q."""
+        return _exponential_of_integral(self.q, self.x)
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
@@ -172,7 +178,7 @@ def solved_linear(
     """
     value = value_of(conditions)
     x = equation.x
-    h = _exponential_of_integral(equation.q, x)
+    h = equation.homogeneous
     start = None if value is None else value.point
     particular = _particular(equation, h, start)
     constant = equation.constant(taken)

@@ -49,7 +49,7 @@ _LARGEST_SUM = 30
 
 def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`."""
-    right = _right_hand_side(basis.equation)
+    right = right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
     solved = basis.with_integrals if basis.equation.change is not None else partial(_solved, basis)
@@ -63,7 +63,7 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     return solved(right, start)
 
 
-def _right_hand_side(equation: Equation) -> Expr:
+def right_hand_side(equation: Equation) -> Expr:
     """F of y'' + B y' + C y = F, in the user's variable."""
     t = sympy.Symbol(equation.variable)
     a = Atoms(t).ratio(equation.a).xreplace(NUMBERS)

@@ -52,7 +52,7 @@ _NEIGHBOURS: dict[Any, Callable[[int, Expr, Expr], Expr]] = {
 }
 
 
-def _linear(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
+def linear_equation(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
     """The linear equation for u, and u(x)."""
     x = equation.x
     u = sympy.Function(f"{equation.function.func}_")(x)
@@ -102,7 +102,7 @@ def _solved_linear(
     linear_solution: Callable[..., tuple[Expr, list[str]]],
 ) -> _LinearSolution:
     """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value."""
-    linear, u = _linear(solved_for)
+    linear, u = linear_equation(solved_for)
     if value is not None and _is_unit(solved_for.r, equation.x, value.point):
         start = _start(equation, u, value, is_inverted=solved_for is not equation)
         found, notices = linear_solution(linear, u, ics=start)

@@ -85,7 +85,7 @@ def _body(blocks: list[Block], picture: str) -> str:
 
 def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
-    writer = _ExplanationWriter(answer)
+    writer = ExplanationWriter(answer)
     steps = writer.steps
     parts: list[Callable[[], Iterator[Block]]] = [
         writer.equation,
@@ -134,7 +134,9 @@ def _picture(answer: Answer) -> str:
     return f"\n{heading}\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
 
 
-class _ExplanationWriter:
+class ExplanationWriter:
+    """The parts of the explanation of an answer, as blocks."""
+
     def __init__(self, answer: Answer) -> None:
         self.answer = answer
         self.formulas = formulas_of(answer)
@@ -148,13 +150,18 @@ class _ExplanationWriter:
             yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
         yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
-            yield from self._normal_form(equation.unknown)
+            y = equation.unknown
+            yield from self.normal_form(y)
+            yield say(
+                f"Cases, omega and the group below are those of the normal form, with y for {'v' if y != 'v' else 'u'}; "
+                f"the solutions {y}1 and {y}2 are those of the equation as given."
+            )
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
         if answer.change is not None:
             yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
 
-    def _normal_form(self, y: str) -> Iterator[Block]:
-        """The substitution that leads to it, and what is said of which of the two equations."""
+    def normal_form(self, y: str) -> Iterator[Block]:
+        """The substitution that leads to it."""
         answer = self.answer
         v = "v" if y != "v" else "u"
         x = answer.variable
@@ -163,10 +170,6 @@ class _ExplanationWriter:
         yield say("With ", substitution, ", ", gamma, f", it becomes its normal form for {v}:")
         yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
         yield Formula(normal_form(answer, v))
-        yield say(
-            f"Cases, omega and the group below are those of the normal form, with y for {v}; "
-            f"the solutions {y}1 and {y}2 are those of the equation as given."
-        )
 
     def _title(self) -> str:
         """What the page is about."""

@@ -1,0 +1,196 @@
+"""The steps from an equation with a right-hand side and values to its solution, as text, Markdown, LaTeX or HTML.
+
+They are read from what `dsolve` found: the pair, its Wronskian, a particular solution, the equations for the constants.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import sympy
+
+from kovacic.errors import InputError, NotLinear
+from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.constants import Determined
+from kovacic.general_solution.dsolve import FirstOrderAnswer, SecondOrderAnswer, answer_to
+from kovacic.general_solution.particular import right_hand_side
+from kovacic.general_solution.riccati_equation import linear_equation
+from kovacic.general_solution.textbook import sums
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.reading.pieces import taken_apart
+from kovacic.reading.read import read_input
+from kovacic.special.choice import shortest
+from kovacic.views.explain import ExplanationWriter
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, page, say
+from kovacic.writing.formula import Math, latex_text, of_sympy, shortened
+
+Expr = Any  # SymPy publishes no types
+
+
+@limited
+def explain(
+    eq: Any,
+    func: Any = None,
+    *,
+    ics: Mapping[Any, Any] | str | None = None,
+    var: str | None = None,
+    parameters: Sequence[str] = (),
+    assume: Mapping[Any, Any] | None = None,
+    format: str = "text",
+    limits: Limits = DEFAULT_LIMITS,
+) -> str:
+    """The steps to the solution of an equation of first or second order with its right-hand side and its values.
+
+    Normal form, two solutions, their Wronskian, variation of parameters, the equations for the constants; for an equation
+    of first order the integrating factor, or the linear equation of second order that Riccati's becomes.  How the two
+    solutions are found is in `Solution.explain`.
+
+    Parameters
+    ----------
+    eq, func, ics, var, parameters, assume, limits
+        As for `dsolve`.
+    format : str
+        "text" (the default), "markdown", "latex" (the body of a document with amsmath) or "html", a page of its own.
+
+    Returns
+    -------
+    str
+        The document.
+
+    Raises
+    ------
+    InputError, NotImplementedError
+        As `dsolve`.
+    ValueError
+        For another format.
+
+    Examples
+    --------
+    >>> print(explain("y'' + y = x, y(0) = 0, y'(0) = 0").splitlines()[-1])
+    y(x) = x - sin(x)
+    """
+    if format not in FORMATS:
+        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
+    answer = answer_to(eq, func, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
+    blocks: list[Block] = []
+    if isinstance(answer, FirstOrderAnswer):
+        blocks += _steps_of_first_order(answer)
+    elif isinstance(answer, SecondOrderAnswer):
+        blocks += _steps(answer)
+    blocks += (say(f"Note: {notice}.") for notice in answer.notices)
+    blocks += [Heading("The solution"), Formula(of_sympy(answer.eq.lhs).equals(of_sympy(answer.eq.rhs)))]
+    title = f"The solution of {shortened(eq) if isinstance(eq, str) else answer.eq.lhs}"
+    document = FORMATS[format].render([Heading(title, 1), *blocks])
+    return page(title, document) if format == "html" else document
+
+
+def is_problem(text: str) -> bool:
+    """True for a text with values, with a right-hand side, or with an equation that isn't a linear one of second order."""
+    paste = taken_apart(text)
+    if not paste.is_equation or paste.conditions:
+        return paste.is_equation
+    try:
+        found = read_input(text, exponentials=True, equation=True).equation
+    except InputError as error:
+        return isinstance(error, NotLinear)
+    return found is not None and not found.is_homogeneous
+
+
+def _named(name: str, value: Expr) -> Formula:
+    return Formula(of_sympy(sympy.Symbol(name)).equals(of_sympy(value)))
+
+
+def _equation(
+    name: str, coefficients: Sequence[Expr], right: Expr, conditions: Sequence[Condition] = ()
+) -> Iterator[Block]:
+    """The derivatives of `name` with these coefficients, from y on, equal the right-hand side; and the values."""
+    derivatives = [sympy.Symbol(name + "'" * k) for k in range(len(coefficients))]
+    left = sympy.Add(*(c * derivative for c, derivative in zip(coefficients, derivatives, strict=True)))
+    yield Formula(of_sympy(left, derivatives[-1]).equals(of_sympy(right)))
+    if conditions:
+        said = ", ".join(condition.text for condition in conditions)
+        yield say("with ", Math(said, latex_text(said)), ".")
+
+
+def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
+    """For an equation of second order."""
+    question = answer.question
+    solution = answer.found.solution
+    own = partial(_in_question, answer)
+    B, C = map(own, answer.basis.rates)
+    F = own(right_hand_side(question.equation))
+    y = question.equation.unknown
+    yield Heading("The equation")
+    yield from _equation(y, (C, B, sympy.Integer(1)), F, question.conditions)
+    if question.equation.change is None and solution.gauge:
+        yield Heading("Normal form")
+        yield from ExplanationWriter(solution).normal_form(y)
+    yield Heading("Two solutions without the right-hand side" if F != 0 else "Two solutions")
+    source = "There is no Liouvillian solution, so these are special functions"
+    if solution.case is not None:
+        source = f"By case {solution.case} of Kovacic's algorithm"
+    yield say(f"{source}:")
+    pair = {"y1": own(answer.basis.y1), "y2": own(answer.basis.y2)}
+    yield from (_named(name, value) for name, value in pair.items())
+    W = own(answer.basis.wronskian)
+    yield say("Their Wronskian ", Math("y1 y2' - y1' y2", "y_1 y_2' - y_1' y_2"), " is")
+    yield _named("W", W)
+    if F != 0:
+        yield Heading("Variation of parameters")
+        yield say("A solution with the right-hand side F is")
+        d = rf"d{latex_text(question.x.name)}"
+        latex = rf"y_0 = -y_1 \int \frac{{y_2 F}}{{W}} {d} + y_2 \int \frac{{y_1 F}}{{W}} {d}"
+        yield Formula(Math(f"y0 = -y1 int y2 F/W d{question.x} + y2 int y1 F/W d{question.x}", latex))
+        yield say("with")
+        for name in ("y2", "y1"):
+            integrand = shortest([*sums(pair[name] * F / W, question.x)])
+            yield Formula(Math(f"{name} F/W", rf"\frac{{y_{name[1]} F}}{{W}}").equals(of_sympy(integrand)))
+        yield say("Up to multiples of y1 and y2 it is")
+        yield _named("y0", own(answer.particular))
+    if answer.determined is not None:
+        yield Heading("The constants")
+        rest = "+ y0" if F != 0 else ""
+        whole = Math(
+            f"{y} = C1 y1 + C2 y2 {rest}".rstrip(), f"{latex_text(y)} = C_1 y_1 + C_2 y_2 {rest.replace('y0', 'y_0')}"
+        )
+        yield say(whole, " has the given values where")
+        yield from dict.fromkeys(_constants(answer, answer.determined))
+
+
+def _constants(answer: SecondOrderAnswer, determined: Determined) -> Iterator[Formula]:
+    """The equations for the constants, and their values."""
+    c1, c2 = answer.names
+    for row in determined.rows:
+        if (row.u, row.v) != (0, 0):
+            yield Formula(of_sympy(row.u * c1 + row.v * c2).equals(of_sympy(row.r)))
+    for name, value in zip(answer.names, determined.generic.values, strict=True):
+        if value != name:
+            yield _named(str(name), value)
+
+
+def _in_question(answer: SecondOrderAnswer, e: Expr) -> Expr:
+    return answer.question.own(e).xreplace({answer.basis.x: answer.question.x})
+
+
+def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
+    """A linear equation by its integrating factor, one of Riccati's by the linear equation that it becomes."""
+    equation = answer.equation
+    w, x = equation.function, equation.x
+    name = str(w.func)
+    square = equation.r * sympy.Symbol(name) ** 2
+    yield Heading("The equation")
+    yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, answer.conditions)
+    if equation.is_linear:
+        yield Heading("The integrating factor")
+        yield say(f"h = exp(int q), q the coefficient of {name}, solves the equation without its right-hand side p:")
+        yield _named("h", equation.homogeneous)
+        yield say(f"With {name} = h c it says that c' = p/h, so {name} = h (C1 + int p/h), where")
+        yield Formula(Math("p/h", "p/h").equals(of_sympy(shortest([*sums(equation.p / equation.homogeneous, x)]))))
+        return
+    linear, u = linear_equation(equation)
+    yield Heading("The linear equation")
+    yield say(f"{name} = -u'/(r u), r the coefficient of {name}^2, makes it linear:")
+    yield from _equation("u", [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], sympy.Integer(0))
+    yield say("Of the two constants of u only their quotient matters.")
