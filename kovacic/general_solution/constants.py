@@ -80,7 +80,7 @@ def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | N
     Raises `NotImplementedError` where it can't be told whether a constant is zero.
 
     >>> k, C1, C2 = sympy.symbols("k C1 C2")
-    >>> generic, others = determine([Row(1, 0, 0), Row(cos(k), sin(k), 0)], (C1, C2))
+    >>> generic, others, _ = determine([Row(1, 0, 0), Row(cos(k), sin(k), 0)], (C1, C2))
     >>> generic.values, others[0].zeros, others[0].values
     ((0, 0), (sin(k),), (0, C2))
     """

@@ -68,7 +68,7 @@ def explain(
 
     Examples
     --------
-    >>> print(explain("y'' + y = x, y(0) = 0, y'(0) = 0").splitlines()[-1])
+    >>> print(explain("y'' + y = x, y(0) = 0, y'(0) = 0").splitlines()[-1].strip())
     y(x) = x - sin(x)
     """
     if format not in FORMATS:
