@@ -685,6 +685,19 @@ def test_the_command_reads_standard_input_and_answers_at_once() -> None:
         assert process.wait(timeout=60) == 0
 
 
+def test_an_output_with_something_in_it_is_refused_before_any_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source, output = tmp_path / "in.txt", tmp_path / "out.jsonl"
+    source.write_text("x\n")
+    output.write_text("precious\n")
+    assert run(["batch", str(source), "-o", str(output)]) == 2
+    assert "isn't empty: --resume continues it" in capsys.readouterr().err
+    assert output.read_text() == "precious\n"
+    assert run(["batch", str(source), "--resume"]) == 2
+    assert "--resume needs --output FILE" in capsys.readouterr().err
+
+
 @pytest.mark.long
 def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "answers.jsonl"

@@ -180,7 +180,9 @@ def test_the_command_prints_levels_and_reports_failure(capsys):
     assert run(["eigenvalues", "-y'' - cosh(x)*y = E*y", "--parameter", "E"]) == 2
     arguments = ["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(1)=0", "--count", "1", "--json"]
     assert run(arguments) == 0
-    assert '"zeros": 0' in capsys.readouterr().out
+    line = capsys.readouterr().out
+    assert line.startswith('{"schema": 1, "input": "y\'\' + lambda*y = 0"')
+    assert '"zeros": 0' in line
 
 
 def test_an_interrupted_command_prints_what_it_has_found(capsys, monkeypatch):

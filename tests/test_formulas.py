@@ -13,7 +13,7 @@ from hypothesis import given, settings
 import kovacic
 from kovacic.views.sentences import formulas_of, normal_form
 from kovacic.writing.breaking import breakable, pieces
-from kovacic.writing.formula import latex_text
+from kovacic.writing.formula import Formulas, latex_text
 
 
 @pytest.mark.long
@@ -110,3 +110,20 @@ def test_latex_of_functions_with_parameters_has_their_denominators(S: str) -> No
 def test_the_normal_form_is_written_as_a_mathematician_would(S: str, text: str, latex: str) -> None:
     shown = normal_form(kovacic.solve(S, var="x"))
     assert (shown.text, shown.latex) == (f"y'' = {text}", f"y'' = {latex}")
+
+
+@pytest.mark.parametrize(
+    ("factor", "written"),
+    [
+        ("infinity", "infinity"),
+        ("x", "t = 0"),
+        ("x - 2", "t = 2"),
+        ("x + 1/2", "t = -1/2"),
+        ("x - c", "t = c"),
+        ("x - c - 1", "t - c - 1 = 0"),
+        ("x**2 + 1", "t^2 + 1 = 0"),
+    ],
+)
+def test_a_place_is_its_point_or_the_equation_of_its_points(factor: str, written: str) -> None:
+    """The factor is in the engine's variable, what is written in the user's."""
+    assert Formulas("t", QQ).place(factor).text == written

@@ -202,3 +202,9 @@ def test_nested_square_roots_that_cancel_are_an_integer() -> None:
     assert is_natural(multiple / nested + 3) != is_natural(2 - multiple / nested)
     assert is_natural((multiple - 3 * nested) * (multiple + 3 * nested) + 2)
     assert not is_natural(multiple - nested)
+
+
+def test_a_single_family_is_one() -> None:
+    """e = 3 at the pole of order 3, and -1 at infinity, where S grows like x: d = -2."""
+    explained = kovacic.solve("x + 1/x^3").explain()
+    assert "Step 2: d = (e_inf - sum e_c)/2; 1 family of exponents, d is a natural number in none of them" in explained
