@@ -1,4 +1,4 @@
-"""The frozen data of an answer: what was given, what was decided, and what can be read off from that.
+"""The frozen data of an answer: the input, the decision, and properties that can be read off from these.
 
 What has to be computed from an answer (its group, closed forms, ...) is a function in the room where it is computed, and
 `computed_once` keeps what it finds: so whatever shows or uses an answer takes this data, and depends on nothing above it.
@@ -52,7 +52,7 @@ class Answer:
 
     @property
     def status(self) -> Status:
-        """LIOUVILLIAN, NONE_EXISTS, or UNDECIDED (then `reason` says why)."""
+        """LIOUVILLIAN, NONE_EXISTS, or UNDECIDED, with the `reason`."""
         return self.decision.status
 
     @property

@@ -181,7 +181,7 @@ def _read_question(
         parsed = read_coefficients(a, b, c, f, var=var, limits=limits, names=names)
     elif given:
         hint = "write all of it as text, \"y'' = x*y + sin(x)\", or give a=, b=, c= and f= alone"
-        raise InputError(f"one equation is expected, and there are S and {', '.join(given)}", hint=hint)
+        raise InputError(f"one equation is expected, not both S and {', '.join(given)}", hint=hint)
     else:
         parsed = read_input(S, var=var, limits=limits, exponentials=True, names=names)
     if not assume:

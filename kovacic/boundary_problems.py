@@ -145,7 +145,7 @@ class _Linear:
 
 
 def _with_values(condition: Condition, values: Mapping[str, Expr]) -> Condition:
-    """With values for parameters in the points and in the coefficients."""
+    """The condition with values for parameters in its points and coefficients."""
     named = {sympy.Symbol(name): value for name, value in values.items()}
     terms = (
         Term(t.point.xreplace(named), t.order, sympy.sympify(t.coefficient).xreplace(named)) for t in condition.terms
@@ -212,7 +212,7 @@ def _expression(equation: Any, var: str | None, names: Sequence[str], limits: Li
 
 
 def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tuple[Expr, Expr]:
-    """The ends of the interval, from the points of the conditions and from what was given."""
+    """The ends of the interval, from the points of the conditions and the given domain."""
     points = {point for condition in conditions for point in condition.points}
     for point in points:
         if point.free_symbols:

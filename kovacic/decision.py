@@ -1,4 +1,4 @@
-"""Results: what was found, and what was excluded by which evidence.  Frozen, comparable and picklable; no computing here.
+"""Results: the structure that was found, and the evidence against others.  Frozen, comparable, picklable; no computing here.
 
 The structures that the Galois group of y'' = S y can have, in the order in which they are tested [Kovacic 1986, sec. 1.2]:
 reducible (case 1), imprimitive (case 2), and the three primitive finite groups (case 3); otherwise it is SL2(C) and there is

@@ -55,7 +55,7 @@ class InputError(KovacicError, ValueError):
         return self._told(self.hint)
 
     def for_shell(self) -> str:
-        """What `str` says, with the hint for the command line."""
+        """The message of `str` with the hint for the command line."""
         return self._told(self.shell)
 
     def _told(self, hint: str | None) -> str:

@@ -78,7 +78,7 @@ def is_rational(value: Any) -> bool:
 
 
 def exact_text(value: Any, name: str) -> str:
-    """A value for a place in a formula: text as it is, a float as the decimal that it is written as, others exactly.
+    """The text of a value within a formula: text unchanged, a float as its shortest decimal, other numbers exactly.
 
     >>> exact_text(0.1, "n"), exact_text("sqrt(2)", "n"), exact_text(Fraction(1, 3), "n")
     ('0.1', 'sqrt(2)', '1/3')

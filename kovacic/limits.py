@@ -117,7 +117,7 @@ DEFAULT_SECONDS = 600.0
 
 
 class Clock:
-    """Where every limit reads the time, in seconds: on the wall, or where a test says.
+    """The clock that every limit reads, in seconds: the wall clock, or one that a test controls.
 
     >>> with CLOCK.read_from(lambda: 7.0):
     ...     CLOCK.now()

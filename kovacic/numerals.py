@@ -133,7 +133,7 @@ def for_json(number: int) -> int | str:
 
 
 def _settings(expression: Any) -> dict[str, Any]:
-    """Those of SymPy's printers.  SymPy sorts roots of numbers by Python's digits of them: long ones stay in their order."""
+    """Settings for SymPy's printers, which sort roots of numbers by their decimal digits: long ones keep their order."""
     import sympy
 
     parts = sympy.preorder_traversal(expression)

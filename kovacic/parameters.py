@@ -68,7 +68,7 @@ class Conditions(ParametricAnswer):
         return Solution.of(self.answer_at(values))
 
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
-        """Solve the equation at exact points inside and outside of the regions, and compare with what is printed.
+        """Solve the equation at exact points inside and outside of the regions, and compare with the printed conditions.
 
         The printed conditions themselves are evaluated: a parameter as a function of an integer, a sum of square roots; and
         formulas are put into the equation.  One point in each region is compared whenever conditions are found.

@@ -33,7 +33,7 @@ _MARKDOWN_PATTERN = re.compile(r"[\\`*_\[\]<>$|#]")
 
 
 def visible(text: str) -> str:
-    """For a terminal: what isn't printed as a character, but for the ends of lines, as a backslash and its code."""
+    """The text for a terminal: unprintable characters, except the ends of lines, become a backslash and a code."""
     if text.isprintable():
         return text
     return "".join(
@@ -42,7 +42,7 @@ def visible(text: str) -> str:
 
 
 def in_one_line(text: str) -> str:
-    """For a terminal, with the ends of lines visible as well."""
+    """The text for a terminal, with the ends of lines escaped as well."""
     return visible(text).replace("\n", r"\n")
 
 
@@ -76,7 +76,7 @@ def html(text: str) -> str:
 
 
 def json_line(data: Any, default: Callable[[Any], str] | None = None) -> str:
-    r"""An object as one line of JSON: UTF-8, but for what isn't printed as a character.
+    r"""An object as one line of JSON in UTF-8, with unprintable characters escaped.
 
     `default` turns what JSON doesn't have into a text.
 

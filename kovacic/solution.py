@@ -218,7 +218,7 @@ class Solution(Answer):
 
     @limited
     def prepared(self, *, x0: object, **options: Unpack[Options]) -> Prepared:
-        """The solution that starts at x0 as a function whose values are balls; what was expanded for one serves the next.
+        """The solution that starts at x0 as a function whose values are balls; expansions are kept for later calls.
 
         Parameters
         ----------

@@ -92,7 +92,7 @@ FORMS: dict[str, Any] = {
 @pytest.mark.parametrize("name", ["b", "c", "f"])
 @pytest.mark.parametrize("form", FORMS)
 def test_coefficients_beside_an_equation_are_refused(form: str, name: str, value: Any) -> None:
-    with pytest.raises(InputError, match=f"one equation is expected, and there are S and {name}"):
+    with pytest.raises(InputError, match=f"one equation is expected, not both S and {name}"):
         kovacic.solve(FORMS[form], **{name: value})
     with pytest.raises(InputError, match="with at least a="):
         kovacic.solve(**{name: value})

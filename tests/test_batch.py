@@ -175,7 +175,7 @@ def test_further_columns_are_carried_along() -> None:
     [
         ('{"S": "x", "id": NaN}', "NaN isn't a number in JSON"),
         ('{"S": "x", "id": [-Infinity]}', "-Infinity isn't a number in JSON"),
-        ('{"S": "x", "id": 1e999}', "JSON has no such float as the id"),
+        ('{"S": "x", "id": 1e999}', "an id is a JSON value, not a float"),
         ('{"S": "x", "S": "y"}', "a key occurs twice in one object: 'S'"),
         ('{"S": "x", "id": {"a": 1, "a": 2}}', "a key occurs twice in one object: 'a'"),
         ('{"S": "x", "input": "y"}', "'S' and 'input' both name the expression"),
@@ -549,7 +549,7 @@ def _alive(pid: int) -> bool:
         ({"timeout": 0}, "timeout"),
         ({"memory": 0}, "memory"),
         ({"scheduler": "tcp://localhost:1"}, "needs a backend"),
-        ({"backend": "nonsense"}, "isn't a backend"),
+        ({"backend": "nonsense"}, "unknown backend"),
     ],
     ordinary=1,
 )

@@ -101,7 +101,7 @@ def _leading_terms(
 
 
 class _LiftedTerm:
-    """A polynomial that is found from its images modulo primes: what was `proposed` last, if anything was."""
+    """A polynomial that is lifted from its images modulo primes; `proposed` is the last proposal, None before there is any."""
 
     def __init__(self, field: Field) -> None:
         self.proposed: Poly | None = None
@@ -157,7 +157,7 @@ def _remainders_in_tree(polynomial: Any, tree: list[list[Any]]) -> list[Any]:
 
 
 def combination(target: Poly, polynomials: Sequence[Poly]) -> list[Poly] | None:
-    """Constants c with target = sum of c_k polynomials_k, 0 for those that aren't needed; None where there are none.
+    """Constants c with target = sum of c_k polynomials_k, 0 for those that aren't needed; None if there are no such constants.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> p, q = QQ.poly([1, 0, 1]), QQ.poly([0, 2, 1])

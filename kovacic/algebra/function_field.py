@@ -241,7 +241,7 @@ class FunctionPoly(Poly):
         return self.field.make(self.num * other.num, self.den * other.den)
 
     def _divmod(self, other: FunctionPoly) -> tuple[FunctionPoly, FunctionPoly]:
-        """By flint's division where there is no remainder."""
+        """The quotient and remainder; flint's division serves if there is no remainder."""
         content = other.numerator_content()
         quotient, remainder = divmod(self.num, other.num // content)
         if remainder:

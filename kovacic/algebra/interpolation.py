@@ -25,7 +25,7 @@ _LARGEST_SYSTEM = 2400
 
 
 class Samples(Collector):
-    """The samples of one shape, and for each coefficient what is known about it.
+    """The samples of one shape, and the state of the interpolation for each coefficient.
 
     A polynomial is proposed as the list of its coefficients, pairs (N, D) of integer coefficients by exponents.
     """
@@ -129,7 +129,7 @@ class _Unknown:
 
 
 def _occurring(monomials: list[Exponents], coefficients: list[int]) -> list[Exponents]:
-    """Those whose coefficient isn't zero."""
+    """The monomials with a coefficient other than zero."""
     return [monomial for monomial, c in zip(monomials, coefficients, strict=True) if c]
 
 

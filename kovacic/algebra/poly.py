@@ -211,7 +211,7 @@ class Poly(Immutable, ABC):
         return self.lc == 1
 
     def over(self, field: Field) -> Poly:
-        """The same polynomial over an extension of its field (or over the field itself)."""
+        """The polynomial over an extension of its field (or over the field itself)."""
         return self if self.field == field else field.embed(self)
 
     def monic(self) -> Self:

@@ -1,4 +1,4 @@
-"""The same batch on other machines: chunks of items through Dask or Ray.
+"""A batch on other machines: chunks of items through Dask or Ray.
 
 On the machine that gets a chunk, it runs through a worker process that can be killed, as on a single machine: limits hold
 everywhere, an equation that exhausts the memory doesn't take a Dask worker with it, and flint, whose precision is global,
@@ -57,7 +57,7 @@ def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
     """
     engine = _ENGINES.get(job.backend or "")
     if engine is None:
-        raise InputError(f"{job.backend!r} isn't a backend", hint=f"one of {', '.join(_ENGINES)}")
+        raise InputError(f"unknown backend {job.backend!r}", hint=f"one of {', '.join(_ENGINES)}")
     iterator = iter(items)
     pending = deque[Future[list[Record]]]()
     with engine(job.scheduler) as (send, room):
@@ -79,7 +79,7 @@ def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
                     said = f"the {job.backend} scheduler{where} has ended, or can't be reached any more"
                     raise KovacicError(f"{said}; the answers so far were given out") from error
                 except Exception as error:
-                    raise KovacicError(f"{job.backend} gave a chunk of equations up: {error}") from error
+                    raise KovacicError(f"{job.backend} gave up on a chunk of equations: {error}") from error
                 yield from records
         finally:
             for future in pending:

@@ -137,7 +137,7 @@ def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
         json.dumps(extra, allow_nan=False)
     except (TypeError, ValueError, RecursionError):
         wrong = type(extra["id"]).__name__
-        return Item(number, text, var, error=InputError(f"JSON has no such {wrong} as the id", hint="use text"))
+        return Item(number, text, var, error=InputError(f"an id is a JSON value, not a {wrong}", hint="use text"))
     error = _flaw_of(list(value))
     if error is not None:
         return Item(number, text, var, extra, error)
@@ -288,7 +288,7 @@ class Done:
         known = self.checksums.get(item.number)
         if known is not None and known != _checksum(item.text):
             raise InputError(
-                f"line {item.number} of the input isn't what the answers in the output file belong to",
+                f"line {item.number} of the input differs from the line that the output file answers",
                 hint="give the input file of the interrupted run, or another output file",
             )
         return known is not None
@@ -311,7 +311,7 @@ def take_up(path: Path) -> Done:
             for line in stream:
                 try:
                     if not line.endswith(b"\n"):
-                        raise ValueError("the line isn't whole")
+                        raise ValueError("the line is incomplete")
                     data = json.loads(line)
                     number, checksum, label = int(data["line"]), _checksum(data["input"]), label_of(data)
                     if number in done.checksums:

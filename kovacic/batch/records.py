@@ -150,7 +150,7 @@ class Job:
             self._set(jobs=whole(self.jobs, "jobs", least=1))
         self._set(limits=limits_of(self.limits))
         if self.timeout is not None and not 0 < self.timeout < 1e8:
-            raise InputError(f"a timeout of {self.timeout} s isn't possible", hint="give seconds, above 0")
+            raise InputError(f"a timeout of {self.timeout} s is out of range", hint="give seconds, above 0")
         if self.memory is not None and not os.path.exists("/proc/self/statm"):
             raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
         if self.scheduler is not None and self.backend is None:

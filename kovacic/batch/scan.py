@@ -120,7 +120,7 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
     if not names:
         raise InputError("a scan needs a parameter", hint="n=0:10:1/4")
     if len(set(names)) < len(names) or var in names:
-        raise InputError(f"the names {', '.join(names)} aren't different parameters")
+        raise InputError(f"the names of parameters must be distinct: {', '.join(names)}")
     template = Template(as_text(expression).strip(), names, var)  # as the answers have it
     return (
         Item(
@@ -187,8 +187,8 @@ def _monotonic(grid: Grid) -> list[Fraction]:
     """The values, which are rational, and increase or decrease."""
     values = [value for value in grid if isinstance(value, Fraction)]
     if len(values) < len(grid):
-        raise InputError(f"the values of {grid.name} aren't all rational, and a map needs that")
+        raise InputError(f"the values of {grid.name} must be rational for a map")
     steps = [b - a for a, b in pairwise(values)]
     if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
-        raise InputError(f"the values of {grid.name} aren't in order, and a map needs that")
+        raise InputError(f"the values of {grid.name} must be in increasing or decreasing order for a map")
     return values

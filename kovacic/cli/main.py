@@ -58,7 +58,7 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, context: click.Context, arguments: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does it, with a suggestion where there is no such command."""
+        """Resolve the command as click does, with a suggestion for a mistyped name."""
         if arguments[0] not in COMMANDS:
             from difflib import get_close_matches
 

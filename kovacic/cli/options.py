@@ -192,7 +192,7 @@ def refuse(names: Iterable[str], beside: str) -> None:
 
 
 class EquationCommand(Command):
-    """A command with expressions among its arguments: what isn't exactly the name of an option is one, -x^2 and -j*x too.
+    """A command with expressions among its arguments: anything but the exact name of an option, even -x^2 and -j*x.
 
     Beside the names, -j4 and -vv are options.  Two minus signs and a word are an option always, a misspelt one perhaps.
     """

@@ -120,7 +120,7 @@ class _Search:
         self.recurrence_tried = False
 
     def modulo(self, h: Homomorphism) -> ModularSpace:
-        """Those modulo a prime; too few equations may let others pass."""
+        """The invariants modulo a prime, and others if the equations are too few."""
         return invariants_modulo(h, self.problem, self.m, self.valuations, self.N, margin=self.margin)
 
     def lifted(self, bundle: Sequence[Homomorphism], bases: Sequence[list[Any]]) -> list[Form]:

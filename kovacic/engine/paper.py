@@ -248,7 +248,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
 
 
 def _exponent_choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
-    """Step 1; None where the exponents aren't square roots of constants."""
+    """The choices of step 1 at a point; None if the exponents aren't square roots of constants."""
     place = point.place
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
         return tuple(map(Choice, _AT_ORDINARY_INFINITY.get(m, range(13))))
@@ -360,7 +360,7 @@ class _Trial:
         return (d + 1) * self.m * (self.m * n + d) * (n + 1) * self.field.absolute_degree**2
 
     def outcome(self, family: Family) -> Family:
-        """The family with theta, and P or what has to vanish for one."""
+        """The family with theta, and with P or the conditions for its existence."""
         m = self.m
         X = self.field.poly([0, 1])
         d = self.degree(family)
@@ -388,7 +388,7 @@ class _Trial:
         return R
 
     def _theta(self, family: Family) -> Any:
-        """theta, a sum over the poles as it stands in the paper."""
+        """theta, as a sum over the poles, as in the paper."""
         x = self.x
         terms = []
         at_infinity, *at_poles = family.choices

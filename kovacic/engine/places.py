@@ -75,7 +75,7 @@ class Place:
 
     @cached_property
     def delta_squared(self) -> Poly | None:
-        """At a regular place the square of the exponent difference Delta where it is the same constant of K at all roots.
+        """The square of the exponent difference Delta at a regular place, if it is the same constant of K at all roots.
 
         For a double pole Delta^2 = 1 + 4b, b = N/(p'^2 q) in K[x]/p.  None elsewhere; then Delta is irrational.
         """

@@ -147,8 +147,8 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
 
 
 class _ModularSearch:
-    """omega modulo primes, with what has been learnt so far: the bound on the degree of P, which is computed when it is needed,
-    and the degrees that are worth a trial."""
+    """The search for omega modulo primes.  It keeps the bound on the degree of P, which is computed on demand, and the degrees
+    that are worth a trial."""
 
     def __init__(self, problem: Problem, bound: DegreeBound | None) -> None:
         # Only finitely many local solutions can belong to omega there; the cheapest such place.

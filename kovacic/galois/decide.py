@@ -52,7 +52,7 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
 
 
 def _reducible_group(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
-    """By the rational forms of degree 2: none, y1^2 alone, y1 y2 alone, or all; F is one that is known, if any is."""
+    """The group by its rational forms of degree 2: none, y1^2 alone, y1 y2 alone, or all.  F is a known one, or None."""
     residues = rational_residues(f.theta)
     are_all_rational = False
     if F is None or _is_square_of_solution(problem, F):

@@ -253,7 +253,7 @@ def _residues_on_curve(curve: SquareRootCurve, rho: RatFunc) -> list[tuple[Fract
     rows: list[tuple[Fraction, Fraction]] = []
 
     def add(e: int, delta: Fraction, r: Fraction) -> None:
-        """At a branch point twice e/4 + r; at the others e/4 + r, where e = 2 with +-delta/2, at the two points over it."""
+        """Add the residues over a point: 2 (e/4 + r) at a branch point, else e/4 + r at two, with +-delta/2 if e = 2."""
         middle = (Fraction(e, 4) + r) * (1 + e % 2)
         apart = delta / 2 if e == 2 else Fraction(0)
         rows.extend((middle + sign * apart, middle - sign * apart) for sign in (1, -1))

@@ -187,7 +187,7 @@ class _Image(NamedTuple):
 
 
 def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # noqa: E741 - as in the module's text
-    """The order of the divisor of l eta in the Jacobian modulo p.  Raises `BadPrimeError` where that says nothing."""
+    """The order of the divisor of l eta in the Jacobian modulo p.  Raises `BadPrimeError` at a prime of bad reduction."""
     # The kernel knows the residues by their squares modulo p: these have to be units, and different ones.
     squares = {residue**2 for residue in curve.residues}
     differences = {a - b for a, b in combinations(squares, 2)}

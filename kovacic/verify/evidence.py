@@ -39,7 +39,7 @@ class Inspector:
 
     @cached_property
     def zero_counts(self) -> ZeroCounts | None:
-        """How many zeros a solution with a unique rational omega can have; None if there provably is no such solution."""
+        """The possible numbers of zeros of a solution with a unique rational omega; None if there provably is none."""
         return zero_counts(self.points)
 
     @property

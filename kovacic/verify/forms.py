@@ -43,7 +43,7 @@ def least_valuation(point: Point, m: int) -> int | None:
 
 
 def room(points: list[Point], m: int) -> tuple[list[int], int] | None:
-    """The least valuations at the finite points, and the largest degree of the other factor; None if there is no such form.
+    """The least valuations at the finite points, and the largest degree of the polynomial factor; None if no form exists.
 
     The valuations at all points of the sphere, as those of a form in solutions of y'' = S y, add up to m.
     """

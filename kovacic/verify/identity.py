@@ -63,7 +63,7 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
 
 
 def _factors_of(den: Poly, known: Sequence[Poly]) -> list[Poly]:
-    """The irreducible factors of a denominator: those of the known ones that divide it, and those of what is left."""
+    """The irreducible factors of a denominator: the known ones that divide it, then those of the rest."""
     found = []
     for p in known:
         quotient = den.exact_quotient(p)

@@ -201,7 +201,7 @@ class Expansions:
         return found
 
     def _of_order(self, places: list[Poly], order: int) -> dict[Poly, tuple[Poly, Poly]]:
-        """With den = P^order R, P the product of the places: q = (P/p)^order R."""
+        """The expansions at places of one order: with den = P^order R, P the product of the places, q is (P/p)^order R."""
         nu = max(order // 2, 1)
         P = product(places)
         R = self.S.den // P**order
@@ -227,7 +227,7 @@ def _remainders_by_halves(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
 
 
 def _power_modulo(base: Poly, exponent: int, modulus: Poly) -> Poly:
-    """By squares: no power is longer than twice the modulus."""
+    """The power modulo a polynomial, by repeated squaring: no product is longer than twice the modulus."""
     power = base**0
     for digit in f"{exponent:b}":
         power = power * power % modulus

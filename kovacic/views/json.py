@@ -89,13 +89,13 @@ def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
     if not isinstance(data, Mapping):
         raise InputError("this isn't an answer: a JSON object is expected")
     if data.get("schema") != SCHEMA:
-        raise InputError(f"schema {data.get('schema')!r} isn't known; this version reads schema {SCHEMA}")
+        raise InputError(f"unknown schema {data.get('schema')!r}; this version reads schema {SCHEMA}")
     try:
         answer = from_dict(data)
     except (KeyError, TypeError, AttributeError, IndexError, ValueError, ArithmeticError, RecursionError) as error:
         raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
     if not (answer.verified or unverified or answer.decision.undecided):
-        raise VerificationFailed("the answer that was read doesn't pass its check: it was changed, or never was right")
+        raise VerificationFailed("the answer doesn't pass its check: it was altered, or was never right")
     return answer
 
 
@@ -210,7 +210,7 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     verified = bool(verify(parsed.S, decision))
     answer = Answer(text, variable, parsed.S, decision, notices, verified, seconds, parsed.equation)
     if verified and not _typed(data, "verified", bool):
-        raise ValueError("the answer says that it failed its check, and passes it")
+        raise ValueError("the answer is marked as failing its check, but passes it")
     _demand_the_same(data, to_dict(answer), "")
     _check_normal_form(answer)
     if verified:
@@ -284,7 +284,7 @@ _EVIDENCE = {"form", "function", "orders"}
 
 
 def _demand_the_same(found: Any, written: Any, path: str) -> None:
-    """Raises `ValueError` where what was found isn't what we would write; `path` is its place in the answer, "" at the top."""
+    """Raise `ValueError` if a value differs from what we would write; `path` is its place in the answer, "" at the top."""
     are_lists = isinstance(written, list) and isinstance(found, list)
     if isinstance(written, Mapping) and isinstance(found, Mapping):
         differing = set(written) - set(found) - _MAY_BE_ABSENT
@@ -340,7 +340,7 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
         return
     found = group_dict(answer)
     if found is None:
-        raise ValueError("a group, where none is found")
+        raise ValueError("the answer names a group, but none can be determined")
     said = {key: value for key, value in data.items() if key not in _EVIDENCE}
     # Older versions write neither the family nor n.
     facts = {key: found[key] for key in _GROUP_FACTS if key in data or key in ("name", "order", "finite")}
@@ -353,7 +353,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
         return
     found = derived.solutions(answer)
     if not found:
-        raise ValueError("solutions, where there is none")
+        raise ValueError("the answer has solutions, but the equation has none")
     if texts == [as_text(y) for y in found]:
         return
     from sympy import Symbol
@@ -376,7 +376,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
 def _check_given_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
     """Raises `ValueError` where the equation and the gauge aren't those that were read."""
     if equation is None:
-        raise ValueError("an equation or its gauge, where S alone was given")
+        raise ValueError("the answer has an equation or a gauge, but S alone was given")
     reader = _Reader.over(equation.a.field, variable)
     found = data["equation"]
     if not _is_field(found["field"], equation.a.field):
@@ -431,7 +431,7 @@ class _Reader(WrittenReader):
 
     @classmethod
     def over(cls, field: Field, variable: str) -> _Reader:
-        """With the names of the variable, of the parameters, and of the algebraic constant of a field."""
+        """A reader that knows the variable, the parameters, and the algebraic constant of a field."""
         names: dict[str, Value] = {
             name: field.ground.generator(name)  # type: ignore[attr-defined]
             for name in parameters_of(field)
@@ -441,7 +441,7 @@ class _Reader(WrittenReader):
         return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
 
     def extended(self, constants: Mapping[str, Any] | None) -> _Reader:
-        """With the constants of omega, too.  Raises `ValueError` where K[c] is no field, in which no gcd need end."""
+        """A reader that knows omega's constant c, too.  Raises `ValueError` if K[c] is no field, where a gcd might not end."""
         if constants is None:
             return self
         symbol = constants["symbol"]

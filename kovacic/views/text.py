@@ -108,7 +108,7 @@ def _how_verified(answer: Answer) -> str:
 
 
 def _given_text(answer: Answer) -> str:
-    """The equation in the user's variable: a notice says what becomes of one that isn't rational in it."""
+    """The equation in the user's variable; if it isn't rational in that, a notice gives the rational one."""
     if answer.change is None:
         return equation_of(answer).text
     text = in_one_line(answer.text)

@@ -106,6 +106,7 @@ class _LineBreaker:
         while k < len(nodes):
             end = _end_of_construct(nodes, k)
             construct = nodes[k:end]
+            # e^{...} with an exponent that has to be broken becomes exp(...).
             exponent = _nodes_of_argument(construct, 1) if construct[0] == "^" and len(construct) > 1 else []
             if written.endswith("e") and _width(exponent) > self.most:
                 written = rf"{written[:-1]}\exp\bigl({self.written(exponent)}\bigr)"

@@ -161,7 +161,7 @@ def as_code(expression: Expr, language: str) -> str:
     """
     chosen = LANGUAGES.get(language)
     if chosen is None:
-        raise InputError(f"{language!r} is no language here", hint=f"the languages are {', '.join(LANGUAGES)}")
+        raise InputError(f"unknown language {language!r}", hint=f"the languages are {', '.join(LANGUAGES)}")
     expression = sympy.sympify(expression, strict=True)
     for name in sorted(symbol.name for symbol in expression.free_symbols):
         is_pattern = "_" in name and language == "mathematica"
@@ -171,7 +171,7 @@ def as_code(expression: Expr, language: str) -> str:
 
 
 def _printer(language: _Language) -> Any:
-    """SymPy's printer, which asks the table first and refuses what isn't in it."""
+    """SymPy's printer for a language, which consults the table first and refuses functions outside of it."""
     known = language.known
 
     class Printer(language.printer):  # type: ignore[misc, name-defined]

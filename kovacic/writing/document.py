@@ -114,7 +114,7 @@ def _markdown_table(rows: list[list[str]]) -> str:
 
 
 def _latex_table(rows: list[list[str]]) -> str:
-    """Columns as wide as they are, or with lines that are broken where they would be wider than the page together."""
+    """A table with columns of their natural width, or with broken lines if together they would be wider than the page."""
     widths = [min(max(map(width, column)), _COLUMN) for column in zip(*rows, strict=True)]
     #: Those of the columns in which lines are broken; 0 for the others.
     broken = [0.0] * len(widths)
