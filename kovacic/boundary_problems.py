@@ -14,9 +14,8 @@ from kovacic.exact import exact_text, whole
 from kovacic.general_solution.conditions import Condition, ConditionReader, Term, as_mapping
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.names import words_among
-from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
-from kovacic.reading.symbolic import is_sympy_equation, read_expression
+from kovacic.reading.symbolic import expression_of, is_sympy_equation, read_expression
 from kovacic.sturm_liouville.levels import Eigenvalues
 from kovacic.sturm_liouville.problem import Bounded, Robin, SturmProblem, Wish, ball, normal_form
 from kovacic.sturm_liouville.solve import Eigenproblem

@@ -14,9 +14,8 @@ import sympy
 from kovacic.bound_states.levels import Algebraic, Spectrum
 from kovacic.errors import InputError
 from kovacic.limits import Limits
-from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
-from kovacic.reading.symbolic import function_of
+from kovacic.reading.symbolic import expression_of, function_of
 
 
 @dataclass(frozen=True)

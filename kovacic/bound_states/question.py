@@ -19,12 +19,11 @@ from kovacic.limits import Limits
 from kovacic.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
-from kovacic.reading.quotients import expression_of
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.reading.substitution import with_values
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
-from kovacic.reading.symbolic import names_of, read_expression
+from kovacic.reading.symbolic import expression_of, names_of, read_expression
 from kovacic.sturm_liouville.problem import STEPS, Robin, pieces_of
 from kovacic.writing.formula import caret
 

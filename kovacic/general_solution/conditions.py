@@ -18,7 +18,7 @@ from kovacic.errors import InputError
 from kovacic.exact import exact_real, exact_text, is_complex
 from kovacic.numerals import plain_text
 from kovacic.reading.pieces import conditions_in
-from kovacic.reading.symbolic import PointValues, read_expression
+from kovacic.reading.symbolic import read_expression
 
 Expr = Any  # SymPy publishes no types
 #: The word that stands for a value.
@@ -122,7 +122,7 @@ class ConditionReader:
 
     def _text(self, text: str, *, is_key: bool) -> Expr:
         """`y(0)`, `y'(0) - h*y(0)`, or a constant."""
-        value = read_expression(text, what="the initial value", values=PointValues(self.unknown, self._at))
+        value = read_expression(text, what="the initial value", values={self.unknown: self._at})
         if is_key and not self._terms:
             raise self._no_condition(text)
         return self._checked(value, text)

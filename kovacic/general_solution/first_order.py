@@ -40,9 +40,8 @@ from kovacic.general_solution.zero import ball, is_zero, samples
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
 from kovacic.reading.pieces import Paste
-from kovacic.reading.quotients import expression_of
 from kovacic.reading.source import source_of
-from kovacic.reading.symbolic import function_of
+from kovacic.reading.symbolic import expression_of, function_of
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types

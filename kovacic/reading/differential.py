@@ -22,7 +22,7 @@ from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
-from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, is_rational
+from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
 from kovacic.reading.names import FUNCTION_NAMES, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
 from kovacic.reading.naming import OPERATOR
 from kovacic.reading.parser import Site
@@ -243,40 +243,12 @@ class EquationReader(RationalReader):
     def _differentiated(self, arguments: list[Any]) -> Any:
         """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
         function, *by = arguments
-        order = 1
-        if by:
-            order = self._differentiations(by)
+        order = differentiations(by, self._is_variable, self.arithmetic, self.variable)
         if isinstance(function, tuple) or order > _LARGEST_ORDER:
             raise NotLinear("this isn't a derivative that can be read")
         for _ in range(order):
             function = self.arithmetic.derivative(function)
         return function
-
-    def _differentiations(self, arguments: list[Any]) -> int:
-        """How often x; x, x; x, 2; or (x, 2) say that something is differentiated."""
-        order = 0
-        follows_variable = False
-        for argument in arguments:
-            if isinstance(argument, tuple) and self._is_variable(argument[0]):
-                order += self._order(argument[1])
-                follows_variable = False
-            elif self._is_variable(argument):
-                order += 1
-                follows_variable = True
-            elif follows_variable and not isinstance(argument, tuple):
-                order += self._order(argument) - 1
-                follows_variable = False
-            else:
-                raise NotLinear(f"a derivative with respect to something else than {self.variable}")
-        return order
-
-    def _order(self, value: Any) -> int:
-        number = None
-        if is_rational(value):
-            number = self.arithmetic.number(value)
-        if number is None or number.denominator != 1 or number < 0:
-            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
-        return number.numerator
 
 
 def _derivative_of_unknown(order: int) -> LinearForm:

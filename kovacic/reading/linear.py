@@ -287,6 +287,32 @@ class LinearArithmetic(Arithmetic):
         return super().rational(value)
 
 
+def differentiations(
+    by: Sequence[Any], is_variable: Callable[[Any], bool], arithmetic: LinearArithmetic, variable: Any
+) -> int:
+    """How often x; x, x; x, 2; or (x, 2) say that something is differentiated; once if nothing is said."""
+
+    def order_of(value: Any) -> int:
+        number = arithmetic.number(value) if is_rational(value) else None
+        if number is None or number.denominator != 1 or number < 0:
+            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
+        return number.numerator
+
+    order = 0 if by else 1
+    follows_variable = False
+    for argument in by:
+        if isinstance(argument, tuple) and is_variable(argument[0]):
+            order += order_of(argument[1])
+        elif is_variable(argument):
+            order += 1
+        elif follows_variable and not isinstance(argument, tuple):
+            order += order_of(argument) - 1
+        else:
+            raise NotLinear(f"a derivative with respect to something else than {variable}")
+        follows_variable = not isinstance(argument, tuple) and is_variable(argument)
+    return order
+
+
 def _is_zero(expression: Any) -> bool:
     """Is a factor known to be 0?  Numbers are asked alone: of a long sum with symbols SymPy takes seconds to say nothing."""
     if expression.is_Mul:

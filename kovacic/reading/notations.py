@@ -88,7 +88,7 @@ class Rewrite(NamedTuple):
         return [*found, *spaced.scan[done:]]
 
 
-class Table:
+class RewriteTable:
     """Rules in the order in which they are carried out."""
 
     def __init__(self, *rules: Rewrite) -> None:
@@ -171,7 +171,7 @@ _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
 _NO_MAKER = r"(?<!=\x20)(?<!=\x20\x20)"
 _OF_X = r"(LETTER) \( (LETTER) \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
-NOTATIONS = Table(
+NOTATIONS = RewriteTable(
     _rule("the name of a package", r"\. ", rf"(?:{_PACKAGES}) \."),
     _rule(
         "a quoted name",
@@ -219,7 +219,7 @@ NOTATIONS = Table(
     _rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.
-LATEX = Table(
+LATEX = RewriteTable(
     _rule("dots", r"\\d", r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))", lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}"),
     _rule("an order", r"\^ \{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
     *NOTATIONS.rules,
@@ -229,7 +229,7 @@ _LINE = r"(?:^|(?<=\n\x20)|(?<=\n\x20\x20))"
 _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
-AROUND = Table(
+AROUND = RewriteTable(
     _rule("Mathematica", r"\( \*", r"\(~\* .{0,2000}? \*~\)"),
     _rule("C", r"/ \*", r"/~\* .{0,2000}? \*~/"),
     _rule("a whole line", "/ /|[#%]", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),

@@ -131,8 +131,8 @@ def _multiplied_out(given: Any, source: Source, limits: Limits) -> Any:
     """An equation without the unknown function in denominators; None where that doesn't make it linear."""
     from sympy import Equality, Function, Symbol
 
-    from kovacic.reading.quotients import expression_of, multiplied_out
-    from kovacic.reading.symbolic import functions_in
+    from kovacic.reading.quotients import multiplied_out
+    from kovacic.reading.symbolic import expression_of, functions_in
 
     if source.tokens is not None:
         try:

@@ -11,7 +11,7 @@ n*exp(2) + 2*sqrt(2)
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
@@ -27,8 +27,8 @@ from kovacic.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.dialects import tokens_of
 from kovacic.reading.expression import OperationPlace, RationalReader
-from kovacic.reading.lexer import PRIMES
-from kovacic.reading.linear import LinearArithmetic, Symbols
+from kovacic.reading.lexer import DERIVATIVES, PRIMES
+from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, SEVERAL_ARGUMENTS
 from kovacic.reading.parser import Site, evaluate, shown
 
@@ -179,12 +179,8 @@ def divided(eq: Any) -> Any:
     return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(expanded)))
 
 
-@dataclass(frozen=True)
-class PointValues:
-    """The unknown function of conditions, and what stands for its k-th derivative at a point: `at(point, k)`."""
-
-    unknown: str
-    at: Callable[[Any, int], Any]
+#: What stands for the k-th derivative of an unknown function at a point, `at(point, k)`, by its name.
+Unknowns = Mapping[str, Callable[[Any, int], Any]]
 
 
 def read_expression(
@@ -193,7 +189,7 @@ def read_expression(
     names: Mapping[str, Any] | None = None,
     what: str = "the expression",
     limits: Limits = LIMITS,
-    values: PointValues | None = None,
+    values: Unknowns | None = None,
 ) -> Any:
     """The SymPy expression that a text denotes in `names`, pi, e, I and the elementary functions; decimals are exact.
 
@@ -202,25 +198,48 @@ def read_expression(
     in the message what the text stands for), and `LimitExceeded` for a text, a number or a power that is too large.
     """
     tokens = tokens_of(text, limits, what=what)
-    reader = SymbolicReader(names, what, limits)
-    if values is not None:
-        reader.values = values
+    reader = SymbolicReader(names, what, limits, values or {})
+    if values:
         reader.names = {**reader.names, **_INFINITE}
     return reader.arithmetic.expression(evaluate(tokens, reader))
 
 
+def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
+    """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
+    value = source.walk(SymbolicReader.of_equations(source.variable, [source.unknown], limits, what))
+    if isinstance(value, sympy.Equality):
+        return value.lhs - value.rhs
+    return LinearArithmetic(limits).expression(value)
+
+
 class SymbolicReader(RationalReader):
-    """What a text means as a SymPy expression."""
+    """What a text means as a SymPy expression, or as an equation in `unknowns`, functions of x."""
 
     arithmetic: LinearArithmetic
 
-    def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits) -> None:
+    def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits, unknowns: Unknowns) -> None:
         super().__init__({**_CONSTANTS, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
         self.any_name = names is None
-        self.values: PointValues | None = None
+        self.unknowns = unknowns
         self.what = what
+        #: The variable of an equation; None for an expression, in which the unknown functions are at points.
+        self.x: Any = None
+
+    @classmethod
+    def of_equations(cls, variable: str, unknowns: Collection[str], limits: Limits, what: str) -> SymbolicReader:
+        """A reader of equations in functions of this variable."""
+        x = sympy.Symbol(variable)
+
+        def derivative(function: Any) -> Callable[[Any, int], Any]:
+            return lambda point, order: function(point).diff(point, order) if order else function(point)
+
+        reader = cls(None, what, limits, {name: derivative(sympy.Function(name)) for name in unknowns})
+        reader.x = x
+        return reader
 
     def name(self, name: str) -> Any:
+        if self.x is not None and name in self.unknowns:
+            return self.unknowns[name](self.x, 0)
         if name in self.names:
             return self.names[name]
         if not self.any_name or name in NUMBER_NAMES:
@@ -228,13 +247,18 @@ class SymbolicReader(RationalReader):
         return sympy.Symbol(name)
 
     def follows_without_sign(self, name: str) -> bool:
-        return self.values is not None and name.rstrip(PRIMES) == self.values.unknown
+        return name.rstrip(PRIMES) in self.unknowns or (self.x is not None and name in DERIVATIVES)
 
     def derivative(self, text: str) -> Any:
-        raise InputError(f"{self.what} can't contain the derivative {text}")
+        name = text.rstrip(PRIMES)
+        if self.x is None or name not in self.unknowns:
+            raise InputError(f"{self.what} can't contain the derivative {text}")
+        return self.unknowns[name](self.x, len(text) - len(name))
 
     def equation(self, left: Any, right: Any) -> Any:
-        raise InputError(f"{self.what} is an expression, not an equation")
+        if self.x is None:
+            raise InputError(f"{self.what} is an expression, not an equation")
+        return sympy.Eq(self.arithmetic.expression(left), self.arithmetic.expression(right), evaluate=False)
 
     def power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
         try:
@@ -243,9 +267,12 @@ class SymbolicReader(RationalReader):
             return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        function = head.rstrip(PRIMES)
-        if self.values is not None and function == self.values.unknown and len(arguments) == 1:
-            return self.values.at(self.arithmetic.expression(arguments[0]), len(head) - len(function))
+        name = head.rstrip(PRIMES)
+        if head in DERIVATIVES and self.x is not None:
+            order = differentiations(arguments[1:], self._is_variable, self.arithmetic, self.x)
+            return self.arithmetic.expression(arguments[0]).diff(self.x, order)
+        if name in self.unknowns and len(arguments) == 1 and (self.x is None or self._is_variable(arguments[0])):
+            return self.unknowns[name](self.arithmetic.expression(arguments[0]), len(head) - len(name))
         if head == "root" and len(arguments) == 2:
             return self.power(arguments[0], self.arithmetic.divide(Monomial(1, 0), arguments[1]), site)
         if head in SEVERAL_ARGUMENTS:
@@ -254,3 +281,6 @@ class SymbolicReader(RationalReader):
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)
         return self.arithmetic.applied(head, arguments[0])
+
+    def _is_variable(self, value: Any) -> bool:
+        return bool(value == self.x)

@@ -16,11 +16,10 @@ from typing import Any
 import sympy
 
 from kovacic.errors import InputError
-from kovacic.limits import Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
-from kovacic.reading.names import is_function
 from kovacic.reading.naming import Vocabulary
-from kovacic.reading.parser import Site, evaluate
+from kovacic.reading.parser import evaluate
 from kovacic.reading.pieces import Paste, taken_apart
 from kovacic.reading.symbolic import SymbolicReader
 
@@ -38,10 +37,11 @@ class SystemReading:
 
 
 def read_equations(
-    text: str | Paste, *, var: str | None = None, names: Collection[str] = (), limits: Limits | None = None
+    text: str | Paste, *, var: str | None = None, names: Collection[str] = (), limits: Limits = DEFAULT_LIMITS
 ) -> SystemReading:
     """The equations of a text, of any order; `names` are declared parameters.  Raises `InputError`."""
     paste = text if isinstance(text, Paste) else taken_apart(text)
+    limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
     unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in _differentiated(tokens)))
     if not unknowns:
         raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
@@ -51,7 +51,7 @@ def read_equations(
     for tokens in paste.equations:
         named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).equation(tokens)
         notes |= dict.fromkeys(named.notes)
-        equations.append(evaluate(named.tokens, _SystemReader(chosen, unknowns, limits or Limits())))
+        equations.append(evaluate(named.tokens, SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")))
     x = sympy.Symbol(chosen)
     functions = tuple(sympy.Function(name)(x) for name in unknowns)
     return SystemReading(tuple(equations), functions, paste.conditions, tuple(notes))
@@ -80,40 +80,3 @@ def _variable(equations: Collection[Tokens], unknowns: Collection[str]) -> str:
     if "x" in occurring and "x" not in unknowns and "t" not in occurring:
         return "x"
     return "t"
-
-
-class _SystemReader(SymbolicReader):
-    """What a text means in which several functions of one variable are unknown."""
-
-    def __init__(self, variable: str, unknowns: Collection[str], limits: Limits) -> None:
-        limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
-        super().__init__(None, "the equation", limits)
-        self.x = sympy.Symbol(variable)
-        self.unknowns = unknowns
-
-    def name(self, name: str) -> Any:
-        return sympy.Function(name)(self.x) if name in self.unknowns else super().name(name)
-
-    def derivative(self, text: str) -> Any:
-        name = text.rstrip(PRIMES)
-        return sympy.Function(name)(self.x).diff(self.x, len(text) - len(name))
-
-    def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIMES) in self.unknowns or name in DERIVATIVES
-
-    def equation(self, left: Any, right: Any) -> Any:
-        left, right = (self.arithmetic.expression(side) for side in (left, right))
-        return sympy.Eq(left, right, evaluate=False)
-
-    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        if head in DERIVATIVES and not any(isinstance(argument, tuple) for argument in arguments):
-            function, *by = (self.arithmetic.expression(argument) for argument in arguments)
-            order = int(by[1]) if len(by) == 2 and by[1].is_Integer else 1
-            return function.diff(self.x, order)
-        name = head.rstrip(PRIMES)
-        is_function_of_x = len(arguments) == 1 and arguments[0] == self.x
-        if is_function_of_x and name in self.unknowns:
-            return self.name(head) if name == head else self.derivative(head)
-        if is_function_of_x and head.isidentifier() and not is_function(head):
-            return sympy.Function(head)(self.x)  # a given one, as it isn't differentiated
-        return super().call(head, arguments, site)
