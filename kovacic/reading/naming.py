@@ -8,6 +8,7 @@ meant.  It is decided here once; the reasons are notes.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -55,14 +56,18 @@ class Vocabulary:
     def equation(self, tokens: Tokens) -> Named:
         """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
         notes = [*_guesses(tokens)]
-        has_operator = OPERATOR not in self.declared and _has_operator(tokens)
+        has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
+        has_operator = OPERATOR not in self.declared and OPERATOR in tokens.names() and not has_other
         y = self.unknown or _primed(tokens, self.declared) or _differentiated(tokens)
-        if y is None:
-            y = _operand(tokens) if has_operator else UNKNOWN
+        if y is None:  # what the operator D is applied to
+            usual = [name for name in tokens.names() if name in _USUAL_UNKNOWNS]
+            y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
         _check_stiffness(tokens, self.declared)
         x, why = (self.variable, None) if self.variable else _variable_of(tokens, y, self.declared)
         split, products = self._with_products(tokens, x, y)
-        notes += [*([why] if why else []), *products, *_imaginary(split, x, y, self.declared)]
+        notes += [*([why] if why else []), *products]
+        if "i" in split.names() and "i" not in (x, y, *self.declared):
+            notes.append("i is a parameter; the imaginary unit is I")
         _check_two_exponents(split, y)
         is_guess = why is not None and x not in (DEFAULT_VARIABLE, "t")
         guesses = (*([why] if is_guess and why else []), *products)
@@ -91,7 +96,8 @@ class Vocabulary:
             if kind not in ("NAME", "PRIMED", "HEAD") or self._is_known(tokens, k, name, x, y):
                 columns.append([row])
                 continue
-            if not _is_product(name, x, y):
+            is_product = len(name) == 2 and name.isalpha() and {*name} & {x, y} and not is_letter(name)
+            if not is_product:
                 raise self._unknown_name(tokens, k, x, y)
             if tokens.are(k - 1, "CIRCUMFLEX") or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
                 hint = f"write ({name[0]}*{name[1]}) for the product"
@@ -119,36 +125,24 @@ class Vocabulary:
 
     def _unknown_name(self, tokens: Tokens, k: int, x: str, y: str) -> InputError:
         """What to say of a name that means nothing here."""
-        piece = tokens.pieces[k]
-        name = piece.rstrip(PRIMES)
-        declare = f"or declare it: parameters=[{name!r}]"
-        shell = f"or declare it: --names {name}"
-        meant = unglued(name)
+        name = tokens.pieces[k].rstrip(PRIMES)
+        meant = f"write {unglued(name)}"
+        said = f"{name} is one name, and not a known one"
         bare = name.rstrip(_DIGITS)
         if {*name} == {"E", "I"}:
-            meant = "one letter for a stiffness, such as B"
+            meant = "write one letter for a stiffness, such as B"
         elif bare in (x, y):
             digits = name[len(bare) :]
-            meant = f"{bare}^{digits} or {digits}*{bare}"
+            meant = f"write {bare}^{digits} or {digits}*{bare}"
         elif name == f"d{x}":
-            meant = f"{y}' or d{y}/d{x} for a derivative"
-        elif name in ("asinx", "acosx", "atanx") or name.startswith(("asin", "acos", "atan")):
+            meant = f"write {y}' or d{y}/d{x} for a derivative"
+        elif name.startswith(("asin", "acos", "atan")):
             inside = name[4:] and f"({unglued(name[4:])})"
-            meant = f"a*{name[1:4]}{inside} for the product, {name[:4]}{inside} for the inverse function"
+            meant = f"write a*{name[1:4]}{inside} for the product, {name[:4]}{inside} for the inverse function"
         elif len(name) > 4 and meant.count("*") == len(name) - 1:
-            meant = "nothing for a word that isn't part of the equation"
-            return tokens.error(
-                ParseError,
-                f"{name} is a word that isn't known here",
-                k,
-                k + 1,
-                hint=f"leave it out, {declare}",
-                shell=f"leave it out, {shell}",
-            )
-        said = f"{name} is one name, and not a known one"
-        return tokens.error(
-            ParseError, said, k, k + 1, hint=f"write {meant}, {declare}", shell=f"write {meant}, {shell}"
-        )
+            said, meant = f"{name} is a word that isn't known here", "leave it out"
+        hint = f"{meant}, or declare it: parameters=[{name!r}]"
+        return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
 # ------------------------------------------------------------------------------------------------- what is asked back
@@ -206,18 +200,7 @@ def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
             raise tokens.error(ParseError, f"{whole} can be read in two ways", k - 1, number + 2, hint=hint)
 
 
-def _imaginary(tokens: Tokens, x: str, y: str, declared: Collection[str]) -> Iterator[str]:
-    names = tokens.names()
-    if "i" in names and "i" not in (x, y) and "i" not in declared:
-        yield "i is a parameter; the imaginary unit is I"
-
-
 # ------------------------------------------------------------------------------------------------- products
-
-
-def _is_product(name: str, x: str, y: str) -> bool:
-    """True for two glued letters one of which is the variable or the unknown function."""
-    return len(name) == 2 and name.isalpha() and bool({*name} & {x, y}) and not is_letter(name)
 
 
 def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
@@ -261,22 +244,6 @@ def _differentiated(tokens: Tokens) -> str | None:
     return None
 
 
-def _has_operator(tokens: Tokens) -> bool:
-    """True where D is a derivative: no other one occurs."""
-    has_other = any(
-        (kind == "PRIMED" and piece.endswith("''")) or (kind == "HEAD" and piece in DERIVATIVES)
-        for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True)
-    )
-    return OPERATOR in tokens.names() and not has_other
-
-
-def _operand(tokens: Tokens) -> str:
-    """What the operator D is applied to."""
-    names = tokens.names()
-    usual = [name for name in names if name in _USUAL_UNKNOWNS]
-    return UNKNOWN if UNKNOWN in names or not usual else usual[-1]
-
-
 # ------------------------------------------------------------------------------------------------- the variable
 
 
@@ -297,9 +264,14 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     for likely in (DEFAULT_VARIABLE, default, "t"):
         if likely in names:
             return likely, None
-    likely_ones = [name for name in names if name in USUAL_VARIABLES and _varies(tokens, name, names)]
+    evidence = _evidence(tokens) if names else {}
+    likely_ones = [name for name in names if _varies(name, evidence, names)]
     if len(likely_ones) > 1:
-        raise _which(tokens, y, likely_ones)
+        hint = f"write {y}''(x) for the derivative, or name the variable:"
+        shell = f"{hint} --var {likely_ones[0]}"
+        said = f"{', '.join(likely_ones[:6])}: which is the variable?"
+        k = tokens.names().get(likely_ones[-1], 0)
+        raise tokens.error(InputError, said, k, k + 1, hint=f"{hint} var={likely_ones[0]!r}", shell=shell)
     if likely_ones:
         return likely_ones[0], f"{likely_ones[0]} is taken for the variable"
     if not names:
@@ -329,69 +301,46 @@ def _argument_of(tokens: Tokens, unknown: str) -> str | None:
     return None
 
 
-def _varies(tokens: Tokens, name: str, names: Collection[str]) -> bool:
-    """True where a name occurs as only a variable does: in a function, as a power, in a denominator or a sum.
+#: Where only a variable stands: in a function or an exponent, before a power, in a denominator or a sum in parentheses.
+_EVIDENCE = ("function", "power", "denominator", "sum")
 
-    T, tau, rho, zeta, ... are often constants: they have to occur in a function, or in several powers.
+
+def _evidence(tokens: Tokens) -> dict[str, Counter[str]]:
+    """How often each name stands where only a variable does, by the kinds of `_EVIDENCE`, and at a "place" at all."""
+    found: dict[str, Counter[str]] = {}
+    around: list[bool] = []  # of the open parentheses: those of a function or an exponent?
+    for k, kind in enumerate(tokens.kinds):
+        before, after = tokens.kinds[k - 1], tokens.kinds[k + 1 : k + 2]
+        is_exponent = before == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS")
+        if kind == "LPAR":
+            around.append(before == "CIRCUMFLEX" or (before == "HEAD" and is_function(tokens.pieces[k - 1])))
+        elif kind == "RPAR" and around:
+            around.pop()
+        elif kind == "NAME":
+            stands = {
+                "place": True,
+                "function": is_exponent or any(around),
+                "power": after[0] in ("CIRCUMFLEX", "SUPERSCRIPT"),
+                "denominator": before == "SLASH",
+                "sum": bool(around) and not {before, *after}.isdisjoint(("PLUS", "MINUS")),
+            }
+            found.setdefault(tokens.pieces[k], Counter()).update(what for what, is_so in stands.items() if is_so)
+    return found
+
+
+def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]) -> bool:
+    """True where a usual name of a variable occurs as only a variable does.
+
+    T, tau, rho, zeta, ... are often constants: they have to occur in a function, or as a power and otherwise.
     """
-    is_damped = any(other.startswith(_FREQUENCIES) for other in names)
-    if name in _DAMPING_RATIOS and is_damped:
-        return False
+    is_ratio = name in _DAMPING_RATIOS and any(other.startswith(_FREQUENCIES) for other in names)
     has_small = name.lower() != name and name.lower() in names
-    if has_small:
+    if is_ratio or has_small or name not in USUAL_VARIABLES:
         return False
-    places = [k for k, piece in enumerate(tokens.pieces) if piece == name and tokens.kinds[k] == "NAME"]
-    if any(_is_in_function(tokens, k) for k in places):
-        return True
-    powers = [k for k in places if tokens.kinds[k + 1] in ("CIRCUMFLEX", "SUPERSCRIPT")]
+    found = evidence.get(name, Counter())
     if name in _OFTEN_CONSTANT:
-        return bool(powers) and len(places) > len(powers) > 0
-    if name == "z" or powers or len(places) > 1:
-        return True
-    return any(tokens.kinds[k - 1] == "SLASH" or _is_in_sum(tokens, k) for k in places)
-
-
-def _is_in_function(tokens: Tokens, k: int) -> bool:
-    """True inside the parentheses of a function, or in an exponent."""
-    depth = 0
-    for j in range(k - 1, max(-1, k - 200), -1):
-        depth += (tokens.kinds[j] == "RPAR") - (tokens.kinds[j] == "LPAR")
-        if depth < 0:
-            before = tokens.kinds[j - 1] if j else ""
-            if before == "HEAD" and is_function(tokens.pieces[j - 1]):
-                return True
-            if before == "CIRCUMFLEX":
-                return True
-            depth = 0
-    return tokens.kinds[k - 1] == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS")
-
-
-def _is_in_sum(tokens: Tokens, k: int) -> bool:
-    """True within parentheses beside + or -: (1 - r)."""
-    depth = 0
-    for j in range(k - 1, max(-1, k - 200), -1):
-        depth += (tokens.kinds[j] == "RPAR") - (tokens.kinds[j] == "LPAR")
-        if depth < 0:
-            break
-        if depth == 0 and tokens.kinds[j] == "EQUAL":
-            return False
-    else:
-        return False
-    return tokens.kinds[k - 1] in ("PLUS", "MINUS") or tokens.kinds[k + 1] in ("PLUS", "MINUS")
-
-
-def _which(tokens: Tokens, unknown: str, usual: list[str]) -> InputError:
-    """The question back, where several names could be the variable."""
-    hint = f"write {unknown}''(x) for the derivative, or name the variable:"
-    k = tokens.names().get(usual[-1], 0)
-    return tokens.error(
-        InputError,
-        f"{', '.join(usual[:6])}: which is the variable?",
-        k,
-        k + 1,
-        hint=f"{hint} var={usual[0]!r}",
-        shell=f"{hint} --var {usual[0]}",
-    )
+        return found["function"] > 0 or found["place"] > found["power"] > 0
+    return name == "z" or found["place"] > 1 or any(found[what] for what in _EVIDENCE)
 
 
 def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
