@@ -256,7 +256,9 @@ def translated(y: Any, equation: Equation) -> Any:
     variable = sympy.Symbol(equation.variable)
     if equation.gauge:
         y = y * display(product_of_powers(equation.gauge), Atoms(variable))
-    return solution_in_x(equation, gathered(y, variable))
+    y = solution_in_x(equation, gathered(y, variable))
+    x = user_variable(equation) if equation.change else variable
+    return y.as_independent(x, as_Add=False)[1]  # a constant factor says nothing
 
 
 def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
