@@ -374,9 +374,22 @@ def _alternatives(claim: Alternatives) -> Words:
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
-    """That a parameter is one of the functions; c + f and c - f, c free of the integer, are one formula `c +- f`."""
+    """That a parameter is one of the functions; c + f and c - f, c free of the integer, are one formula `c +- f`.
+
+    Where they come in pairs whose sum is a number c, that it or c minus it is one: n or -n - 1 in Lame's equation.
+    """
     said: list[Math] = []
     left = [*functions]
+    start: Words = ()
+    total = _sum_in_pairs(functions)
+    if total is not None:
+        start = (formula(name), " or ")
+        # Of each pair the one that is written without a minus before it.
+        pairs = [sorted((f, RatFunc(total) - f), key=str) for f in functions]
+        left = [
+            *dict.fromkeys(min(pair, key=lambda f: function(f, letter).lstrip("(").startswith("-")) for pair in pairs)
+        ]
+        name = function(total - total.field.generator(name), letter)
     while left:
         f = left.pop(0)
         other = next((g for g in left if _have_a_center(f, g)), None)
@@ -389,10 +402,22 @@ def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
         value = in_sum(min(texts, key=lambda text: text.lstrip("(").startswith("-")))  # without a minus before it
         said.append(with_both_signs([function(center, letter), value] if center else [value], "" if center else "+-"))
     first, *others = said
-    found: list[str | Math] = [Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
+    found: list[str | Math] = [*start, Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
     for k, one in enumerate(others, 1):
         found += [" or " if k == len(others) else ", ", one]
     return tuple(found)
+
+
+def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
+    """A number, not 0, of which each function has another one that makes it up; None where there isn't one, or two pairs."""
+    if len(functions) < 4:
+        return None
+    for other in functions[1:]:
+        total = functions[0] + other
+        is_number = total.is_polynomial and total.field.rational_value(total.num) is not None
+        if total and is_number and all(total - f in functions and 2 * f != total for f in functions):
+            return over_parameters(total.num)
+    return None
 
 
 def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
