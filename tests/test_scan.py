@@ -229,7 +229,7 @@ def test_maps_show_each_label_in_its_place(tmp_path: Path) -> None:
 
 
 def test_a_map_needs_values_in_order(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="aren't in order"):
+    with pytest.raises(InputError, match="in increasing or decreasing order"):
         draw_map("S", (parse_grid("a=1,3,2"), parse_grid("b=1")), {}, tmp_path / "map.png")
 
 
