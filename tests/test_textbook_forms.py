@@ -162,7 +162,7 @@ GENERAL: list[tuple[str, dict[str, Any], str]] = [
     ("y'' + y = sin(x)", {}, "C1*cos(x) + C2*sin(x) - x*cos(x)/2"),
     ("x^2*y'' - 2*x*y' + 2*y = x^3*sin(x)", {}, "C1*x + C2*x**2 - x*sin(x)"),
     ("y'' - 4*y' + 4*y = (x + 1)*exp(2*x)", {}, "x**2*(x + 3)*exp(2*x)/6 + (C1 + C2*x)*exp(2*x)"),
-    ("4*y'' + 36*y = csc(3*x)", {}, "C1*cos(3*x) + C2*sin(3*x) + (-3*x*cos(3*x) + log(sin(3*x))*sin(3*x))/36"),
+    ("4*y'' + 36*y = csc(3*x)", {}, "C1*cos(3*x) + C2*sin(3*x) - x*cos(3*x)/12 + log(sin(3*x))*sin(3*x)/36"),
     ("(1-x^2)*y'' - 2*x*y' + 2*y = 0", {}, "C1*x + C2*(x*log((x + 1)/(1 - x)) - 2)"),
     ("5*x^2*y'' + 3*x*y' + 401/5*y = 0", {}, "x**(1/5)*(C1*cos(4*log(x)) + C2*sin(4*log(x)))"),
 ]

@@ -160,6 +160,8 @@ def _symmetric(part: Expr, units: dict[Expr, Expr]) -> tuple[Expr, Expr] | None:
             total += c
         elif not h.could_extract_minus_sign():
             d = terms[mirrored]
+            if 0 not in (c + d, c - d) and c.is_number and d.is_number:
+                return None
             h = sympy.factor_terms(h)
             total += (c + d) * cosh(h) + (c - d) * sinh(h)
     m = sympy.Add(*(middle * rate for middle, rate in zip(centre, units.values(), strict=True)))
@@ -173,7 +175,7 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
         found = sympy.powsimp(TR8(expanded))
         yield found
-        yield sympy.factor_terms(found)
+        yield _factored(found)
 
 
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
@@ -217,7 +219,7 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
         coefficient, function = term.as_independent(x, as_Add=False)
         coefficients[function].append(coefficient)
     by_function = sympy.Add(*(sympy.factor(sympy.cancel(sympy.Add(*parts))) * f for f, parts in coefficients.items()))
-    yield from (value, expanded, by_function, sympy.factor_terms(by_function))
+    yield from (value, expanded, by_function, _factored(by_function))
     if value.is_rational_function(x):
         yield sympy.cancel(value)
 
@@ -228,7 +230,15 @@ def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
     back = {letter: e for e, letter in letters.items()}
     plain = value.xreplace(letters)
     for form in (plain, sympy.cancel(sympy.together(plain))):
-        yield sympy.factor_terms(form).xreplace(back)
+        yield _factored(form).xreplace(back)
+
+
+def _factored(value: Expr) -> Expr:
+    """With common factors before the sum, but no fraction before unlike multiples: x/2 + exp(x)/3 stays."""
+    found = sympy.factor_terms(value)
+    number, rest = found.as_coeff_Mul()
+    is_unlike = rest.is_Add and any(abs(term.as_coeff_Mul()[0]) != 1 for term in rest.args)
+    return value if is_unlike and number not in (1, -1) else found
 
 
 _RULES: tuple[Callable[[Expr, Expr], Iterator[Expr]], ...] = (
