@@ -72,7 +72,10 @@ class _Evaluator(BallEvaluator):
             return reduce(add, (_Evaluator({**self.values, a: root})(e.fun.expr) for root in self._roots(e.poly)))
         is_complete = isinstance(e, sympy.elliptic_e) and len(e.args) == 1  # E(m), which is no integral up to x
         if isinstance(e, ANTIDERIVATIVES) and not is_complete:
-            slope = _lifted(self(e.diff(next(iter(self.values)))))
+            x = next(iter(self.values))
+            # SymPy differentiates even an indefinite integral with care for its limits, which takes milliseconds.
+            is_indefinite = isinstance(e, sympy.Integral) and e.limits == (sympy.Tuple(x),)
+            slope = _lifted(self(e.function if is_indefinite else e.diff(x)))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, sympy.Abs | sympy.sign | sympy.Heaviside):
             return self._of_sign(e)

@@ -33,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice, product
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -114,15 +115,19 @@ class Gauss(StandardEquation):
 
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
         forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
-        for signed in (signed for form in forms for signed in form.signs if writer.knows_integers):
-            apart = (writer.is_natural(-value) or not writer.is_integer(value) for value in (signed.alpha, signed.beta))
-            if writer.is_degree(signed.degree) and all(apart):
-                return _jacobi(signed)
         first = forms[0]
-        even = next((signed for form in forms for signed in form.signs if signed.alpha == signed.beta), None)
-        if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
-            # Their Wronskian is 1 at the middle, for all values of the letters; they are real between the two points.
-            return writer.pair(*_even_and_odd(even), around_zero=True)
+        if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
+            signed_forms = [signed for form in forms for signed in form.signs]
+            for signed in signed_forms if writer.knows_integers else ():
+                apart = (
+                    writer.is_natural(-value) or not writer.is_integer(value) for value in (signed.alpha, signed.beta)
+                )
+                if writer.is_degree(signed.degree) and all(apart):
+                    return _jacobi(signed)
+            even = next((signed for signed in signed_forms if signed.alpha == signed.beta), None)
+            if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
+                # Their Wronskian is 1 at the middle, for all values of the letters; they are real between the two points.
+                return writer.pair(*_even_and_odd(even), around_zero=True)
         if any(writer.is_integer(form.degree) for form in first.signs):
             return _reducible(writer, forms)
         if not writer.is_integer(first.alpha):
@@ -224,7 +229,7 @@ class _GaussForm:
         """The same with -alpha."""
         return replace(self, alpha=-self.alpha)
 
-    @property
+    @cached_property
     def factor(self) -> WrittenFactor:
         """The powers, and what belongs to the pull-back."""
         powers = [((1 - self.alpha) * HALF, self.f), ((1 - self.beta) * HALF, self.f - 1)]
