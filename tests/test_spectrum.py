@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from math import inf
+from math import exp, inf
 from typing import Any
 
 import pytest
@@ -872,6 +872,15 @@ def test_pictures_show_each_level_at_its_height(V: str, options: Any, values: An
         assert all(abs(h - scale * w) < 1e-9 * abs(heights[largest]) for h, w in zip(heights, wanted, strict=True))
     for a, b in curves["V(x)"][100::200]:
         assert abs(b - float(found.potential.subs(at).subs(x, a))) < 1e-9 * (1 + abs(b))
+
+
+def test_numeric_waves_go_on_beyond_the_cut() -> None:
+    """Outside of a well in pieces the potential is constant, and solutions are cut next to it: there y = exp(-kappa |x|)."""
+    well = kovacic.spectrum("-5*Heaviside(1 - x^2)", levels=1, digits=8).numeric
+    y = well.wave(0)
+    kappa = (-float(well[0].value)) ** 0.5
+    for side in (-1, 1):
+        assert abs(y(2 * side) / y(side) - exp(-kappa)) < 1e-3
 
 
 def test_the_command_draws_the_levels(tmp_path: Any) -> None:

@@ -73,11 +73,12 @@ def draw_levels(
         (line,) = axes.plot(x, level.energy + y, lw=1.3, label=level.label)
         axes.fill_between(x, level.energy, level.energy + y, color=line.get_color(), alpha=0.15, lw=0)
         axes.axhline(level.energy, color=line.get_color(), lw=0.7, ls="--")
-    bottom = ground - spread
+    bottom, top = ground - spread, max(energies) + spread
     finite = V[np.isfinite(V)]
-    if finite.size:  # V may not be bounded below
+    if finite.size:  # V may not be bounded below, and its minimum may be above all levels
         bottom = min(bottom, float(max(finite.min() - 0.1 * spread, ground - 6 * spread)))
-    axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, max(energies) + spread), title=title)
+        top = max(top, float(finite.min()) + 0.1 * spread)
+    axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, top), title=title)
     axes.legend(loc="upper right", fontsize=9)
     return figure
 

@@ -13,12 +13,14 @@ from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.count import SeparatedCounter
 from kovacic.sturm_liouville.discs import TaylorStep
-from kovacic.sturm_liouville.ends import end_of
+from kovacic.sturm_liouville.ends import CutEnd, End, end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem
 
 _BITS = 160
 _PARTS = 32
 """Points that are taken in a step."""
+_TAIL = 40
+"""Points beyond a cut, at quarters of the length on which y decays."""
 
 
 def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float]]:
@@ -44,13 +46,22 @@ def _side(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, Any, 
     """(x, Y, Y') from an end to the matching point."""
     x = counter.positions[side]
     u, v = counter.ends[side].state(E, counter.span, x, high=False)
-    found = [(x.mid(), u.mid(), v.mid())]
+    found = [*_tail(counter.ends[side], x.mid(), u.mid(), v.mid()), (x.mid(), u.mid(), v.mid())]
     for step in counter.road.steps(x, counter.middle, _BITS):
         found += [(x + step.t * k / _PARTS, *_inside(step, u, v, E, k)) for k in range(1, _PARTS)]
         u, v = (value.mid() for value in step.advance(u, v, E))
         x = (x + step.t).mid()
         found.append((x, u, v))
     return [(at.mid(), y.mid(), dy.mid()) for at, y, dy in found]
+
+
+def _tail(end: End, x: Any, u: Any, v: Any) -> list[tuple[Any, Any, Any]]:
+    """Beyond the cut of an infinite end, where y decays at the rate y'/y that it has there; the farthest point first."""
+    if not isinstance(end, CutEnd) or not end.place.is_polynomial(end.tau) or u == 0 or v == 0:
+        return []
+    rate = abs(v / u)
+    points = [(x - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_TAIL, 0, -1)]
+    return [(at.mid(), (u * factor).mid(), (v * factor).mid()) for at, factor in points]
 
 
 def _inside(step: TaylorStep, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
