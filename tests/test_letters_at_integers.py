@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
+import warnings
 from typing import Any
 
 import mpmath
 import pytest
 import sympy
 from build import parametrize
+from flint import acb, fmpq
 
 import kovacic
+from kovacic.algebra.precision import working_digits
+from kovacic.closed_form.jets import jet
 
 x = sympy.Symbol("x")
 
@@ -35,6 +40,30 @@ FAMILIES: list[tuple[str, str]] = [
     ("x^2*y'' + x*y' - n^2*y = 0", "n"),
     ("y'' + n^2*y = 0", "n"),
     ("y'' - n*y' = 0", "n"),
+]
+#: More families, whose solutions are given by values at an ordinary point.
+WITH_VALUES = [
+    *FAMILIES,
+    ("y'' + n*y = 0", "n"),
+    ("y'' - n*y = 0", "n"),
+    ("y'' + 2*n*y' + y = 0", "n"),
+    ("y'' + n*y' + m*y = 0", "nm"),
+    ("y'' - (n+m)*y' + n*m*y = 0", "nm"),
+    ("x^2*y'' + n*x*y' + y = 0", "n"),
+    ("x^2*y'' + (1-n-m)*x*y' + n*m*y = 0", "nm"),
+    ("x^2*y'' + x*y' + n*y = 0", "n"),
+    ("y'' - n*x*y = 0", "n"),
+    ("y'' + n*x^2*y = 0", "n"),
+    ("y'' + (n-x)*y = 0", "n"),
+    ("y'' - x*y' - n*y = 0", "n"),
+    ("x*y'' + n*y' + x*y = 0", "n"),
+    ("x*y'' + n*y' - x*y = 0", "n"),
+    ("x*y'' + n*y' + y = 0", "n"),
+    ("y'' + (n/x - 1/4)*y = 0", "n"),
+    ("y'' - 2*n/x*y' + y = 0", "n"),
+    ("y'' + n*exp(2*x)*y = 0", "n"),
+    ("y'' + (exp(2*x) - n^2)*y = 0", "n"),
+    ("y'' + x^n*y = 0", "n"),
 ]
 VALUES = [sympy.Rational(k, 2) for k in range(-6, 13)]
 #: Between the singular points of all families.
@@ -65,6 +94,28 @@ def test_pairs_are_independent_or_the_exception_is_named(family: tuple[str, str]
 
 def is_zero(e: Any) -> bool:
     return bool(sympy.simplify(e) == 0)
+
+
+@parametrize("family", WITH_VALUES, ids=str, ordinary=2, long=38)
+def test_values_at_ordinary_points_or_the_exception_is_named(family: tuple[str, str]) -> None:
+    """At integers -3..6 and half-integers the answer has the values that were given, or the letter's value was excluded."""
+    equation, letters = family
+    with warnings.catch_warnings(record=True, action="always") as noticed:
+        found = kovacic.dsolve(equation, var="x", ics="y(1/2)=1, y'(1/2)=-2/3")
+    assert not noticed
+    validity = kovacic.validity(found)
+    others = {sympy.Symbol(letter): sympy.Rational(2 * k + 5, 7) for k, letter in enumerate(letters)}
+    for letter, number in itertools.product(letters, VALUES):
+        values = {**others, sympy.Symbol(letter): number}
+        if any(is_zero(e.subs(values)) for e in validity.exceptions):
+            continue
+        # Relations on x and on letters: the formula is about the values for which they hold.
+        if any(relation.subs({**values, x: sympy.S.Half}) != sympy.true for relation in validity.real):
+            continue
+        with working_digits(30):
+            at = jet(found.rhs.subs(values), x, acb(fmpq(1, 2)))
+        assert abs(at[0] - 1) < 1e-12, (values, at)
+        assert abs(at[1] + fmpq(2, 3)) < 1e-12, (values, at)
 
 
 @pytest.mark.filterwarnings("ignore:this holds unless")

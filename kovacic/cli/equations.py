@@ -206,7 +206,7 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
         yield as_latex(found)
         return
     yield f"{found.lhs} = {caret(as_text(found.rhs))}"
-    needed = validity(found)
+    needed = validity(found, given.get("assume"))
     if needed:
         yield f"  {needed.claim} for {caret(as_text(needed))}"
 
@@ -232,7 +232,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
                 "solution": as_text(found.rhs),
                 "latex": as_latex(found),
                 "special": None if shorter is None else as_text(shorter.rhs),
-                "validity": str(validity(found)) or None,
+                "validity": str(validity(found, given.get("assume"))) or None,
             }
     return json_line(data | {"notices": [str(warning.message) for warning in noticed]})
 

@@ -74,8 +74,12 @@ class Determined(NamedTuple):
     rows: tuple[Row, ...] = ()
 
 
-def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None) -> Determined:
+def determine(
+    rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None, scale: Expr = sympy.S.One
+) -> Determined:
     """The generic case and the particular ones.  `wronskian`: that at the point where both y and y' are given, in this order.
+
+    `scale` is the Wronskian at a point: where it is zero the solutions are dependent, and that isn't a case of the conditions.
 
     Raises `NotImplementedError` where it can't be told whether a constant is zero.
 
@@ -89,7 +93,7 @@ def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | N
         return _split(_of_rank_one(rows, names))._replace(rows=tuple(rows))
     found = _split(_of_rank_two(rows, minor))
     if minor.when is Zero.SOMETIMES:
-        found.particular.append(_where_minor_vanishes(rows, names, minor.value))
+        found.particular.append(_where_minor_vanishes(rows, names, minor.value / scale))
     return found._replace(rows=tuple(rows))
 
 

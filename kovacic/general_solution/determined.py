@@ -21,6 +21,7 @@ from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLim
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, Row, determine
 from kovacic.general_solution.question import Question
+from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.zero import agree
@@ -59,7 +60,7 @@ def constants_of(
             of_limit, zeros = _rows_of_limit(limit, solutions)
             rows += of_limit
             exceptional |= zeros
-    found = determine(rows, names, _wronskian(question, basis, rows, limits))
+    found = determine(rows, names, _wronskian(question, basis, rows, limits), _scale(question, basis, limits))
     for symbol in sorted(exceptional, key=str):
         found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
     return found
@@ -92,6 +93,16 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
     if is_known or agree(W, determinant):
         return W
     return determinant
+
+
+def _scale(question: Question, basis: Basis, limits: dict[Expr, Approach]) -> Expr:
+    """The Wronskian at the first ordinary point, where that is an elementary number; else 1."""
+    ordinary = (point for condition in question.conditions for point in condition.points if point not in limits)
+    point = next(ordinary, None)
+    value = None if point is None else finite_value(question.own(basis.wronskian), question.x, point)
+    if value is None or value.is_zero or value.has(sympy.Function) or value.has(sympy.Integral):
+        return _ONE
+    return value
 
 
 def _orders_at_one_point(conditions: Sequence[Condition], limits: dict[Expr, Approach]) -> tuple[int, ...]:

@@ -86,7 +86,26 @@ def _basis(question: Question, pair: Pair) -> Basis:
         y1, y2 = with_waves(y1, y2)
     if not question.conditions:  # which may be outside of the interval where f is a cosine
         y1, y2 = of_chebyshev(y1, y2)
+    y1, y2 = _real_for_negative_letters(question, y1, y2)
     return Basis(y1, y2, question.x, question.equation, question.own)
+
+
+def _real_for_negative_letters(question: Question, y1: Expr, y2: Expr) -> Pair:
+    """cosh(sqrt(-k) x), sinh(sqrt(-k) x) for cos(sqrt(k) x), sin(sqrt(k) x) where k is negative, and the other way about."""
+    negative = {sympy.Symbol(name) for name, symbol in question.parameters.items() if symbol.is_negative}
+    roots = {p.base for y in (y1, y2) for p in y.atoms(sympy.Pow) if p.exp == sympy.S.Half} & negative
+    if not roots:
+        return y1, y2
+    letters = {plain: sympy.Dummy(positive=True) for plain in roots}
+    real = sympy.Dummy(real=True)
+    there = {question.x: real} | {plain: -letter for plain, letter in letters.items()}
+    turned = [y.xreplace(there).as_independent(real, as_Add=False)[1] for y in (y1, y2)]
+    if any(y.has(sympy.I) for y in turned):  # the equation is real, and so are the parts of exp(i w x)
+        turned = [part for part in turned[0].as_real_imag() if part != 0]
+    if len(turned) != 2 or any(y.has(sympy.I, sympy.re, sympy.im) for y in turned):
+        return y1, y2
+    back = {real: question.x} | {letter: -plain for plain, letter in letters.items()}
+    return turned[0].xreplace(back), turned[1].xreplace(back)
 
 
 def decide(question: Question, budget: Budget) -> Solution:

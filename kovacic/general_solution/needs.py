@@ -103,6 +103,9 @@ def _not_negative(u: Expr) -> Expr:
 def _of_the_same_sign(u: Expr) -> Expr:
     """Without a positive factor that is rational; the base of a root or an odd power, u being real."""
     _, short = u.as_content_primitive()
+    if short.is_Mul or short.is_Pow:  # -1/x > 0 where -x > 0
+        odd = {p: p.base for p in sympy.Mul.make_args(short) if p.is_Pow and p.exp.is_odd and p.exp.is_negative}
+        short = sympy.Mul(*(odd.get(factor, factor) for factor in sympy.Mul.make_args(short)))
     is_even_power = short.is_Pow and short.exp.is_even
     if short.is_Pow and short.exp.is_Rational and not is_even_power:
         return short.base

@@ -134,6 +134,8 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
         plain[e] = sympy.Mul(*(letters[rate] ** (number * rates[rate]) for number, rate in parts))
     units = {letters[rate]: rate / q for rate, q in rates.items()}
     above, below = sympy.fraction(sympy.cancel(sympy.together(value.xreplace(plain))))
+    if not (above.is_polynomial(*units) and below.is_polynomial(*units)):  # J(exp(x))
+        return
     numerator, denominator = (_symmetric(part, units) for part in (above, below))
     if numerator is None or denominator is None:
         return

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,8 @@ from kovacic.errors import InputError
 from kovacic.general_solution.constants import vanishing_factors
 from kovacic.general_solution.needs import needs_of
 from kovacic.general_solution.substitution import finite_value, size
+from kovacic.general_solution.zero import is_nowhere_zero
+from kovacic.parametric.assumptions import read_assumptions
 
 Expr = Any  # SymPy publishes no types
 #: The largest Wronskian that is looked at, in subexpressions.
@@ -63,7 +65,7 @@ def _relation_text(relation: Expr) -> str:
     return str(relation)
 
 
-def validity(solution: Any) -> Validity:
+def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity:
     """What a solution needs to be real and valid: an interval, and exceptional values of parameters.
 
     The conditions are read off the formula, part by part: arguments of roots, of logarithms and of other functions with a cut
@@ -76,6 +78,9 @@ def validity(solution: Any) -> Validity:
     ----------
     solution : sympy.Eq
         What `dsolve` returns, y(x) = ...
+    assume : mapping, optional
+        What was assumed of parameters, as given to `dsolve`, whose answer has the user's own symbols: {"k": "positive"}.
+        What it excludes isn't said; names that don't occur in the solution are passed over.
 
     Returns
     -------
@@ -97,17 +102,25 @@ def validity(solution: Any) -> Validity:
     v + w != 0, v - w != 0, w != 0
     >>> bool(kovacic.validity(kovacic.dsolve("y'' + y = x")))
     False
+    >>> bool(kovacic.validity(kovacic.dsolve("y'' + k^2*y = 0"), assume={"k": "positive"}))
+    False
     """
     value, x = _value_and_variable(solution)
+    if assume:
+        own = {symbol.name: symbol for symbol in value.free_symbols}
+        said = {name: what for name, what in assume.items() if str(name) in own}
+        known = read_assumptions(said, sympy.Tuple(*own.values()), tuple(own)).symbols()
+        value = value.xreplace({own[name]: symbol for name, symbol in known.items()})
+        x = known.get(x.name, x)
     needed = _sorted(needs_of(value), x)
     exceptions: dict[Expr, None] = {}
     for nonzero in (*needed.nonzero, _wronskian_somewhere(value, x)):
         exceptions |= dict.fromkeys(_exceptions(nonzero))
-    exceptions |= dict.fromkeys(_exceptions_of_series(value, x))
+    exceptions |= dict.fromkeys(e for e in _exceptions_of_series(value, x) if not is_nowhere_zero(e))
     # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
-    return Validity(_without_weaker(needed.on_x), tuple(exceptions), is_of_real_numbers)
+    return Validity(_without_weaker(needed.on_x), _without_implied(exceptions), is_of_real_numbers)
 
 
 @dataclass(frozen=True)
@@ -154,7 +167,8 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     if sympy.false in relations:
         return (sympy.false,)
     positive = {relation.lhs for relation in relations if _is_strict(relation)}
-    return tuple(relation for relation in relations if _is_strict(relation) or relation.lhs not in positive)
+    nonzero = positive | {-u for u in positive}
+    return tuple(relation for relation in relations if _is_strict(relation) or relation.lhs not in nonzero)
 
 
 def _is_strict(relation: Expr) -> bool:
@@ -223,6 +237,13 @@ def _exceptions(nonzero: Expr) -> Iterator[Expr]:
         base = _without_sign(factor.base if factor.is_Pow else factor)
         if base.free_symbols:
             yield base
+
+
+def _without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
+    """Without c + m != 0 for integers m beside sin(pi c) != 0."""
+    periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
+    numbers = {e: [sympy.expand(c - sign * e) for c in periodic for sign in (1, -1)] for e in exceptions}
+    return tuple(e for e in exceptions if not any(number.is_Integer for number in numbers[e]))
 
 
 def _without_sign(e: Expr) -> Expr:

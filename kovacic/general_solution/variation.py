@@ -98,6 +98,9 @@ class Basis:
     def _by_abel(self) -> Expr | None:
         """c exp(-int b/a dx), with the first c that is a number or made of gamma functions; None where it isn't found."""
         kernel = display(product(self.equation.gauge * 2), Atoms(self.x), around_zero=True).xreplace(NUMBERS)
+        # Real about 0, where the constant is found: (1 - x)^e for (x - 1)^e.
+        negative = {p: (-p.base) ** p.exp for p in kernel.atoms(sympy.Pow) if _is_negative_root(p, self.x)}
+        kernel = kernel.xreplace(negative)
         c = next(filter(_is_usable, self._quotients(kernel)), None)
         if c is None:
             return None
@@ -288,6 +291,11 @@ def _with_single_waves(e: Expr) -> Expr:
     if not e.has(sin, cos):
         return e
     return expand(TR8(e))
+
+
+def _is_negative_root(p: Expr, x: Expr) -> bool:
+    """Is it a power of something that is negative at 0, with an exponent that isn't an integer?"""
+    return bool(not p.exp.is_integer and p.base.subs(x, 0).is_negative)
 
 
 def _has_branches(y: Expr, x: Expr) -> bool:
