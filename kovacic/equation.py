@@ -20,6 +20,7 @@ from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.algebra.text import joined_terms
 from kovacic.numerals import as_text
 
 DEFAULT_VARIABLE = "x"
@@ -237,21 +238,7 @@ def _coefficient(function: RatFunc, variable: str) -> str:
     num = function.num
     if not function.is_polynomial or not isinstance(num, RationalPoly):
         return function.to_str(variable)
-    terms = []
-    for power, number in reversed([*enumerate(num.rational_coefficients())]):  # flint's, printed without a limit
-        if not number:
-            continue
-        sign = "-" if number < 0 else ""
-        size = str(abs(number))
-        factor = variable if power == 1 else f"{variable}**{power}"
-        if power == 0:
-            term = size
-        elif size == "1":
-            term = factor
-        else:
-            term = f"{size}*{factor}"
-        terms.append(sign + term)
-    return " + ".join(terms).replace("+ -", "- ") or "0"
+    return joined_terms(list(map(str, num.rational_coefficients())), variable)  # flint's, printed without a limit
 
 
 def over(function: RatFunc, field: Field) -> RatFunc:

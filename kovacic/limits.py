@@ -117,27 +117,10 @@ DEFAULT_SECONDS = 600.0
 
 
 class Clock:
-    """The clock that every limit reads, in seconds: the wall clock, or one that a test controls.
-
-    >>> with CLOCK.read_from(lambda: 7.0):
-    ...     CLOCK.now()
-    7.0
-    """
-
-    __slots__ = ("now",)
+    """The clock that every limit reads, in seconds: `now` is the wall clock, unless a test replaces it."""
 
     def __init__(self) -> None:
         self.now: Callable[[], float] = time.monotonic
-
-    @contextmanager
-    def read_from(self, source: Callable[[], float]) -> Iterator[None]:
-        """Inside `with`, the time is what `source()` returns, in all threads: for tests and measurements."""
-        before = self.now
-        self.now = source
-        try:
-            yield
-        finally:
-            self.now = before
 
 
 #: The only clock of the package on which a result can depend.

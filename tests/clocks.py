@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from itertools import count
 from math import inf
 from types import FrameType
+from unittest.mock import patch
 
 from kovacic.limits import CLOCK
 
@@ -42,7 +43,7 @@ def controlled(step: float = 0.0, looks_in_time: float = inf) -> Iterator[Hands]
     With a step, a look costs time, and so a search without end ends.  After `looks_in_time` looks, each takes 1000 s.
     """
     hands = Hands(step, looks_in_time)
-    with CLOCK.read_from(hands):
+    with patch.object(CLOCK, "now", hands):
         yield hands
 
 
@@ -56,7 +57,7 @@ def interrupted(looks: int) -> Iterator[None]:
             raise KeyboardInterrupt
         return 0.0
 
-    with CLOCK.read_from(source):
+    with patch.object(CLOCK, "now", source):
         yield
 
 
@@ -80,7 +81,7 @@ class Stretches:
 def stretches() -> Iterator[Stretches]:
     """Inside `with`, the time stands still, and the work between looks at the clock is counted."""
     counted = Stretches()
-    with CLOCK.read_from(counted):
+    with patch.object(CLOCK, "now", counted):
         sys.setprofile(counted.count)
         try:
             yield counted

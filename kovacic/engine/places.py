@@ -19,7 +19,6 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt
 from typing import Any
 
 from flint import nmod_poly
@@ -29,6 +28,7 @@ from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.limits import Budget
 
 
@@ -217,11 +217,8 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
 def rational_square_root(constant: Poly) -> Fraction | None:
     """The non-negative rational square root of a constant of the field, or None."""
     value = constant.field.rational_value(constant)
-    if value is None or value.numerator < 0:
-        return None
-    p = isqrt(value.numerator)
-    q = isqrt(value.denominator)
-    return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
+    root = None if value is None else QQ.sqrt(QQ.poly([value]))
+    return None if root is None else QQ.rational_value(root)
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import CurveFunction, Piece
+from kovacic.engine.places import rational_square_root
 from kovacic.limits import check_time
 
 #: Bits of a coefficient beyond which a class is taken for one of infinite order.
@@ -134,9 +135,10 @@ def _pole_over(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fracti
     y = q.derivative() * regular.den * regular.num.inverse_modulo(q) % q  # for the residue 1
     square = H.field.rational_value(h % q * (y * y % q).inverse_modulo(q) % q)
     assert square is not None
-    root = QQ.rational_value(QQ.sqrt(QQ.poly([square])) or QQ.poly([]))
-    assert root
-    return Points(q, y * abs(root)), abs(root)  # y is proportional to the residue
+    residue = rational_square_root(QQ.poly([square]))
+    assert residue
+    # y is proportional to the residue.
+    return Points(q, y * residue), residue
 
 
 def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
