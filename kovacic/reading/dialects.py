@@ -48,7 +48,7 @@ _PLAIN = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
 LAYOUT = frozenset(
     r"""
     \, \; \! \: \[ \] \( \) \\ \quad \qquad \left \right \bigl \bigr \big \Big \bigg \Bigl \Bigr \limits \displaystyle \rm
-    \nonumber \notag & ~
+    \boxed \nonumber \notag & ~
     """.split()  # noqa: SIM905
 ) | {"\\ "}
 #: Commands about a name that is set upright, or in another style, and those of them for text.

@@ -134,7 +134,7 @@ def _lines(text: str) -> list[Token]:
     found = [token for token in scan if token.text not in LAYOUT]
     found = NOTATIONS.rewritten(found)
     is_displayed = (
-        "\\displaystyle" in text and partners(found).get(0) == len(found) - 1
+        re.search(r"\\displaystyle|\\boxed", text) is not None and partners(found).get(0) == len(found) - 1
     )  # as Wikipedia has its formulas
     is_quoted = (
         len(found) > 2
@@ -208,7 +208,7 @@ class _Around(NamedTuple):
 
 _NUMBER = "{} was taken for a number in a list"
 _LEFT_OUT = "left out: {}"
-_SOME = r"(?:(?:[^\W\d]\S*|[:,.]) ){0,40}"
+_SOME = r"(?:(?:[^\W\d]\S*|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
 #: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
 _AROUND = (
@@ -252,7 +252,8 @@ class _Apart:
             self.statement(self.without_surroundings(scan), is_alone=len(statements) == 1)
         if not self.equations():
             for scan in [*self.named.values()][-1:]:
-                self.add("equation", scan)
+                if not self.list_of(scan):
+                    self.add("equation", scan)
         return Paste(self.text, self.sorted_roles(), self.variable, tuple(self.notes))
 
     def add(self, role: str, scan: Scan) -> None:
@@ -282,6 +283,8 @@ class _Apart:
                 self.add(rule.role, left)
             scan = rest
             spaced = Spaced(scan)
+        if scan and scan[-1].kind == "NUMBER" and _has_equals(scan):  # y(0) = 1.
+            scan = [*scan[:-1], scan[-1]._replace(text=scan[-1].text.rstrip("."))]
         return scan
 
     def check_number(self, number: Scan, rest: Scan) -> None:
@@ -300,15 +303,17 @@ class _Apart:
             self.add("declaration", scan)
             return
         name, scan = _without_assignment(scan)
-        if name and scan and scan[0].text in _MAKERS:
+        if _IDENTITY.fullmatch(Spaced(scan).text) or (name and scan and scan[0].text in _MAKERS):
             self.add("declaration", scan)
-        elif self.command(scan) or self.list_of(scan):
+        elif self.command(scan):
+            return
+        elif name and not is_alone:
+            self.named[name] = scan
+        elif self.list_of(scan):
             return
         elif not is_alone and _has_equals(scan, _INEQUALITIES):
             self.notes.append(f"not used: {self.written(scan)}")
             self.add("remark", scan)
-        elif name and not is_alone:
-            self.named[name] = scan
         else:
             self.add("equation", scan)
 
@@ -342,11 +347,14 @@ class _Apart:
 
     def list_of(self, scan: list[Token]) -> bool:
         """{y'' + y = 0, y(0) = 1}."""
-        is_list = len(scan) > 2 and scan[0].text in ("{", "[") and partners(scan).get(0) == len(scan) - 1
-        if not is_list or not _has_equals(scan, depth=1):
+        is_list = len(scan) > 1 and scan[0].text in ("{", "[") and partners(scan).get(0) == len(scan) - 1
+        parts = [part for part in _listed(scan[1:-1]) if part] if is_list else []
+        are_named = all(len(part) == 1 and part[0].text in self.named for part in parts)
+        if not is_list or not (are_named or _has_equals(scan, depth=1)):
             return False
-        for part in _listed(scan[1:-1]):
-            self.add("equation", self.resolved(part))
+        for part in map(self.resolved, parts):
+            if part and not self.list_of(part):
+                self.add("equation", part)
         return True
 
     def argument(self, part: list[Token], names: set[str]) -> bool:
@@ -357,6 +365,12 @@ class _Apart:
             case ["ivar" | "func" | "function" as keyword, "=", name, *_]:
                 self.variable = name if keyword == "ivar" or len(part) == 3 else self.variable
                 return self.argument(part[2:], names)
+            case ["singsol" | "IncludeSingularSolutions", *_]:
+                return True
+            case ["ics", "=", name]:
+                return self.argument([*part[:2], *self.named.pop(name, [])], names)
+            case ["ics", "="] | ["ics", "=", "{", "}"]:
+                return True
             case ["ics", "=", "{", *_]:
                 return self.values(part[3:-1])
             case ["ics", "=", "[", *_]:
@@ -369,8 +383,11 @@ class _Apart:
                     self.variable = name  # MATLAB's
                 self.add("name", part)
                 return True
+            case ["[" | "{", *_] if self.list_of(part):
+                return True
             case ["[" | "{", *_] if not _has_equals(part, depth=1):  # the unknown functions of a system
-                return all(self.argument(inner, names) for inner in _listed(part[1:-1]))
+                inside = _listed(part[1:-1])  # or a range {t, 0, 30}
+                return all((inner[:1] and inner[0].kind == "NUMBER") or self.argument(inner, names) for inner in inside)
             case [name, "=", _, *_] if is_word(name):
                 return False
         if not self.list_of(part):
@@ -421,6 +438,8 @@ _COMMAND = pattern(rf"(?:\w+ [.\[]? ?)?(?:{'|'.join(SOLVERS)}) (?:\] |\[ \w+ \] 
 _EQUATION = pattern(r"==?|(?<!^)['\"˙]+|\\prime|\\d+ot|(?:diff|Diff|Derivative|D) OPEN")
 #: What no quotient of differentials is without.
 _DIFFERENTIAL = pattern(r"\\[dtc]?frac|/")
+#: MATLAB's Dy = diff(y, t).
+_IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|˙˙ = (?P=y) '')")
 #: A name, or what is differentiated, with an argument.
 _CALL = pattern(r"(?:[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
 #: Primes that belong to no value: y'', y''(x).
