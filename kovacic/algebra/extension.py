@@ -107,7 +107,7 @@ class AlgebraicField(Field):
             image = norm(shifted)
             if image.gcd(image.derivative()).degree == 0:
                 break
-            shift = -shift if shift > 0 else 1 - shift
+            shift = -shift if shift > 0 else 1 - shift  # 0, 1, -1, 2, -2, ...
         back = x + self.generator * shift
         return [shifted.gcd(self.embed(factor))(back).monic() for factor, _ in self.base.factor(image)]
 
@@ -314,6 +314,7 @@ def _root_by_primes(element: Poly, f: Poly, modulus: Poly) -> Poly:
             raise BadPrimeError(f"{h.p} divides the norm of B(e)")
         return -A * inverse % reduced
 
+    # y = -A(e)/B(e), since f(y) = A(e) + y B(e) = 0 for y^2 = e.
     lifter = Lifter(element.field)
     for bundle in element.field.bundles():
         check_time()

@@ -141,6 +141,7 @@ class Residues(Collector):
 
 def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:
     """Integers and one common denominator that give the residues, short enough for no others to be probable; else None."""
+    # |n| d below this: among all pairs with a product up to B some B log B residues are hit by chance.
     bound = modulus >> (_UNUSED_BITS + modulus.bit_length().bit_length())
     denominator = 1
     for residue in reversed(residues):

@@ -144,6 +144,7 @@ def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple
             return None
         if not pivot:
             free = k
+    # The term number n of the series is the coefficient of x^(start - n).
     downwards = series.polynomial(start + 1)
     return downwards.reversed(start - downwards.degree), free
 

@@ -167,6 +167,7 @@ def coordinates(
     p = bundle[0].p
     for start in range(0, len(bundle), n):
         block = bundle[start : start + n]
+        # The images at the roots r_i are sum_k c_k r_i^k: Vandermonde's matrix takes the coordinates c_k to them.
         inverse = nmod_mat(n, n, [pow(h.root, k, p) for h in block for k in range(n)], p).inv().tolist()
         base_bundle.append(block[0].base)
         columns = list(zip(*images[start : start + n], strict=True))

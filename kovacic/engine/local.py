@@ -47,6 +47,7 @@ class ModularChart:
 
 def chart(h: Homomorphism, problem: Problem, place: Place) -> ModularChart | None:
     """The chart at the least simple root of the place's factor; None if it has none in F_p."""
+    # `opposite` is the weight of the place at t = infinity: of x = 0 for the place at infinity, else of infinity.
     if place.at_infinity:
         root: int | None = 0
         opposite = next((p.weight for p in problem.finite_places if p.factor.degree == 1 and not p.factor[0]), 0)
@@ -62,6 +63,7 @@ def chart(h: Homomorphism, problem: Problem, place: Place) -> ModularChart | Non
         D = reverse(D, D.degree()).left_shift(place.weight)
     num, den, D = (translate(f, root) for f in (num, den, D))
     equation = local_equation(num, den, place.order)
+    # There omega grows like t^(weight - 2), and like 1/t at an ordinary point, where the weight is 0.
     return ModularChart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
 
 
@@ -119,7 +121,7 @@ def rational_omega(c: ModularChart, Q: Any, degree: int) -> tuple[Any, Any] | No
     None is a proof that no such rational omega over K has a P of degree at most `degree` (see `engine.reducible`).
     """
     top = degree + c.growth
-    order = top + degree + 2
+    order = top + degree + 2  # one term more than A and P have unknowns
     u = series_solution(*reduced_equation(c.equation.expanded(order), Q), order)
     local = (Q * u + u.derivative().left_shift(c.equation.nu)).mul_low(u.inverse_series_trunc(order), order)
     series = c.D.right_shift(c.equation.nu).mul_low(local, order)

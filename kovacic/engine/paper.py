@@ -350,20 +350,17 @@ class _Trial:
             for point in points[1:]
         ]
 
-    def degree(self, family: Family) -> int:
-        return natural(family.d)
-
     def work(self, family: Family) -> int:
         """About how many multiplications of coefficients the trial takes."""
         n = self.D.degree
-        d = self.degree(family)
+        d = natural(family.d)
         return (d + 1) * self.m * (self.m * n + d) * (n + 1) * self.field.absolute_degree**2
 
     def outcome(self, family: Family) -> Family:
         """The family with theta, and with P or the conditions for its existence."""
         m = self.m
         X = self.field.poly([0, 1])
-        d = self.degree(family)
+        d = natural(family.d)
         R = self._theta_numerator(family)
         # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
         images = [numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]

@@ -46,7 +46,7 @@ def decide(problem: Problem) -> Outcome:
         if not simple:
             raise
         y1 = simple[0]
-        y2 = simple[-1]
+        y2 = simple[-1]  # the same one if there is only one
         product = Form(2, y1.R + y2.R, y1.P * y2.P) if y1 != y2 else None
         return Found(Structure.REDUCIBLE, lambda: y1, product)
     if not isinstance(quadratic, NoInvariant):
@@ -66,6 +66,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate (else it has a recurrence).
     """
     F = normalised(F, problem)
+    # The discriminant F'^2 - 2 F F'' + 4 S F^2 is Q0^2 (X^2 - 4 P A2)/D^2, a constant: one value of it is enough.
     P, X, A2 = F.numerators(problem, 2)
     point = next(n for n in count() if problem.D(n))
     value = X(point) ** 2 - 4 * P(point) * A2(point)

@@ -117,10 +117,9 @@ def hessian(form: Form, problem: Problem) -> Form:
 
 def jacobian(f: Form, g: Form, problem: Problem) -> Form:
     """Jac(f, g) = m f g' - n f' g, of degree m + n - 2."""
-    A0 = f.P
-    A1 = problem.D * f.P.derivative() + f.R * f.P
-    B0 = g.P
-    B1 = problem.D * g.P.derivative() + g.R * g.P
+    # f' = A1/D and g' = B1/D, times exp(int R/D) of f and of g.
+    A0, A1 = f.numerators(problem, 1)
+    B0, B1 = g.numerators(problem, 1)
     R = f.R + g.R - problem.D.derivative()
     return Form(f.degree + g.degree - 2, R, f.degree * A0 * B1 - g.degree * A1 * B0)
 

@@ -126,7 +126,8 @@ def _residue_of_eta(e: int, delta: Fraction | None) -> Fraction:
 
 def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurve, l: int) -> Group:  # noqa: E741
     """Orders modulo primes, and the function that has the divisor, once some of them agree."""
-    H = 4 * problem.S - 2 * f.logarithmic_derivative.derivative() - f.logarithmic_derivative**2  # eta = sqrt(H) dx
+    # eta = sqrt(H) dx: with omega1 + omega2 = phi = f'/f, phi' + (omega1^2 + omega2^2) = 2 S, H = (omega1 - omega2)^2.
+    H = 4 * problem.S - 2 * f.logarithmic_derivative.derivative() - f.logarithmic_derivative**2
     orders: list[tuple[int, int]] = []
     for h in _small_homomorphisms(problem.field, curve.genus):
         problem.budget.check()

@@ -493,6 +493,7 @@ def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]
         here = coefficients(chart, [ExactPoint(low + (high - low) * Fraction(k, 200)) for k in range(201)])
         growth = np.sqrt(np.maximum(here.S, 0.0))
         total += float(np.trapezoid(growth, here.x))
+    # One grows like exp(int sqrt(S)), the other decays as fast: the quotient gains twice the integral.
     return int(min(5000.0, 2 * total / np.log(10)))
 
 
@@ -538,7 +539,7 @@ class _DrawnPart:
         for arc in self.curve.arcs:
             rising = self.values(arc.dy) > 0
             pieces.append((arc.x, np.abs(self.values(arc.y)), rising != np.roll(rising, -1)))
-            pieces[-1][2][-1] = False  # nothing follows the last sample
+            pieces[-1][2][-1] = False  # np.roll compares the last sample with the first one
         pieces += [(part.x, self.amplitude(part), np.full(len(part.x), True)) for part in self.curve.envelopes]
         x, size, turns = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
         away = np.full(len(x), True)
