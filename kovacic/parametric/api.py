@@ -119,18 +119,15 @@ def under_assumptions(
     if answer.generic.case != decision.case:
         if not certify:
             return Decision(answer.generic.structure, ()), "", True
-        return Decision(None, (), undecided=_for_all_of_them(answer)), "", True
+        # The case that isn't the generic one, for all values with the assumptions.
+        reason = (
+            f"case {answer.generic.case} for all values with {answer.assumptions}{_exceptions(answer)} ({answer.theory}); "
+            "omega depends on the values: give some, or use kovacic.conditions, its theorem and solve_at"
+        )
+        return Decision(None, (), undecided=reason), "", True
     return decision, f"with {known} the answer holds{_exceptions(answer)} ({answer.theory})", True
 
 
 def _exceptions(answer: ParametricAnswer) -> str:
     exceptions = " or ".join(str(region.statement) for region in answer.regions)
     return f" except where {exceptions}" if exceptions else ""
-
-
-def _for_all_of_them(answer: ParametricAnswer) -> str:
-    """The case that isn't the generic one, for all values with the assumptions."""
-    return (
-        f"case {answer.generic.case} for all values with {answer.assumptions}{_exceptions(answer)} ({answer.theory}); omega "
-        "depends on the values: give some, or use kovacic.conditions, its theorem and solve_at"
-    )

@@ -165,7 +165,9 @@ class Assumptions:
             return number is not None and any(coset.contains(number) for coset in classes)
         values = self._coset_of(form)
         if values is not None:
-            return _lies_in_one(values, classes)
+            if values.is_covered_by(classes):
+                return True
+            return None if any(values.meets(coset) for coset in classes) else False
         if self._is_apart(form, classes) or self._is_irrational(form):
             return False
         return None
@@ -366,12 +368,3 @@ def _written(name: str, words: Iterable[str]) -> list[str]:
     if others:
         found.insert(0, f"{name} {' '.join(others)}")
     return found
-
-
-def _lies_in_one(values: Coset, classes: list[Coset]) -> bool | None:
-    """Are all values in the classes, True, or none of them, False?"""
-    if values.is_covered_by(classes):
-        return True
-    if any(values.meets(coset) for coset in classes):
-        return None
-    return False

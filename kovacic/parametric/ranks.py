@@ -363,16 +363,11 @@ def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[
     """U M V with random small integer matrices, of size rank."""
     for _ in range(2):
         if len(rows) > rank:
-            rows = _combined(rows, rank, random, zero)
+            weights = [[random.randint(-3, 3) for _ in rows] for _ in range(rank)]
+            columns = [*zip(*rows, strict=True)]
+            rows = [[sum(map(mul, line, column), zero) for column in columns] for line in weights]
         rows = [list(column) for column in zip(*rows, strict=True)]
     return rows
-
-
-def _combined(rows: list[list[Any]], count: int, random: Random, zero: Any) -> list[list[Any]]:
-    """So many random combinations of the rows."""
-    weights = [[random.randint(-3, 3) for _ in rows] for _ in range(count)]
-    columns = [*zip(*rows, strict=True)]
-    return [[sum(map(mul, line, column), zero) for column in columns] for line in weights]
 
 
 def _determinant(rows: list[list[Any]]) -> Any:

@@ -102,15 +102,6 @@ def _known(differences: Iterable[Fraction | None]) -> list[Fraction]:
     return [d for d in differences if d is not None]
 
 
-def _is_reducible(differences: Sequence[Fraction | None]) -> bool:
-    """Is one of the four sums l +- m +- n an odd integer?"""
-    known = _known(differences)
-    if len(known) < 3:
-        return False
-    l, m, n = known  # noqa: E741
-    return any(total % 2 == 1 for total in (l + m + n, l + m - n, l - m + n, l - m - n))
-
-
 @lru_cache(maxsize=1)
 def _table() -> dict[tuple[int, ...], Structure]:
     """Schwarz's rows, for the exponent differences modulo 2 in sixtieths, sorted."""
@@ -517,14 +508,6 @@ def _has_parameters(factor: Poly) -> bool:
     return any(factor.field.rational_value(c) is None for c in factor)
 
 
-def _each_factor(cubic: FunctionPoly) -> list[Poly]:
-    """The factors over Q(t), each as often as it occurs."""
-    found = []
-    for factor, multiplicity in cubic.field.factor(cubic):
-        found += [factor] * multiplicity
-    return found
-
-
 class _DifferenceLine(NamedTuple):
     """slope * w + shift."""
 
@@ -549,8 +532,10 @@ class _OneFunction:
     def structure(self, w: Fraction) -> Structure | None:
         """By Kimura's theorem, with this value of the function."""
         differences = [line.at(w) for line in self.lines if line is not None]
-        if _is_reducible(differences):
-            return Structure.REDUCIBLE
+        if len(differences) == 3:
+            l, m, n = differences  # noqa: E741
+            if any(total % 2 == 1 for total in (l + m + n, l + m - n, l - m + n, l - m - n)):
+                return Structure.REDUCIBLE
         return kimura(differences)
 
 
@@ -656,13 +641,13 @@ def _split(cubic: FunctionPoly) -> _Split:
     """By the factors of the cubic: those without parameters, and those with."""
     constants: list[Fraction | None] = []
     variable: list[Poly] = []
-    for factor in _each_factor(cubic):
+    for factor, multiplicity in cubic.field.factor(cubic):
         if _has_parameters(factor):
-            variable.append(factor)
+            variable += [factor] * multiplicity
         elif factor.degree == 1:
-            constants.append(rational_square_root(-factor[0]))
+            constants += [rational_square_root(-factor[0])] * multiplicity
         else:
-            constants += [None] * factor.degree
+            constants += [None] * (factor.degree * multiplicity)
     if len(variable) == 1 and variable[0].degree == 1:
         return _Split(constants, -variable[0][0])
     return _Split(constants, None)

@@ -37,6 +37,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of
+from kovacic.parametric.theorems import mean_of_singular_points
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
@@ -363,17 +364,9 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
 
 def _center_of_symmetry(problem: Problem) -> Poly | None:
     """c with S(2c - x) = S(x), the mean of the poles, or of the zeros of a polynomial; None where there is none."""
-    S = problem.S
-    points = S.den
-    if points.degree == 0:
-        points = S.num
-    if points.degree < 1:
-        return None
-    center = -points[points.degree - 1] / (points.lc * points.degree)
-    mirrored = S(2 * center - problem.field.poly([0, 1]))
-    if mirrored != S:
-        return None
-    return center
+    center = mean_of_singular_points(problem.S)
+    is_one = center is not None and problem.S(2 * center - problem.field.poly([0, 1])) == problem.S
+    return center if is_one else None
 
 
 def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:

@@ -113,18 +113,22 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
         S = problem.S
         if pole is not None:
             S = S(1 / x + pole) / x**4
-        center = _center(S)
+        center = mean_of_singular_points(S)
         if center is None:
             continue
         if center:
             S = S(x + center)
         square = S * x * x
         n = gcd(*_exponents(square.num), *_exponents(square.den))
-        coordinate = _coordinate(pole, center, n, variable)
+        base, weight = variable, "1"
+        if pole is not None:
+            weight = shifted(variable, pole)
+            base = f"1/({weight})" if pole else f"1/{variable}"
+        coordinate = Coordinate(shifted(base, center), n, weight)
         yield Symmetric(coordinate, _every(n, square.num), _every(n, square.den))
 
 
-def _center(S: RatFunc) -> Poly | None:
+def mean_of_singular_points(S: RatFunc) -> Poly | None:
     """The mean of the poles, or of the zeros of a polynomial; None for a constant."""
     points = S.den if S.den.degree else S.num
     if points.degree < 1:
@@ -140,15 +144,6 @@ def _every(n: int, f: Poly) -> Poly:
 def _exponents(f: Poly) -> list[int]:
     """Of the powers that occur."""
     return [i for i, coefficient in enumerate(f) if coefficient]
-
-
-def _coordinate(pole: Poly | None, center: Poly, n: int, variable: str) -> Coordinate:
-    """How s = x - center is written, or 1/(x - pole) - center."""
-    if pole is None:
-        return Coordinate(shifted(variable, center), n, "1")
-    weight = shifted(variable, pole)
-    inverse = f"1/({weight})" if pole else f"1/{variable}"
-    return Coordinate(shifted(inverse, center), n, weight)
 
 
 def kimura(problem: Problem, variable: str) -> Theorem | None:

@@ -157,7 +157,9 @@ class _TheoremWriter:
         for bound in said:
             if bound not in WORDS:
                 sign = bound.rstrip("0123456789/+-")
-                found += [", ", _relation(name, sign, bound.removeprefix(sign))]
+                value = bound.removeprefix(sign)
+                latex = f"{latex_text(name)} {_LATEX_RELATIONS.get(sign, sign)} {latex_text(value)}"
+                found += [", ", Math(f"{name} {sign} {value}", latex)]
         return found
 
     def _change(self) -> list[str | Math]:
@@ -215,17 +217,13 @@ class _TheoremWriter:
         yield from self._solutions(case)
 
     def _group(self, region: ParameterRegion) -> Block:
-        return say(
-            f"Case {region.case}. The group is ", *_group(region.verdict), ".", *_identity_component(region.verdict)
-        )
+        return say(f"Case {region.case}. ", *_group(region.verdict))
 
     def _otherwise(self, cases: list[Case]) -> Iterator[Block]:
         otherwise = "Otherwise" if cases else "For all values"
         if self.answer.complete is not True:
             otherwise += ", for generic values,"
-        group = _group(self.answer.generic)
-        component = _identity_component(self.answer.generic)
-        yield say(f"{otherwise} it is case {self.answer.generic.case}. The group is ", *group, ".", *component)
+        yield say(f"{otherwise} it is case {self.answer.generic.case}. ", *_group(self.answer.generic))
 
     # Solutions
 
@@ -346,13 +344,23 @@ class _TheoremWriter:
         text = f"P_{d}'' + 2 theta P_{d}' + (theta' + theta^2 - S) P_{d} = 0"
         latex = rf"P_{{{d}}}'' + 2 \theta P_{{{d}}}' + (\theta' + \theta^2 - S) P_{{{d}}} = 0"
         theta = Math("theta", r"\theta")
+        several = [" (all of the polynomials in parentheses vanish, where there are several)"] * self._has_systems()
         yield say(
             _delta_named(d), " vanishes exactly where the linear system for the coefficients of ", P, ", of degree ",
-            _name(d), ", has a solution", *_where_several_vanish(self.answer.regions), ":"
+            _name(d), ", has a solution", *several, ":"
         )  # fmt: skip
         yield Formula(Math(text, latex))
         v = self._unknown
         yield say("with ", theta, " the logarithmic derivative of ", Math(f"{v}/P_{d}", f"{v}/P_{{{d}}}"), ".")
+
+    def _has_systems(self) -> bool:
+        """True if one of the determinants that are printed stands for several polynomials."""
+        for region in self.answer.regions:
+            for natural in _naturals_in(region.statement):
+                shown = range(len(region.determinants))
+                if any(determinant.system for d in shown for determinant in natural.determinants(d)):
+                    return True
+        return False
 
     # The proof
 
@@ -422,21 +430,9 @@ def _kind_of_number(words: list[str]) -> str:
     return " ".join([*adjectives, *nouns])
 
 
-def _where_several_vanish(regions: Iterable[ParameterRegion]) -> list[str]:
-    """What a list of polynomials in the place of Delta_d means, where there may be one."""
-    has_systems = any(re.search(r"\([^()]*, ", text) for region in regions for text in region.determinants)
-    return [" (all of the polynomials in parentheses vanish, where there are several)"] * has_systems
-
-
 def _name(name: str) -> Math:
     """A name as a formula."""
     return Math(name, latex_text(name))
-
-
-def _relation(name: str, sign: str, value: str) -> Math:
-    """`name sign value`."""
-    latex = _LATEX_RELATIONS.get(sign, sign)
-    return Math(f"{name} {sign} {value}", f"{latex_text(name)} {latex} {latex_text(value)}")
 
 
 def _listed(parts: list[Math]) -> list[str | Math]:
@@ -458,13 +454,9 @@ def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
 
 
 def _group(verdict: RegionVerdict) -> list[str | Math]:
-    """The name of the group."""
-    return [*verdict.group_in_words]
-
-
-def _identity_component(verdict: RegionVerdict) -> list[str | Math]:
-    """What the theorem of Morales and Ramis needs."""
-    return [" Its identity component is ", *verdict.identity_component, "."]
+    """Its name, and what the theorem of Morales and Ramis needs."""
+    component = verdict.identity_component
+    return ["The group is ", *verdict.group_in_words, ". Its identity component is ", *component, "."]
 
 
 def _theory(answer: ParametricAnswer) -> list[str | Math]:
