@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.closed_forms import closed_forms
-from kovacic.bound_states.darboux import DarbouxStep, steps
+from kovacic.bound_states.darboux import DarbouxStep, step
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
     Ends,
@@ -363,60 +363,59 @@ def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, li
 
 
 def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
-    """By Darboux' transformation from a potential without apparent singularities; None where there is none."""
+    """By Darboux' transformation from a potential with fewer apparent singularities; None where there is none."""
     question = examined.question
-    if question.parsed.equation is not None or examined.excluded or any(question.boundary.wishes):
+    found = step(question, examined.ends, budget)
+    if found is None:
         return None
     V = question.signs.real(question.V).xreplace({sympy.Symbol(question.variable): question.x})
-    for step in steps(V, question.x, question.domain, question.signs):
-        simpler_V = sympy.cancel(sympy.together(V - 2 * sympy.diff(step.W, question.x)))
-        try:
-            simpler = _answered(_examined(question.with_potential(simpler_V)), budget)
-        except (Uncovered, InputError):
-            continue
-        if not simpler.complete or simpler.excluded or _is_removed(step, simpler, question):
-            continue
-        shown = caret(as_text(question.plain(sympy.factor(question.kinetic * simpler_V))))
-        return examined.spectrum(
-            levels=_transformed_levels(step, simpler, question),
-            algebraic=_lowest_level(step, question),
-            complete=True,
-            reason=f"Darboux' transformation of V = {shown}; {simpler.reason}",
-        )
-    return None
+    simpler_V = sympy.cancel(sympy.together(V - 2 * sympy.diff(found.W, question.x)))
+    try:
+        other = _examined(question.with_potential(simpler_V))
+        simpler = _answered(other, budget)
+    except (Uncovered, InputError):
+        return None
+    # E0 may be a level of the simpler potential, and isn't one of V then.
+    gaps = (_gap(levels, found, question) for levels in simpler.levels)
+    are_kept = all(question.signs.sign(gap) is not None for gap in gaps)
+    if not (simpler.complete and are_kept and all(end.circle is False for end in other.ends)):
+        return None
+    shown = caret(as_text(question.plain(sympy.factor(question.kinetic * simpler_V))))
+    return examined.spectrum(
+        levels=_transformed_levels(found, simpler, question),
+        algebraic=_lowest_level(found, question),
+        complete=True,
+        reason=f"Darboux' transformation of V = {shown}; {simpler.reason}",
+    )
 
 
-def _is_removed(step: DarbouxStep, simpler: Spectrum, question: SpectralProblem) -> bool:
-    """May E0 be a level of the simpler potential, which then is none of the other one?"""
-    energy = question.plain(step.energy)
-    for levels in simpler.levels:
-        difference = question.signs.real(levels.energy - energy).xreplace({levels.number: question.signs.n})
-        if question.signs.sign(difference) is None:
-            return True
-    return False
+def _gap(levels: Levels, found: DarbouxStep, question: SpectralProblem) -> Any:
+    """E_n - E0 in real symbols."""
+    difference = levels.energy - question.plain(found.energy)
+    return question.signs.real(difference).xreplace({levels.number: question.signs.n})
 
 
-def _transformed_levels(step: DarbouxStep, simpler: Spectrum, question: SpectralProblem) -> tuple[Levels, ...]:
+def _transformed_levels(found: DarbouxStep, simpler: Spectrum, question: SpectralProblem) -> tuple[Levels, ...]:
     """Those of the simpler potential with y' + W y for y, whose norm^2 is (E - E0) times that of y."""
     x = sympy.Symbol(question.variable)
-    W = question.plain(sympy.factor(step.W))
-    E0 = question.plain(step.energy)
+    W = question.plain(sympy.factor(found.W))
+    E0 = question.plain(found.energy)
     levels = []
     for one in simpler.levels:
         norm = None
         if one.norm is not None:
             norm = (one.energy - E0) * one.norm
         wave = W * one.wave + sympy.Derivative(one.wave, x)
-        levels.append(replace(one, wave=wave, zeros=one.zeros + int(step.is_level), norm=norm))
+        levels.append(replace(one, wave=wave, zeros=one.zeros + int(found.is_level), norm=norm))
     return tuple(levels)
 
 
-def _lowest_level(step: DarbouxStep, question: SpectralProblem) -> tuple[Algebraic, ...]:
+def _lowest_level(found: DarbouxStep, question: SpectralProblem) -> tuple[Algebraic, ...]:
     """E0 with y0, if that is a level."""
-    if not step.is_level:
+    if not found.is_level:
         return ()
-    energy = question.plain(step.energy)
-    wave = question.plain(step.wave)
+    energy = question.plain(found.energy)
+    wave = question.plain(found.wave)
     states = () if question.parameters else (BoundState(0, energy, wave, 0),)
     E = sympy.Symbol(question.energy)
     return (Algebraic(0, sympy.Integer(0), E - energy, wave, (), states),)

@@ -250,7 +250,7 @@ class _ClosedFormSearch:
         """The levels at the zeros, if the solution is square integrable there."""
         if not self._are_examined:
             return
-        if all(self._holds(self._demands(solution, end), polynomial) for end in self.ends):
+        if all(self._holds(demands_at(end, solution.y, self.question), polynomial) for end in self.ends):
             yield self._level(solution, polynomial, sympy.Integer(0), [])
 
     @property
@@ -262,7 +262,7 @@ class _ClosedFormSearch:
         """Is it the only square integrable solution at one end, and not square integrable at the other?"""
         if not self._are_examined:
             return False
-        first, last = (self._holds(self._demands(solution, end), polynomial) for end in self.ends)
+        first, last = (self._holds(demands_at(end, solution.y, self.question), polynomial) for end in self.ends)
         if None in (first, last) or first == last:
             return False
         end = self.ends[0] if first else self.ends[1]
@@ -311,7 +311,7 @@ class _ClosedFormSearch:
             polynomial = -polynomial
         signs = self.question.signs
         bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-        demands = [demand for end in self.ends for demand in self._demands(solution, end)]
+        demands = [demand for end in self.ends for demand in demands_at(end, solution.y, self.question)]
         if sympy.degree(polynomial, self.E) == 1:
             (energy,) = sympy.solve(polynomial, self.E)
             solution = replace(solution, y=solution.y.subs(self.E, energy))
@@ -320,25 +320,6 @@ class _ClosedFormSearch:
             level = self._level(solution, polynomial, constraint, [*bounds, *demands])
             if sympy.false not in level.conditions:
                 yield level
-
-    def _demands(self, solution: PolynomialSolution, end: End) -> list[Any]:
-        """When a function v of t, whose v'/v is rational, is the square integrable one at an end: relations in real symbols."""
-        signs = self.question.signs
-        t = sympy.Symbol(self.question.parsed.variable)
-        u = sympy.Dummy("u")
-        rate = sympy.cancel(sympy.together(sympy.diff(solution.y, t) / solution.y))
-        is_far = end.point == sympy.oo
-        local = (
-            1 / u - rate.subs(t, 1 / u) / u**2 if is_far else rate.subs(t, end.point + u)
-        )  # of u v(1/u), of v(c + u)
-        order, strength = leading(signs.real(sympy.together(local)), u)
-        if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
-            decay = strength * end.direction ** (-order - 1)
-            return [sympy.false if decay.is_real is False else sympy.Gt(decay, 0)]
-        exponent = strength if order == -1 else sympy.Integer(0)
-        role = "right" if end.is_right else "left"
-        spot = Spot(end.point, None, sympy.Integer(end.mu), (role,))
-        return Ends.of(self.question).conditions(end.domain, spot, sympy.simplify(2 * exponent - 1))
 
     def _level(
         self, solution: PolynomialSolution, polynomial: Any, constraint: Any, conditions: Sequence[Any]
@@ -365,6 +346,23 @@ class _ClosedFormSearch:
         x = sympy.Symbol(question.variable)
         states = level.states_at({}, question.energy)
         return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
+
+
+def demands_at(end: End, v: Any, question: SpectralProblem) -> list[Any]:
+    """When a function v of t, whose v'/v is rational, is the square integrable one at an end: relations in real symbols."""
+    signs = question.signs
+    t = sympy.Symbol(question.parsed.variable)
+    u = sympy.Dummy("u")
+    rate = sympy.cancel(sympy.together(sympy.diff(v, t) / v))
+    is_far = end.point == sympy.oo
+    local = 1 / u - rate.subs(t, 1 / u) / u**2 if is_far else rate.subs(t, end.point + u)  # of u v(1/u), of v(c + u)
+    order, strength = leading(signs.real(sympy.together(local)), u)
+    if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
+        decay = strength * end.direction ** (-order - 1)
+        return [sympy.false if decay.is_real is False else sympy.Gt(decay, 0)]
+    exponent = strength if order == -1 else sympy.Integer(0)
+    spot = Spot(end.point, None, sympy.Integer(end.mu), ("right" if end.is_right else "left",))
+    return Ends.of(question).conditions(end.domain, spot, sympy.simplify(2 * exponent - 1))
 
 
 def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any] | None:
