@@ -177,17 +177,9 @@ class Solution(Answer):
             Where the solution starts.
         derivative : bool
             With True, pairs of balls, y and y', come back.  False by default.
-        y0, dy0, frobenius, which, path
-            The solution and the way, as for `kovacic.evaluate`; y0 and dy0 only where coefficients
-            aren't rational.
-        params : mapping
-            Values of the parameters by name: {"a": 2}.
-        digits : int
-            The accuracy, relative to the value; 15 by default.
-        method : str
-            "taylor" or "closed form"; by default the one that is faster.
-        limits : Limits
-            What the work may cost.
+        y0, dy0, frobenius, which, path, params, digits, method, limits
+            The solution, its accuracy, and what the call may cost, as for `kovacic.evaluate`; y0 and dy0 only where
+            coefficients aren't rational.
 
         Returns
         -------

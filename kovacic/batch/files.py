@@ -259,17 +259,23 @@ class _Rows:
 
 
 @contextmanager
-def answers(path: Path | None) -> Iterator[Callable[[Record], None]]:
-    """A function that appends records to this file, or to standard output: one JSON object a line, flushed at once."""
+def answers(
+    path: Path | None, line_of: Callable[[Record], str] = lambda record: record.json + "\n", *, head: str = ""
+) -> Iterator[Callable[[Record], None]]:
+    """A function that appends the line of a record, by default its JSON, to this file or to standard output, flushed at once.
+
+    `head` is written before all of them.
+    """
 
     def write(record: Record) -> None:
-        stream.write(record.json + "\n")
+        stream.write(line_of(record))
         stream.flush()
 
     opened: AbstractContextManager[TextIO] = nullcontext(sys.stdout)
     if path:
         opened = path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
     with opened as stream:
+        stream.write(head)
         yield write
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from io import StringIO
 from itertools import pairwise
 from math import lcm
 from typing import Any
@@ -133,13 +135,15 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
     )
 
 
-def columns(grids: Sequence[Grid]) -> tuple[str, ...]:
-    """The column names of the table."""
-    return (*(grid.name for grid in grids), "status", "case", "degree", "group", "order", "seconds", "remark")
+def columns(grids: Sequence[Grid]) -> str:
+    """The column names of the table, as a line of CSV."""
+    return _csv_line(
+        [*(grid.name for grid in grids), "status", "case", "degree", "group", "order", "seconds", "remark"]
+    )
 
 
-def row(record: Record) -> tuple[str, ...]:
-    """A record as a row of the table; what doesn't exist is empty.
+def row(record: Record) -> str:
+    """A record as a row of the table, a line of CSV; what doesn't exist is empty.
 
     `degree` is that of omega, `order` that of the group where it is finite, `remark` the reason of an undecided point or
     the error.
@@ -151,7 +155,12 @@ def row(record: Record) -> tuple[str, ...]:
     cells = (data["status"], data.get("case"), riccati.get("degree"), group.get("name"), group.get("order"),
              data.get("seconds"), remark)  # fmt: skip
     shown = ["" if cell is None else str(cell) for cell in cells]
-    return (*data["parameters"].values(), *shown)
+    return _csv_line([*data["parameters"].values(), *shown])
+
+
+def _csv_line(cells: Sequence[str]) -> str:
+    csv.writer(line := StringIO(), lineterminator="\n").writerow(cells)
+    return line.getvalue()
 
 
 def draw_map(

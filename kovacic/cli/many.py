@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import csv
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from itertools import repeat
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, TextIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import click
 
@@ -85,10 +84,7 @@ def batch(
     items = read_items(file, form=form, var=var, limits=limits)
     count = None if stream else partial(count_items, file.name, form=form)
     with answers(output) as write:
-        on_screen = output is None and sys.stdout.isatty()
-        return _answer_all(
-            items, write, count=count, done=done, on_screen=on_screen, limits=limits, stream=stream, **run
-        )
+        return _answer_all(items, write, output, count=count, done=done, limits=limits, stream=stream, **run)
 
 
 @options.equation_command()
@@ -139,42 +135,18 @@ def scan(
     done = _already_answered(output, resume)
     labels = dict(done.labels)
     items = scan_items(expression, grids, var=var)
-    with ExitStack() as stack:
-        if form == "jsonl":
-            write = stack.enter_context(answers(output))
-        else:
-            write = stack.enter_context(_csv_table(output, columns(grids), row))
+    with answers(output) if form == "jsonl" else answers(output, row, head=columns(grids)) as write:
 
         def noted(record: Record) -> None:
             write(record)
             if picture is not None:
                 labels[record.number] = record.label
 
-        on_screen = output is None and sys.stdout.isatty()
-        status = _answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, on_screen=on_screen, **run)
+        status = _answer_all(items, noted, output, count=lambda: prod(map(len, grids)), done=done, **run)
     if picture is not None:
         with options.waiting("drawing"):
             draw_map(expression, (grids[0], grids[1]), labels, picture)
     return status
-
-
-@contextmanager
-def _csv_table(
-    output: Path | None, head: Sequence[str], row: Callable[[Record], Sequence[object]]
-) -> Iterator[Callable[[Record], None]]:
-    """A function that writes records as rows of a CSV table to a file, or to standard output."""
-    with ExitStack() as stack:
-        stream: TextIO = sys.stdout
-        if output is not None:
-            stream = stack.enter_context(output.open("w", encoding="utf-8", newline=""))
-        table = csv.writer(stream, lineterminator="\n")
-        table.writerow(head)
-
-        def write(record: Record) -> None:
-            table.writerow(row(record))
-            stream.flush()
-
-        yield write
 
 
 def _already_answered(output: Path | None, resume: bool) -> Done:
@@ -193,17 +165,18 @@ def _already_answered(output: Path | None, resume: bool) -> Done:
 def _answer_all(
     items: Iterable[Item],
     write: Callable[[Record], None],
+    output: Path | None,
     *,
     count: Callable[[], int] | None,
     done: Done,
-    on_screen: bool,
     progress: bool | None,
     quiet: bool,
     **run: Any,
 ) -> int:
-    """Write a record for every item that isn't done, with a line of progress where it is wanted, and at the end, be it an
-    interruption, the summary; the exit status.  `count` gives the number of items, if it can be known, and
-    `on_screen` is true if the answers themselves appear on the terminal.
+    """Write a record for every item that isn't done, and the summary at the end, also after an interruption; the exit status.
+
+    `count` gives the number of items, if it can be known.  A line shows the progress, by default unless the answers themselves
+    appear on the terminal.
     """
     from kovacic.batch import Job, run_items
     from kovacic.batch.records import Summary
@@ -220,9 +193,10 @@ def _answer_all(
     with ExitStack() as stack:
         if not quiet:
             stack.callback(lambda: _print_summary(summary, time.monotonic() - start))
-        wanted = not on_screen if progress is None else progress
+        if progress is None:
+            progress = output is not None or not sys.stdout.isatty()
         refresh = None
-        if wanted and sys.stderr.isatty():
+        if progress and sys.stderr.isatty():
             total = None if count is None else count() - len(done)
             refresh = stack.enter_context(_progress(summary, total))
         for record in run_items((item for item in items if item not in done), job):
