@@ -87,7 +87,7 @@ def solved_riccati(
     forms = [*_forms(found, solved_for)]
     if is_inverted:
         forms = [1 / w for w in forms]
-    forms += [*_over_one_denominator(forms[0])]
+    forms += [*_over_one_denominator(forms[0]), sympy.signsimp(forms[0])]
     w = shortest(forms).xreplace(dict.fromkeys(found.constants, equation.constant()))
     if not found.u.has(*found.constants):
         w = in_book_form(w, equation.x)
@@ -219,7 +219,7 @@ def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
     if u.has(*constants):
         c1, c2 = constants
         u = _wave(u.diff(c1), u.diff(c2), c1) or u.subs(c2, 1)
-    if u.has(*_NEIGHBOURS):
+    if u.has(*_NEIGHBOURS) and size(u) <= _LONGEST:
         return sympy.powsimp(sympy.factor_terms(_slope(u, x)) / u)
     return sympy.Add(*(_rate(_single_wave(factor, x), x) for factor in sympy.Mul.make_args(u)))
 
@@ -266,4 +266,5 @@ def _slope(y: Expr, x: Expr) -> Expr:
         step = 1 if nu.is_positive else -1
         other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)
         slope = slope.xreplace({f.func(nu + step, z): other})
-    return sympy.expand(slope) if functions else slope
+    letters = {f: sympy.Dummy() for f in slope.atoms(*_NEIGHBOURS)}
+    return sympy.expand_mul(slope.xreplace(letters)).xreplace({letter: f for f, letter in letters.items()})

@@ -27,22 +27,26 @@ import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8
 
+from kovacic.general_solution.expanded_size import expanded_size
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.substitution import size
 from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-#: The longest expression, in subexpressions, for which other forms are looked for: some 20 ms.
-_LONGEST = 150
+#: The largest expression, in subexpressions when it is multiplied out, for which other forms are looked for: some 50 ms.
+_LARGEST = 400
 
 
 def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
     """The shortest form of an answer; in a general one the functions that the free constants belong to stay."""
     for rule in _RULES_OF_GENERAL_SOLUTIONS if is_general else _RULES:
-        if size(value) <= _LONGEST and not value.has(sympy.Integral, sympy.RootSum):
+        if _is_small(value):
             value = shortest([value, *rule(value, x)])
     return value
+
+
+def _is_small(value: Expr) -> bool:
+    return expanded_size(value) <= _LARGEST and not value.has(sympy.Integral, sympy.RootSum)
 
 
 def with_waves(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
@@ -80,6 +84,8 @@ def of_chebyshev(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
 
 def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
     """The shortest of the particular solutions that differ from this one by a multiple of a term of its own."""
+    if not _is_small(particular):
+        return particular
     forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x)]
     jumps = {step for step in particular.atoms(Heaviside) if step.has(x)}
     if len(jumps) == 1:
