@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, ParseError
@@ -182,6 +183,10 @@ class Tokens:
 
     def names(self) -> dict[str, int]:
         """The different plain names in order of appearance, each with the number of its first token."""
+        return self._names
+
+    @cached_property
+    def _names(self) -> dict[str, int]:
         found: dict[str, int] = {}
         for k, kind in enumerate(self.kinds):
             if kind == "NAME":

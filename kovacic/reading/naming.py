@@ -29,6 +29,7 @@ _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _DIGITS = "0123456789"
+_NAMED = ("NAME", "PRIMED", "HEAD")
 
 
 @dataclass(frozen=True)
@@ -88,29 +89,26 @@ class Vocabulary:
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
-        columns: list[list[tuple[str, str, int, int]]] = []
+        unknown = [k for k, kind in enumerate(tokens.kinds) if kind in _NAMED and not self._is_known(tokens, k, x, y)]
+        if not unknown:
+            return tokens, []
+        rows = list(zip(tokens.kinds, tokens.pieces, tokens.starts, tokens.ends, strict=True))
         notes: dict[str, None] = {}
-        for k, row in enumerate(zip(tokens.kinds, tokens.pieces, tokens.starts, tokens.ends, strict=True)):
-            kind, piece, start, end = row
+        for k in reversed(unknown):
+            kind, piece, start, end = rows[k]
             name = piece.rstrip(PRIMES)
-            if kind not in ("NAME", "PRIMED", "HEAD") or self._is_known(tokens, k, name, x, y):
-                columns.append([row])
-                continue
-            is_product = len(name) == 2 and name.isalpha() and {*name} & {x, y} and not is_letter(name)
-            if not is_product:
-                raise self._unknown_name(tokens, k, x, y)
+            if not (len(name) == 2 and name.isalpha() and {*name} & {x, y} and not is_letter(name)):
+                raise self._unknown_name(tokens, unknown[0], x, y)
             if tokens.are(k - 1, "CIRCUMFLEX") or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
                 hint = f"write ({name[0]}*{name[1]}) for the product"
                 raise tokens.error(ParseError, f"{name} in an exponent can be read in two ways", k, k + 1, hint=hint)
             notes[f"{name} was read as {name[0]}*{name[1]}"] = None
-            columns.append([("NAME", name[0], start, start + 1), (kind, piece[1:], start + 1, end)])
-        rows = [row for column in columns for row in column]
-        if not notes:
-            return tokens, []
+            rows[k : k + 1] = [("NAME", name[0], start, start + 1), (kind, piece[1:], start + 1, end)]
         kinds, pieces, starts, ends = (list(column) for column in zip(*rows, strict=True))
-        return replace(tokens, kinds=kinds, pieces=pieces, starts=starts, ends=ends), list(notes)
+        return replace(tokens, kinds=kinds, pieces=pieces, starts=starts, ends=ends), list(reversed(notes))
 
-    def _is_known(self, tokens: Tokens, k: int, name: str, x: str, y: str) -> bool:
+    def _is_known(self, tokens: Tokens, k: int, x: str, y: str) -> bool:
+        name = tokens.pieces[k].rstrip(PRIMES)
         if name in (x, y) or name in self.declared:
             return True
         if tokens.kinds[k] == "HEAD" and (name in DERIVATIVES or name in NUMBER_CALLS or is_function(name)):
@@ -187,8 +185,8 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
 
 def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
     """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
-    for k, kind in enumerate(tokens.kinds):
-        if kind != "CIRCUMFLEX" or tokens.pieces[k - 1] != "e":
+    for k, piece in enumerate(tokens.pieces):
+        if piece != "^" or tokens.pieces[k - 1] != "e":
             continue
         number = k + 2 if tokens.are(k + 1, "MINUS") else k + 1
         is_glued = tokens.are(number, "NUMBER", "NAME") and tokens.ends[number] == tokens.starts[number + 1]
@@ -205,6 +203,8 @@ def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
 
 def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
+    if "HEAD" not in tokens.kinds:
+        return tokens
     alone = {*tokens.names(), x} - {y}
     kinds = list(tokens.kinds)
     for k, kind in enumerate(tokens.kinds[:-3]):
