@@ -18,7 +18,7 @@ from flint import acb, arb, fmpq, fmpz
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numerals import as_text, in_a_message, plain_text
 
-_NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
+_DECIMAL_OR_FRACTION = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 _MAX_EXPONENT = 100_000
 _MAX_TEXT = 200_000
 
@@ -201,7 +201,7 @@ def _rational_of(value: Any, name: str) -> Any:
 
 
 def _rational_of_text(text: str, name: str) -> Any:
-    match = _NUMBER.fullmatch(text) if len(text) <= _MAX_TEXT else None
+    match = _DECIMAL_OR_FRACTION.fullmatch(text) if len(text) <= _MAX_TEXT else None
     if match is None:
         raise InputError(f"{name} isn't a decimal number or a fraction p/q: {text[:60]!r}", hint="e.g. '0.1' or '1/3'")
     if match[3] is not None:

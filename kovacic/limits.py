@@ -133,15 +133,16 @@ class Budget:
     One that is made while another one is `watched` ends with that at the latest: the parts of a call share its time.
     """
 
-    __slots__ = ("_deadline", "_seconds", "limits")
+    __slots__ = ("_deadline", "limits", "seconds")
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
-        self._seconds = DEFAULT_SECONDS if limits.seconds is None else limits.seconds
-        self._deadline = CLOCK.now() + self._seconds
+        #: The time limit, which is that of an outer budget if this one ends with it.
+        self.seconds = DEFAULT_SECONDS if limits.seconds is None else limits.seconds
+        self._deadline = CLOCK.now() + self.seconds
         outer = _WATCHED.get()
         if outer is not None and outer._deadline < self._deadline:
-            self._seconds = outer._seconds
+            self.seconds = outer.seconds
             self._deadline = outer._deadline
 
     def check(self) -> None:
@@ -149,12 +150,7 @@ class Budget:
             raise self._used_up()
 
     def _used_up(self) -> LimitExceeded:
-        return LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
-
-    @property
-    def seconds(self) -> float:
-        """The limit, which is that of an outer budget where this ends with it."""
-        return self._seconds
+        return LimitExceeded(f"the time limit of {self.seconds:g} s is used up", limit="seconds")
 
     @property
     def seconds_left(self) -> float:

@@ -154,7 +154,7 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
     for piece in f.pieces:
         degree = max(piece.a.degree, piece.b.degree + half)
         pair = cleared(piece.a, degree), cleared(piece.b, degree - half)
-        pieces.append(Piece(piece.exponent, *_without_content(*pair)))
+        pieces.append(Piece(piece.exponent, *_without_rational_content(*pair)))
     return CurveFunction(f.multiple, cleared(f.h, 2 * half), tuple(pieces), -cleared(f.rest, half - 2))
 
 
@@ -222,7 +222,7 @@ def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
     after = b1.degree + model.half
     if before == after:
         return _shortest_pair((a0, b0), (a1, b1))
-    return _without_content(a0, b0) if before < after else _without_content(a1, b1)
+    return _without_rational_content(a0, b0) if before < after else _without_rational_content(a1, b1)
 
 
 def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
@@ -246,7 +246,7 @@ def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
 # ------------------------------------------------------------------------------------------------ short functions
 
 
-def _without_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:
+def _without_rational_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:
     """The pair, divided by the rational content of its coordinates."""
     return a.field.ground.cleared(a, b)
 
@@ -259,8 +259,8 @@ def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple
     """
     field = first[0].field
     if field.ground != QQ:
-        return _without_content(*first)
-    basis = [_without_content(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
+        return _without_rational_content(*first)
+    basis = [_without_rational_content(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
     lengths = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
     M = fmpz_mat([[*_integral_coordinates(a, lengths[0]), *_integral_coordinates(b, lengths[1])] for a, b in basis])
     size = len(basis)

@@ -13,7 +13,7 @@ from kovacic.verify.local import Point
 from kovacic.verify.zeros import is_proven_irrational
 
 #: The denominators of exponent differences in the finite primitive groups, modulo +-1.
-_DENOMINATORS = {
+_LOCAL_ORDERS = {
     Structure.TETRAHEDRAL: {1, 2, 3},
     Structure.OCTAHEDRAL: {1, 2, 3, 4},
     Structure.ICOSAHEDRAL: {1, 2, 3, 5},
@@ -46,14 +46,14 @@ def _fails_at(point: Point, rule: Rule, structure: Structure) -> bool:
     if rule is Rule.IRREGULAR:
         return k > 2
     # EXPONENTS, which speaks of regular points only
-    return k <= 2 and (point.difference is None or point.difference.denominator not in _DENOMINATORS[structure])
+    return k <= 2 and (point.difference is None or point.difference.denominator not in _LOCAL_ORDERS[structure])
 
 
 #: The structures that imply the condition of each rule.
 _IMPLIED_BY = {
     Rule.RAMIFIED: {Structure.REDUCIBLE},
     Rule.NOT_A_SQUARE: {Structure.REDUCIBLE},
-    Rule.LOGARITHM: {Structure.IMPRIMITIVE, *_DENOMINATORS},
-    Rule.IRREGULAR: {*_DENOMINATORS},
-    Rule.EXPONENTS: {*_DENOMINATORS},
+    Rule.LOGARITHM: {Structure.IMPRIMITIVE, *_LOCAL_ORDERS},
+    Rule.IRREGULAR: {*_LOCAL_ORDERS},
+    Rule.EXPONENTS: {*_LOCAL_ORDERS},
 }

@@ -24,18 +24,18 @@ def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     # 1/(N q)(theta) as an element of K[x]/p^nu: its value at theta is the root of the same polynomial over K.
     scale = inverse(radicand % p, p)
     if scale.degree > 0:
-        scale = _value_at(scale, _lifted_root(p, nu), modulus)
+        scale = _value_modulo(scale, _lifted_root(p, nu), modulus)
     unit = radicand * scale % modulus  # R^2, which is 1 modulo p
     root = p.field.poly([1])  # R^-1, by Newton's iteration
     over_q = inverse(q, p)
-    for step in _steps(p, nu):
+    for step in _newton_moduli(p, nu):
         root = (root + root * (1 - unit * root * root % step) / 2) % step
         over_q = over_q * (2 - q * over_q % step) % step
     R = unit * root % modulus
     return residue(R * over_q % modulus, p, nu)
 
 
-def _steps(p: Poly, nu: int) -> Iterator[Poly]:
+def _newton_moduli(p: Poly, nu: int) -> Iterator[Poly]:
     """The moduli p^2, p^4, ..., p^nu of Newton's iterations from a root modulo p to one modulo p^nu."""
     k = 1
     while k < nu:
@@ -48,13 +48,13 @@ def _lifted_root(p: Poly, nu: int) -> Poly:
     slope = p.derivative()
     theta = p.field.poly([0, 1])
     over_slope = inverse(slope, p)
-    for modulus in _steps(p, nu):
-        over_slope = over_slope * (2 - _value_at(slope, theta, modulus) * over_slope) % modulus
-        theta = (theta - _value_at(p, theta, modulus) * over_slope) % modulus
+    for modulus in _newton_moduli(p, nu):
+        over_slope = over_slope * (2 - _value_modulo(slope, theta, modulus) * over_slope) % modulus
+        theta = (theta - _value_modulo(p, theta, modulus) * over_slope) % modulus
     return theta
 
 
-def _value_at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
+def _value_modulo(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
     """The value at theta in K[x]/modulus, by Horner's rule."""
     value = theta * 0
     for k in range(polynomial.degree, -1, -1):

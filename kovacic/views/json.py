@@ -158,7 +158,7 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
             {
                 "structure": exclusion.structure.value,
                 "case": exclusion.structure.case,
-                "evidence": [_evidence(item, names) for item in exclusion.evidence],
+                "evidence": [_evidence_dict(item, names) for item in exclusion.evidence],
             }
             for exclusion in decision.exclusions
         ],
@@ -280,7 +280,7 @@ _ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
 _MAY_BE_ABSENT = {"field", "generic_conditions", "equation", "gauge", "change", "near"}
 #: The facts about a group, and the evidence for them, which is computed anew.
 _GROUP_FACTS = ("name", "order", "finite", "family", "n")
-_EVIDENCE = {"form", "function", "orders"}
+_GROUP_EVIDENCE = {"form", "function", "orders"}
 
 
 def _demand_the_same(found: Any, written: Any, path: str) -> None:
@@ -341,7 +341,7 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
     found = group_dict(answer)
     if found is None:
         raise ValueError("the answer names a group, but none can be determined")
-    said = {key: value for key, value in data.items() if key not in _EVIDENCE}
+    said = {key: value for key, value in data.items() if key not in _GROUP_EVIDENCE}
     # Older versions write neither the family nor n.
     facts = {key: found[key] for key in _GROUP_FACTS if key in data or key in ("name", "order", "finite")}
     _demand_the_same(said, facts, "group")
@@ -479,7 +479,7 @@ def _form_dict(form: SemiInvariant, names: Formulas) -> dict[str, Any]:
     return {"degree": form.degree, "theta": names.python(form.theta), "P": names.python(form.P)}
 
 
-def _evidence(evidence: Evidence, names: Formulas) -> dict[str, Any]:
+def _evidence_dict(evidence: Evidence, names: Formulas) -> dict[str, Any]:
     if isinstance(evidence, NecessaryCondition):
         places = [names.place_name(place) for place in evidence.places]
         rule = evidence.rule
