@@ -305,7 +305,7 @@ def made_up(count: int) -> Iterator[tuple[str, RatFunc]]:
 
 
 def check_doors(S: RatFunc) -> None:
-    """The same expressions in Python, JSON, LaTeX, HTML's formulas, the command and the explanation; short ones."""
+    """The same expressions in Python, JSON, LaTeX, HTML's formulas, the command, the explanation and dsolve; short ones."""
     answer = kovacic.solve(str(S))
     form = answer.closed_form
     if form is None:  # a letter of the family made it irreducible
@@ -320,6 +320,10 @@ def check_doors(S: RatFunc) -> None:
     assert printed == [caret(text) for text in texts]
     explained = answer.explain()
     assert all(caret(text) in explained or len(text) > 3000 for text in texts)
+    general = kovacic.dsolve(f"y'' = ({S})*y").rhs
+    for constants, y in zip(((1, 0), (0, 1)), pair, strict=True):
+        found = general.subs(dict(zip(sympy.symbols("C1 C2"), constants, strict=True)))
+        assert found == y or sympy.expand(found - y) == 0
     length = sum(map(len, texts))
     others = [sum(len(as_text(y)) for y in answer.special)] if answer.special else []
     is_elementary = not any(y.has(sympy.Integral, sympy.hyper) for y in pair)
