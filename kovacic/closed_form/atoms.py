@@ -195,36 +195,26 @@ class Atoms:
         roots = self.real_roots(p)
         if roots:
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
-        square = discriminant(p)
-        if square is not None:
-            return self._log_sum_of_conjugates(p, value, -square)
         if p.degree == 2:
             return self._log_sum_of_quadratic(p, value)
         a = self.root
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
 
-    def _log_sum_of_conjugates(self, p: Poly, value: Poly, square: Fraction) -> Expr:
-        """The same for roots h +- i w/2, w^2 = `square`: m log(p) - k w atan(2 (x - h)/w)."""
-        centre = -self.constant(p[1]) / 2
-        slope = self.constant(value[1])
-        root = radical(rational(square))
-        mean = self.constant(value[0]) + slope * centre
-        angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
-        if not mean:
-            return angle
-        return angle + mean * log(self.primitive(p)[1])
-
     def _log_sum_of_quadratic(self, p: Poly, value: Poly) -> Expr:
-        """The same for x^2 + b x + c with parameters: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
+        """The same for x^2 + b x + c: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
 
         For negative 4 c - b^2 it is -k u log((2 x + b - u)/(2 x + b + u)) with u^2 = b^2 - 4 c, up to its sign.
         """
         c, b = (self.constant(p[i]) for i in (0, 1))
         slope = self.constant(value[1])
-        mean = sympy.cancel(self.constant(value[0]) - self.constant(value[1]) * b / 2)
-        square = sympy.factor(4 * c - b**2)
-        twice = 2 * self.x + b
+        mean = sympy.cancel(self.constant(value[0]) - slope * b / 2)
         total = mean * log(self.primitive(p)[1]) if mean else Integer(0)
+        twice = 2 * self.x + b
+        known = discriminant(p)
+        if known is not None:
+            root = radical(rational(-known))
+            return total - slope * root * sympy.atan(sympy.expand_mul(twice / root))
+        square = sympy.factor(4 * c - b**2)
         if square.could_extract_minus_sign() and not square.is_positive:
             root = sympy.sqrt(-square)
             return total + sympy.cancel(slope / 2) * root * log((twice - root) / (twice + root))

@@ -15,10 +15,11 @@ Reference: DLMF 10.2, 10.13, 10.25, 10.39, 10.47.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from math import prod
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, arb, ctx, fmpq, fmpq_poly
@@ -26,9 +27,10 @@ from flint import acb, arb, ctx, fmpq, fmpq_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import count_work
 from kovacic.special import prices
+from kovacic.special.fibres import Fibre, Point, fibres
 from kovacic.special.numbers import HALF, Number, multiplicities
 from kovacic.special.polar_parts import irregular_places, leading_square, square, zeros
 from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
@@ -45,9 +47,6 @@ from kovacic.special.values import (
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
     from kovacic.special.writer import Writer
-
-Points = list[tuple[Place, int]]
-"""Zeros or poles of f, with their multiplicities."""
 
 
 @dataclass(frozen=True)
@@ -107,32 +106,33 @@ class Bessel(StandardEquation):
 def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
     """r = 1: f is a constant times the product of its zeros, by their multiplicities, over that of its poles."""
     one = problem.field.poly([1])
-    poles = [(place, place.order - 2) for place in irregular]
-    n = _count(poles)
-    regular = [place for place in problem.places if place.kind is Kind.REGULAR and place.delta_squared is not None]
-    for points in _zeros(regular, n):
+    poles = prod((place.factor ** (place.order - 2) for place in irregular if not place.at_infinity), start=one)
+    n = sum((place.order - 2) * place.degree for place in irregular)
+    for fibre in _zeros(problem, n):
+        problem.budget.check()
+        count_work(1)
+        if fibre.degree != n:
+            continue
         count_work(TRIAL)
-        f = RatFunc(_product(points, one), _product(poles, one))
+        f = RatFunc(fibre.polynomial, poles)
         scale = _scale(f, irregular[0])
         if scale is not None:
-            place, k = points[0]
-            assert place.delta_squared is not None
-            nu_squared = place.delta_squared * Fraction(1, k * k)
-            yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f * scale)
+            yield Pullback(Bessel(one, (fibre.square - 1) * Fraction(1, 4)), f * scale)
 
 
-def _product(points: Points, one: Poly) -> Poly:
-    """The polynomial with these zeros, as far as they are finite."""
-    found = one
-    for place, k in points:
-        if not place.at_infinity:
-            found = found * place.factor**k
-    return found
-
-
-def _count(points: Points) -> int:
-    """How many points these are, with their multiplicities."""
-    return sum(k * place.degree for place, k in points)
+def _zeros(problem: Problem, n: int) -> Iterable[Fibre]:
+    """Sets of points with multiplicities proportional to the exponent differences, up to n zeros in all, and nu^2."""
+    points = [
+        Point(place.factor, place.at_infinity, place.delta_squared)
+        for place in problem.places
+        if place.kind is Kind.REGULAR and place.delta_squared is not None
+    ]
+    logarithmic = [point for point in points if not point.square]
+    if not logarithmic:
+        return fibres(points, n)
+    # nu = 0: all zeros are here, and the exponents don't tell the multiplicities.
+    choices = product(*(range(1, n // point.degree + 1) for point in logarithmic))
+    return (Fibre(tuple(zip(logarithmic, choice, strict=True)), logarithmic[0].square) for choice in choices)
 
 
 def _scale(f: RatFunc, place: Place) -> Poly | None:
@@ -145,46 +145,6 @@ def _scale(f: RatFunc, place: Place) -> Poly | None:
         return None
     scale = leading_square(place) * (local.den // p**d) * local.num.inverse_modulo(p) % p
     return scale if scale.degree == 0 else None
-
-
-def _zeros(regular: list[Place], n: int) -> Iterator[Points]:
-    """Sets of places with multiplicities proportional to the exponent differences, n zeros in all."""
-    logarithmic = [place for place in regular if not place.delta_squared]
-    if logarithmic:  # nu = 0: all zeros are here, and the exponents don't tell the multiplicities
-        for choice in product(*(range(1, n // place.degree + 1) for place in logarithmic)):
-            points = list(zip(logarithmic, choice, strict=True))
-            if _count(points) == n:
-                yield points
-        return
-    for nu_squared in _orders(regular, n):
-        counts = [(place, _multiplicity(place, nu_squared)) for place in regular]
-        found = [(place, k) for place, k in counts if k]
-        for points in (found, [(place, k) for place, k in found if not place.is_apparent]):
-            if points and _count(points) == n:
-                yield points
-
-
-def _orders(regular: list[Place], n: int) -> Iterator[Poly]:
-    """Each nu^2 for which one of the places has the multiplicity 1, 2, ..., up to n zeros."""
-    tried = set()
-    for place in regular:
-        for m in range(1, n // place.degree + 1):
-            assert place.delta_squared is not None
-            nu_squared = place.delta_squared * Fraction(1, m * m)
-            if nu_squared in tried:
-                continue
-            count_work(TRIAL)
-            tried.add(nu_squared)
-            yield nu_squared
-
-
-def _multiplicity(place: Place, nu_squared: Poly) -> int | None:
-    """k with Delta = k nu at a regular place, None if there is no such positive integer."""
-    assert place.delta_squared is not None
-    if not nu_squared:
-        return None
-    ratio = rational_square_root(place.delta_squared / nu_squared)
-    return int(ratio) if ratio is not None and ratio.denominator == 1 else None
 
 
 # ------------------------------------------------------------------------------------------ written

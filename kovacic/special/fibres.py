@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from math import gcd, lcm
 
@@ -74,13 +75,17 @@ def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden
 
 
 @dataclass(frozen=True)
-class _Fibre:
+class Fibre:
     """All points over one of 0, 1, infinity with their multiplicities, and the square of the exponent difference."""
 
     multiplicities: tuple[tuple[Point, int], ...]
     square: Poly
-    degree: int
-    mask: int
+    mask: int = 0
+    """The points as bits, by their numbers among those that are distributed."""
+
+    @cached_property
+    def degree(self) -> int:
+        return sum(k * point.degree for point, k in self.multiplicities)
 
     @property
     def points(self) -> int:
@@ -116,7 +121,7 @@ class _Distribution:
         return _count(self.points) - 2 - elsewhere - self.hidden
 
 
-def _functions(search: _Distribution) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]]:
+def _functions(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, RatFunc]]:
     """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
     tried = set()
     for zeros, poles, rest in _distributed(search):
@@ -130,17 +135,17 @@ def _functions(search: _Distribution) -> Iterator[tuple[_Fibre, _Fibre, RatFunc]
             yield zeros, poles, f
 
 
-def _distributed(search: _Distribution) -> Iterator[tuple[_Fibre, _Fibre, list[Point]]]:
+def _distributed(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, list[Point]]]:
     """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
     among = search.among
-    by_degree: dict[int, list[_Fibre]] = {}
-    for fibre in _fibres(among, 2 * _count(among) - 4):
+    by_degree: dict[int, list[Fibre]] = {}
+    for fibre in fibres(among, 2 * _count(among) - 4):
         search.budget.check()
         count_work(1)
         if fibre.degree >= search.least_degree:
             by_degree.setdefault(fibre.degree, []).append(fibre)
-    for n, fibres in sorted(by_degree.items()):
-        for zeros, poles in combinations(fibres, 2):
+    for n, found in sorted(by_degree.items()):
+        for zeros, poles in combinations(found, 2):
             search.budget.check()
             count_work(1)
             if zeros.mask & poles.mask:
@@ -158,7 +163,7 @@ def _count(points: Iterable[Point]) -> int:
     return sum(point.degree for point in points)
 
 
-def _fibres(points: list[Point], most: int) -> Iterator[_Fibre]:
+def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
     """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
     for chosen, mask in _commensurable(points, most, 0, [], 0):
         least = _least_multiplicities(chosen)
@@ -166,7 +171,7 @@ def _fibres(points: list[Point], most: int) -> Iterator[_Fibre]:
         for k in range(1, most // size + 1):
             multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
             square = chosen[0].square * Fraction(1, (k * least[0]) ** 2)
-            yield _Fibre(multiplicities, square, k * size, mask)
+            yield Fibre(multiplicities, square, mask)
 
 
 def _least_multiplicities(chosen: list[Point]) -> list[int]:
