@@ -21,6 +21,7 @@ from sympy.core.function import AppliedUndef
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact
+from kovacic.general_solution.constants import Outcome, Row, can_be, condition_of, determine
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     check_first_order,
@@ -160,7 +161,8 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     if is_swapped:
         pair = pair[1], pair[0]
     if conditions:
-        pair = _with_constants(system, pair, conditions)
+        pair, others = _with_constants(system, pair, conditions)
+        notices += others
     pair = shortest([*sums(pair[0], system.t)]), shortest([*sums(pair[1], system.t)])
     entries = (*system.matrix[0], *system.matrix[1], *system.right)
     notices += exceptions_of(sympy.Tuple(*pair), system.t, entries)
@@ -239,27 +241,18 @@ def _initial_values(conditions: Sequence[tuple[int, Condition]]) -> tuple[Expr, 
 
 def _with_constants(
     system: LinearSystem, pair: tuple[Expr, Expr], conditions: Sequence[tuple[int, Condition]]
-) -> tuple[Expr, Expr]:
-    """The constants from the values: as many as these determine."""
+) -> tuple[tuple[Expr, Expr], list[str]]:
+    """With the constants that the values determine, and for which values of the parameters that is otherwise."""
     own = set().union(*(e.free_symbols for row in system.matrix for e in row), *(e.free_symbols for e in system.right))
-    constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own - {system.t}, key=str)
-    rows = [value_at(pair[number], system.t, c.points[0]) - c.value for number, c in conditions]
-    matrix, right = sympy.linear_eq_to_matrix(rows, constants)
-    if len(rows) == len(constants) == 2:
-        determinant = sympy.expand(matrix.det())
-        certainty = when_zero(determinant)
-        if certainty is Zero.SOMETIMES:
-            raise NotImplementedError(
-                f"undecided: whether {determinant} is zero, on which the number of solutions depends"
-            )
-        if certainty is Zero.NEVER:
-            values = matrix.adjugate() * right / determinant
-            return _replaced(pair, dict(zip(constants, values, strict=True)))
-    solutions = [*sympy.linsolve((matrix, right), *constants)]
-    if not solutions:
+    c1, c2 = sorted((pair[0].free_symbols | pair[1].free_symbols) - own - {system.t}, key=str)
+    rows = []
+    for number, condition in conditions:
+        there = value_at(pair[number], system.t, condition.points[0])
+        rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
+    generic, others, _ = determine(rows, (c1, c2))
+    if generic.outcome is Outcome.NONE:
         raise InputError("there is no solution with these values: the conditions contradict one another")
-    return _replaced(pair, dict(zip(constants, solutions[0], strict=True)))
-
-
-def _replaced(pair: tuple[Expr, Expr], values: Mapping[Expr, Expr]) -> tuple[Expr, Expr]:
-    return pair[0].subs(values, simultaneous=True), pair[1].subs(values, simultaneous=True)
+    values = dict(zip((c1, c2), generic.values, strict=True))
+    exceptions = [" and ".join(map(condition_of, case.zeros)) for case in others if can_be(case)]
+    notices = [f"this holds unless {zeros}: give such values for the solutions there" for zeros in exceptions]
+    return (pair[0].subs(values, simultaneous=True), pair[1].subs(values, simultaneous=True)), notices

@@ -29,7 +29,7 @@ from kovacic.reading.dialects import tokens_of
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, SEVERAL_ARGUMENTS
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, SEVERAL_ARGUMENTS, is_function
 from kovacic.reading.parser import Site, evaluate, shown
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
@@ -206,7 +206,9 @@ def read_expression(
 
 def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
     """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
-    value = source.walk(SymbolicReader.of_equations(source.variable, [source.unknown], limits, what))
+    reader = SymbolicReader.of_equations(source.variable, [source.unknown], limits, what)
+    reader.has_functions = source.has_functions
+    value = source.walk(reader)
     if isinstance(value, sympy.Equality):
         return value.lhs - value.rhs
     return LinearArithmetic(limits).expression(value)
@@ -224,6 +226,8 @@ class SymbolicReader(RationalReader):
         self.what = what
         #: The variable of an equation; None for an expression, in which the unknown functions are at points.
         self.x: Any = None
+        #: g(x) is a function that is given.
+        self.has_functions = False
 
     @classmethod
     def of_equations(cls, variable: str, unknowns: Collection[str], limits: Limits, what: str) -> SymbolicReader:
@@ -277,6 +281,8 @@ class SymbolicReader(RationalReader):
             return self.power(arguments[0], self.arithmetic.divide(Monomial(1, 0), arguments[1]), site)
         if head in SEVERAL_ARGUMENTS:
             return self.arithmetic.of_several(head, arguments)
+        if self.has_functions and len(arguments) == 1 and self._is_variable(arguments[0]) and not is_function(head):
+            return sympy.Function(head)(self.x)
         if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)

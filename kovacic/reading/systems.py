@@ -51,7 +51,9 @@ def read_equations(
     for tokens in paste.equations:
         named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).equation(tokens)
         notes |= dict.fromkeys(named.notes)
-        equations.append(evaluate(named.tokens, SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")))
+        reader = SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")
+        reader.has_functions = True  # those that aren't differentiated
+        equations.append(evaluate(named.tokens, reader))
     x = sympy.Symbol(chosen)
     functions = tuple(sympy.Function(name)(x) for name in unknowns)
     return SystemReading(tuple(equations), functions, paste.conditions, tuple(notes))
