@@ -139,39 +139,16 @@ def spectrum(
 
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
-    most = whole(max_degree, "max_degree")
     check_mapping(assume)
-    names = declared(parameters, assume)
     V, var = without_left_side(V, var)
+    given = _Given(domain, energy, boundary, whole(max_degree, "max_degree"), limits, declared(parameters, assume))
     if is_equation(V):
         read = read_schroedinger(V, var, energy, limits)
-        scaled = read.scaled
-        positive = {name: "positive" for name in read.positive if sympy.Symbol(name) in scaled.free_symbols}
-        found = _spectrum(
-            scaled,
-            domain=domain,
-            energy=energy,
-            var=read.variable,
-            assume={**positive, **(assume or {})},
-            boundary=boundary,
-            max_degree=most,
-            limits=limits,
-            kinetic=read.kinetic,
-            names=names,
-        )
+        positive = {name: "positive" for name in read.positive if sympy.Symbol(name) in read.scaled.free_symbols}
+        found = _spectrum(read.scaled, read.variable, {**positive, **(assume or {})}, given, read.kinetic)
         return with_numbers(read.physical(found), levels, digits, limits)
     try:
-        found = _spectrum(
-            V,
-            domain=domain,
-            energy=energy,
-            var=var,
-            assume=assume,
-            boundary=boundary,
-            max_degree=most,
-            limits=limits,
-            names=names,
-        )
+        found = _spectrum(V, var, assume, given)
     except NotRational as reason:
         if levels is None:
             hint = "the lowest levels of other potentials are computed as proven numbers"
@@ -180,33 +157,36 @@ def spectrum(
     return with_numbers(found, levels, digits, limits)
 
 
+@dataclass(frozen=True)
+class _Given:
+    """What was given beside the potential."""
+
+    domain: Sequence[Any]
+    energy: str
+    boundary: str | None
+    max_degree: int
+    limits: Limits
+    names: Sequence[str]
+
+
 def _spectrum(
-    V: Any,
-    *,
-    domain: Sequence[Any],
-    energy: str,
-    var: Any,
-    assume: Mapping[Any, Any] | None,
-    boundary: str | None,
-    max_degree: int,
-    limits: Limits,
-    kinetic: Any = sympy.S.One,
-    names: Sequence[str] = (),
+    V: Any, var: Any, assume: Mapping[Any, Any] | None, given: _Given, kinetic: Any = sympy.S.One
 ) -> Spectrum:
     """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V."""
     V, roots = with_named_roots(V)
     if roots:
         assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}
+    limits = given.limits
     question = read_question(
         V,
-        domain,
-        energy=energy,
+        given.domain,
+        energy=given.energy,
         var=var,
         assume=assume,
-        boundary=boundary,
+        boundary=given.boundary,
         limits=limits,
         kinetic=kinetic,
-        names=names,
+        names=given.names,
     )
     meanings = {**dict(question.parsed.letters), **roots}
     budget = Budget(limits)
@@ -219,7 +199,7 @@ def _spectrum(
         else:
             found = _answered(examined, budget)
         if not (found.complete or found.needs_boundary_condition):
-            found = _with_closed_forms(found, examined, max_degree, limits)
+            found = _with_closed_forms(found, examined, given.max_degree, limits)
         if not meanings:
             with suppress(LimitExceeded):  # as far as time allows
                 check_first_levels(found, question.known)
@@ -376,7 +356,8 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     except (Uncovered, InputError):
         return None
     # E0 may be a level of the simpler potential, and isn't one of V then.
-    gaps = (_gap(levels, found, question) for levels in simpler.levels)
+    E0 = question.plain(found.energy)
+    gaps = (question.signs.real(one.energy - E0).xreplace({one.number: question.signs.n}) for one in simpler.levels)
     are_kept = all(question.signs.sign(gap) is not None for gap in gaps)
     if not (simpler.complete and are_kept and all(end.circle is False for end in other.ends)):
         return None
@@ -387,12 +368,6 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
         complete=True,
         reason=f"Darboux' transformation of V = {shown}; {simpler.reason}",
     )
-
-
-def _gap(levels: Levels, found: DarbouxStep, question: SpectralProblem) -> Any:
-    """E_n - E0 in real symbols."""
-    difference = levels.energy - question.plain(found.energy)
-    return question.signs.real(difference).xreplace({levels.number: question.signs.n})
 
 
 def _transformed_levels(found: DarbouxStep, simpler: Spectrum, question: SpectralProblem) -> tuple[Levels, ...]:

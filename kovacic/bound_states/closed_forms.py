@@ -28,7 +28,7 @@ import sympy
 from kovacic.bound_states.ends import End, leading
 from kovacic.bound_states.families import Ends, possible
 from kovacic.bound_states.frame import Original, RealPotential, Spot, Uncovered, range_of
-from kovacic.bound_states.levels import Algebraic
+from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.norms import norm_of
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.ranges import tidied
@@ -63,7 +63,7 @@ class ClosedForms:
     def reason(self, energy: str, max_degree: int) -> str:
         """What is proven of the levels, and why; or why it is undecided."""
         if self.conditions is None:
-            return "undecided: no formula for all levels is known"
+            return NO_FORMULA
         theory = self.conditions.theory
         others = ""
         if self.excluded:
@@ -77,7 +77,7 @@ class ClosedForms:
                 energies = f"any other real {energy}"
             return f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
         if not self.levels:
-            return f"undecided: no formula for all levels is known; degrees up to {max_degree} were tried"
+            return f"{NO_FORMULA}; degrees up to {max_degree} were tried"
         found = f"the levels with a polynomial of degree d <= {max_degree}"
         if all(region.case == 1 for region in self.conditions.regions):
             return f"{found}; each level with a closed form has a polynomial of some degree d: {theory}"
@@ -208,7 +208,7 @@ class _ClosedFormSearch:
             for number, polynomial in listed.pairs:
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
-                solutions = [one for one in region.solution(number) if self._solves(one, polynomial)]
+                solutions = [one for one in region.solution(number) if _vanish(one.conditions, polynomial, self.E)]
                 here = [level for one in solutions for level in self._levels(one, polynomial)]
                 levels += here
                 if not here and any(self._excludes(one, polynomial) for one in solutions):
@@ -241,10 +241,6 @@ class _ClosedFormSearch:
                 factors = [factor for factor, _ in sympy.factor_list(together)[1] if factor.has(self.E)]
                 pairs += [(number, sympy.Poly(factor, self.E).monic().as_expr()) for factor in factors]
         return _Listed(tuple(pairs), are_all)
-
-    def _solves(self, solution: PolynomialSolution, polynomial: Any) -> bool:
-        """Do the conditions under which it is a solution hold at the zeros of the polynomial?"""
-        return all(sympy.rem(sympy.numer(c), polynomial, self.E) == 0 for c in map(sympy.together, solution.conditions))
 
     def _levels(self, solution: PolynomialSolution, polynomial: Any) -> Iterator[Algebraic]:
         """The levels at the zeros, if the solution is square integrable there."""
@@ -346,6 +342,11 @@ class _ClosedFormSearch:
         x = sympy.Symbol(question.variable)
         states = level.states_at({}, question.energy)
         return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
+
+
+def _vanish(functions: Sequence[Any], polynomial: Any, E: Any) -> bool:
+    """True if the functions are 0 at the zeros of an irreducible polynomial."""
+    return all(sympy.rem(sympy.numer(sympy.together(f)), polynomial, E) == 0 for f in functions)
 
 
 def demands_at(end: End, v: Any, question: SpectralProblem) -> list[Any]:

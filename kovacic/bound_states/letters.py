@@ -16,7 +16,7 @@ from typing import Any
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from kovacic.bound_states.levels import Algebraic, Levels, Spectrum
+from kovacic.bound_states.levels import NO_FORMULA, Algebraic, Levels, Spectrum
 from kovacic.errors import InputError
 from kovacic.numerals import as_text
 from kovacic.reading.symbolic import names_of, read_expression
@@ -118,7 +118,10 @@ def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
     known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
     excluded = map(letters.put_in, found.excluded)
     levels = map(letters.in_levels, found.levels)
-    algebraic = map(letters.in_algebraic, found.algebraic)
+    algebraic = tuple(one for one in map(letters.in_algebraic, found.algebraic) if sympy.false not in one.conditions)
+    reason = letters.said(found.reason)
+    if found.algebraic and not algebraic:
+        reason = NO_FORMULA
     return replace(
         found,
         potential=letters.put_in(found.potential),
@@ -127,8 +130,8 @@ def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
         ends=tuple(map(letters.said, found.ends)),
         excluded=tuple(relation for relation in excluded if relation != sympy.false),
         levels=tuple(one for one in levels if sympy.false not in one.conditions),
-        algebraic=tuple(one for one in algebraic if sympy.false not in one.conditions),
-        reason=letters.said(found.reason),
+        algebraic=algebraic,
+        reason=reason,
     )
 
 

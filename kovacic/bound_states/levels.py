@@ -22,6 +22,7 @@ from kovacic.writing.formula import caret
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+NO_FORMULA = "undecided: no formula for all levels is known"
 #: The n that are tried for a potential without parameters: more levels than that are shown by their condition.
 _MOST = 200
 #: Longer exact energies are drawn as decimals.

@@ -134,7 +134,8 @@ def read_question(
 
     Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
     """
-    _check_options(energy)
+    if not isinstance(energy, str) or not energy.isidentifier():
+        raise InputError(f"{energy!r} can't be the name of the energy")
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     ends = [read_end(value) for value in domain]
@@ -230,12 +231,6 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
             )
         wishes[places[0]] = Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
     return Boundary((wishes[0], wishes[1]), boundary)
-
-
-def _check_options(energy: Any) -> None:
-    """Raises `InputError` for what can't be the name of the energy."""
-    if not isinstance(energy, str) or not energy.isidentifier():
-        raise InputError(f"{energy!r} can't be the name of the energy")
 
 
 def _names(parsed: Parsed, ends: list[Any], *, variable: str, energy: str) -> tuple[str, ...]:
