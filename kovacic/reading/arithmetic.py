@@ -188,8 +188,14 @@ class Arithmetic:
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
         n = self._integer_of(exponent)
-        self._check_power(n)
-        if isinstance(base, Monomial) and n > 0 and _has_small_power(base.coefficient, n):
+        if abs(n) > self.limits.exponent:
+            shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
+            raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
+        if (
+            isinstance(base, Monomial)
+            and n > 0
+            and (base.coefficient == 1 or n * _bits(base.coefficient) <= _SMALL_BITS)
+        ):
             self._check(base.power * n, 0)
             return Monomial(base.coefficient**n, base.power * n)
         base = self.closed(base)
@@ -250,12 +256,6 @@ class Arithmetic:
         den = self._poly_power(below, abs(n))
         leading = den.lc.inverse()
         return RatFunc(num * leading, den * leading, reduced=True)
-
-    def _check_power(self, n: int) -> None:
-        """Refuses exponents that are too large."""
-        if abs(n) > self.limits.exponent:
-            shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
-            raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
 
     def _check(self, degree: int, bits: int) -> None:
         limits = self.limits
@@ -333,10 +333,6 @@ def _bits(value: int | Fraction) -> int:
     if type(value) is int:
         return value.bit_length()
     return max(value.numerator.bit_length(), value.denominator.bit_length())
-
-
-def _has_small_power(coefficient: int | Fraction, n: int) -> bool:
-    return coefficient == 1 or n * _bits(coefficient) <= _SMALL_BITS
 
 
 def _term(coefficient: int | Fraction, power: int) -> Monomial | Poly:

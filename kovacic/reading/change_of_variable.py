@@ -187,19 +187,17 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
     def is_product_with_x(e: Any) -> bool:
         return bool(e.is_Pow and e.base.is_Mul and e.base.has(x))
 
-    found = expression.replace(_is_log_of_exponential, lambda e: e.args[0].exp)
+    def is_log_of_exponential(e: Any) -> bool:
+        return e.func is sympy.log and e.args[0].func is sympy.exp
+
+    def is_power_of_exponential(e: Any) -> bool:
+        return bool(e.is_Pow and e.base.func is sympy.exp)
+
+    found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
     found = found.replace(_is_exponential_and_one, _hyperbolic)
     found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True))
-    found = found.replace(_is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
+    found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
     return sympy.powsimp(found, combine="exp")
-
-
-def _is_log_of_exponential(e: Any) -> bool:
-    return e.func is sympy.log and e.args[0].func is sympy.exp
-
-
-def _is_power_of_exponential(e: Any) -> bool:
-    return bool(e.is_Pow and e.base.func is sympy.exp)
 
 
 def _with_half_angles(expression: Any, t: Any) -> Any:

@@ -82,7 +82,7 @@ class Constants:
         """
         value = self._number(radicand)
         if value is None:
-            return _root_with_parameters(radicand, n)
+            return radicand.field.sqrt(radicand) if n == 2 else None
         if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:
             return _root_of_large(radicand).over(self.field)
         if not value:
@@ -214,13 +214,6 @@ def _minimal_polynomial(number: Any) -> Any:
     if isinstance(number, sympy.CRootOf):
         return number.poly
     return sympy.minimal_polynomial(number, sympy.Dummy(), polys=True)
-
-
-def _root_with_parameters(radicand: Poly, n: int) -> Poly | None:
-    """The root of what depends on parameters, in their field; None where it isn't there, and for all but square roots."""
-    if n == 2:
-        return radicand.field.sqrt(radicand)
-    return None
 
 
 def _root_of_large(radicand: Poly) -> Poly:

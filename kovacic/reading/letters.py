@@ -203,7 +203,10 @@ class _LetterTable:
         if line is not None:
             rates[one].append(one)
         roots = {monomial: self._root_of(base, monomial, of_monomial) for monomial, of_monomial in rates.items()}
-        found = {power: _in_roots(roots, terms) for power, terms in exponents.items()}
+        found = {
+            power: sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
+            for power, terms in exponents.items()
+        }
         if line is None:
             return _PowersInLetters(found, {})
         return _PowersInLetters(found, {line.symbol: line.symbol_for(roots[one].power(one))})
@@ -232,11 +235,6 @@ class _RootLetter(NamedTuple):
     def power(self, rate: Expr) -> Expr:
         """base^(rate m)."""
         return self.letter ** (rate / self.unit)
-
-
-def _in_roots(roots: dict[Expr, _RootLetter], terms: dict[Expr, Expr]) -> Expr:
-    """base^(sum of r m) by the roots for the monomials m: the product of the base^(r m)."""
-    return sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
 
 
 class _LinearForm(NamedTuple):
@@ -375,17 +373,12 @@ def _by_waves(kernel: Expr, waves: Sequence[Expr], pair: _SineAndCosine) -> Expr
     """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
     (argument,) = kernel.args
     arguments = {wave.args[0] for wave in waves}
-    if any(_is_multiple(argument, other) for other in arguments):
+    if any(argument != other and (argument / other).is_Integer for other in arguments):
         return sympy.expand_trig(kernel)
     has_others_beside = any(wave.args == kernel.args and wave != kernel for wave in waves)
     if not has_others_beside or isinstance(kernel, (pair.sine, pair.cosine)):
         return kernel
     return pair.quotient(kernel)
-
-
-def _is_multiple(argument: Expr, other: Expr) -> bool:
-    """Is it an integral multiple of another argument?"""
-    return bool(argument != other and (argument / other).is_Integer)
 
 
 def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:

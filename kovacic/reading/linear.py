@@ -90,11 +90,14 @@ class LinearArithmetic(Arithmetic):
         if not function:
             return sympy.Rational(0)
         function = over(function, (function.num * function.den).field)  # they may be over different fields: a/x^2
-        _check_bits(function)
+        bits = max(function.num.height_bits(), function.den.height_bits())
+        if bits > _LARGEST_BITS:  # too long to be printed
+            raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
         number = self.number(value)
         if number is not None:
             return sympy.Rational(number)
-        num, den = (_in_sympy(part, x) for part in function.cleared())
+        parts = ([c.to_sympy(x) * x**k for k, c in enumerate(part) if c] for part in function.cleared())
+        num, den = (sympy.Add(*terms) for terms in parts)
         return _with_chosen_root(num / den, function.field)
 
     def _checked(self, value: Any) -> Any:
@@ -320,32 +323,15 @@ def _is_zero(expression: Any) -> bool:
     return not expression.free_symbols and bool(expression.is_zero)
 
 
-def _check_bits(function: RatFunc) -> None:
-    """Raises `LimitExceeded` for coefficients that are too long to be printed."""
-    bits = max(function.num.height_bits(), function.den.height_bits())
-    if bits > _LARGEST_BITS:
-        raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
-
-
 def _with_chosen_root(expression: Any, field: Any) -> Any:
     """With the algebraic number in the place of its name, where it has one."""
     import sympy
 
-    if not (isinstance(field, AlgebraicField) and _is_named(field)):
+    # Any name that isn't an identifier is that of a radical.
+    if not isinstance(field, AlgebraicField) or not field.name.isidentifier() or field.name == "I":
         return expression
     root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
     return expression.xreplace({sympy.Symbol(field.name): root})
-
-
-def _in_sympy(polynomial: Poly, x: Any) -> Any:
-    import sympy
-
-    return sympy.Add(*(c.to_sympy(x) * x**k for k, c in enumerate(polynomial) if c))
-
-
-def _is_named(field: AlgebraicField) -> bool:
-    """Has its generator a name that has to be resolved?  Any other name is that of a radical, or I."""
-    return field.name.isidentifier() and field.name != "I"
 
 
 class Symbols:

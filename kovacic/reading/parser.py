@@ -26,6 +26,7 @@ _SIGNS = ("PLUS", "MINUS")
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
 _OPERANDS = frozenset({"NUMBER", "NAME", "PRIMED", "HEAD", "LPAR"})
 _OPERATORS = (*_BINARY, "CIRCUMFLEX")
+_NO_OPERANDS = (*_OPERATORS, "RPAR", "COMMA", "EQUAL")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
 #: So many parentheses and more are left to the reader to count.
@@ -458,93 +459,51 @@ class _Fault(NamedTuple):
 
 def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
     """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
-    if tokens.kinds[k] == "$END":
+    kind, piece = tokens.kinds[k], tokens.pieces[k]
+    before = tokens.kinds[k - 1] if k else ""
+    if kind == "$END":
         fault = _incomplete(tokens, k, opened)
-    elif tokens.kinds[k] == "RPAR":
-        fault = _closing(tokens, k, opened)
-    elif tokens.kinds[k] == "COMMA":
+    elif kind == "RPAR" and before == "LPAR":
+        hint = "leave them out, or write what belongs there"
+        fault = _Fault("there is nothing between these parentheses", k - 1, k, hint)
+    elif kind == "RPAR" and not opened:
+        fault = _Fault("this parenthesis closes nothing", k, k, "remove it, or open it before")
+    elif before in _OPERATORS and kind in _NO_OPERANDS:
+        said = f"something is missing between {tokens.pieces[k - 1]!r} and {piece!r}"
+        fault = _Fault(said, k - 1, k, "write the number or name that belongs there, or one of the signs")
+    elif kind == "COMMA":
         fault = _comma(tokens, k)
-    elif tokens.kinds[k] == "EQUAL":
-        fault = _equals(tokens, k)
-    elif tokens.kinds[k] in (*_OPERATORS, "SUPERSCRIPT"):
-        fault = _operator(tokens, k)
+    elif kind in (*_OPERATORS, "SUPERSCRIPT"):
+        hint = "write the number or name that belongs there"
+        fault = _Fault(f"there is nothing before {piece!r} for it to act on", k, k, hint)
     else:
-        fault = _misplaced(tokens, k)
+        hint = "an equation has one equals sign, outside all parentheses" if kind == "EQUAL" else ""
+        fault = _Fault(f"{piece!r} doesn't belong here", k, k, hint or None)
     return tokens.error(ParseError, fault.message, fault.begin, fault.last + 1, hint=fault.hint)
-
-
-def _kind_before(tokens: Tokens, k: int) -> str:
-    return tokens.kinds[k - 1] if k else ""
 
 
 def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
     """Of the end of the text."""
     last = end - 1
-    if _kind_before(tokens, end) in (*_OPERATORS, "EQUAL", "COMMA"):
+    if end and tokens.kinds[last] in (*_OPERATORS, "EQUAL", "COMMA"):
         return _Fault(f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it")
     if not opened:
         return _Fault("the expression isn't complete", end, end)
-    hint = "count the parentheses"
-    if len(opened) < _COUNTED:
-        hint = f"add {')' * len(opened)!r} where it ends"
+    hint = f"add {')' * len(opened)!r} where it ends" if len(opened) < _COUNTED else "count the parentheses"
     return _Fault("this parenthesis is never closed", opened[-1], opened[-1], hint)
-
-
-def _closing(tokens: Tokens, k: int, opened: Sequence[int]) -> _Fault:
-    """Of a closing parenthesis."""
-    before = _kind_before(tokens, k)
-    if before == "LPAR":
-        hint = "leave them out, or write what belongs there"
-        return _Fault("there is nothing between these parentheses", k - 1, k, hint)
-    if not opened:
-        return _Fault("this parenthesis closes nothing", k, k, "remove it, or open it before")
-    if before in _OPERATORS:
-        return _missing_operand(tokens, k)
-    return _misplaced(tokens, k)
 
 
 def _comma(tokens: Tokens, k: int) -> _Fault:
     """Of a comma outside calls, which may be that of a decimal, or separate values."""
-    before = _kind_before(tokens, k)
-    if before in _OPERATORS:
-        return _missing_operand(tokens, k)
     message = "a comma doesn't belong here"
-    if before == tokens.kinds[k + 1] == "NUMBER" and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
-        whole = tokens.pieces[k - 1]
-        digits = tokens.pieces[k + 1]
-        hint = f"decimals are written with a point: {whole}.{digits}"
-        if len(digits) == _GROUPED:
-            hint += f"; digits aren't grouped: {whole}{digits}"
-        return _Fault(message, k - 1, k, hint)
+    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
+        whole, digits = tokens.pieces[k - 1], tokens.pieces[k + 1]
+        grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
+        return _Fault(message, k - 1, k, f"decimals are written with a point: {whole}.{digits}{grouped}")
+    hint = "decimals are written with a point, and one expression is one S"
     if "EQUAL" in tokens.kinds[:k]:
         hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
-        return _Fault(message, k, k, hint)
-    return _Fault(message, k, k, "decimals are written with a point, and one expression is one S")
-
-
-def _equals(tokens: Tokens, k: int) -> _Fault:
-    """Of an equals sign."""
-    if _kind_before(tokens, k) in _OPERATORS:
-        return _missing_operand(tokens, k)
-    return _misplaced(tokens, k)._replace(hint="an equation has one equals sign, outside all parentheses")
-
-
-def _operator(tokens: Tokens, k: int) -> _Fault:
-    """Of a sign, or of a power, where an operand is expected."""
-    if _kind_before(tokens, k) in _OPERATORS and tokens.kinds[k] != "SUPERSCRIPT":
-        return _missing_operand(tokens, k)
-    message = f"there is nothing before {tokens.pieces[k]!r} for it to act on"
-    return _Fault(message, k, k, "write the number or name that belongs there")
-
-
-def _missing_operand(tokens: Tokens, k: int) -> _Fault:
-    """Between an operator and token k."""
-    message = f"something is missing between {tokens.pieces[k - 1]!r} and {tokens.pieces[k]!r}"
-    return _Fault(message, k - 1, k, "write the number or name that belongs there, or one of the signs")
-
-
-def _misplaced(tokens: Tokens, k: int) -> _Fault:
-    return _Fault(f"{tokens.pieces[k]!r} doesn't belong here", k, k)
+    return _Fault(message, k, k, hint)
 
 
 def listed(text: str, opening: str = "(", closing: str = ")") -> list[str]:

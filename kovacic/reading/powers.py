@@ -44,7 +44,8 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
         return None  # what isn't rational is a constant
     form = _ThetaForm(sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a))
     try:
-        found = _in_a_power(form, _waves_in(coefficients, x), source, limits)
+        waves = _waves_in(coefficients, x)
+        found = _of_waves(form, waves, source, limits) if waves else _of_power(form, source, limits)
     except NotRational:
         return None
     if found is None:
@@ -80,13 +81,6 @@ def _waves_in(coefficients: Sequence[Expr], x: Expr) -> list[Expr]:
     for coefficient in coefficients:
         found |= coefficient.atoms(*_WAVES)
     return [wave for wave in found if wave.has(x)]
-
-
-def _in_a_power(form: _ThetaForm, waves: Sequence[Expr], source: Source, limits: Limits) -> _InPower | None:
-    """The form (1); with waves of a power in an exponential of it.  None, or `NotRational`, where there is none."""
-    if waves:
-        return _of_waves(form, waves, source, limits)
-    return _of_power(form, source, limits)
 
 
 def _of_power(form: _ThetaForm, source: Source, limits: Limits) -> _InPower | None:

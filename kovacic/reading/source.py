@@ -16,7 +16,7 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader
 from kovacic.reading.lexer import Tokens, check_length
-from kovacic.reading.naming import Named, Vocabulary, chosen_variable
+from kovacic.reading.naming import Vocabulary, chosen_variable
 from kovacic.reading.parser import evaluate
 from kovacic.reading.pieces import Paste, taken_apart
 
@@ -61,21 +61,17 @@ def source_of(
     tokens = _only_equation(given)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
     named = vocabulary.equation(tokens) if equation or given.is_equation else vocabulary.S(tokens)
-    return _source(named, given, vocabulary)
-
-
-def _source(named: Named, paste: Paste, vocabulary: Vocabulary) -> Source:
     return Source(
         partial(evaluate, named.tokens),
         named.variable,
         named.unknown,
-        paste.text,
-        (*paste.notes, *named.notes),
+        given.text,
+        (*given.notes, *named.notes),
         named.tokens,
         named.has_operator,
         vocabulary.declared,
         has_functions=vocabulary.unknown is not None,
-        guesses=(*paste.notes, *named.guesses),
+        guesses=(*given.notes, *named.guesses),
     )
 
 

@@ -47,7 +47,9 @@ class Template:
         places = [k for k, piece in enumerate(tokens.pieces) if piece in names]
         for k in places:
             if tokens.kinds[k] != "NAME":
-                raise _as_function(tokens, k)
+                name = tokens.pieces[k]
+                said = f"the parameter {name} is followed by a parenthesis like a function"
+                raise tokens.error(InputError, said, k, k + 1, hint=f"for a product write {name}*(...)")
         #: The parameters in the order of the text, and the pieces of text before, between and behind them.
         self._names = [tokens.pieces[k] for k in places]
         self._pieces: list[str] = []
@@ -77,13 +79,6 @@ def _tokens(text: str, names: Sequence[str], variable: str | None) -> Tokens:
         return tokenize(text)
     assert tokens is not None
     return tokens
-
-
-def _as_function(tokens: Tokens, k: int) -> InputError:
-    """What to say of a parameter, token k, that is followed by a parenthesis."""
-    name = tokens.pieces[k]
-    message = f"the parameter {name} is followed by a parenthesis like a function"
-    return tokens.error(InputError, message, k, k + 1, hint=f"for a product write {name}*(...)")
 
 
 def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
@@ -144,14 +139,17 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
     if not isinstance(assume, Mapping):
         return Substituted(S, parsed, assume)
     told = {name: _told(str(name), what) for name, what in assume.items()}
-    values = {str(name): what for name, what in told.items() if not _is_assumption(what)}
+    values = {str(name): what for name, what in told.items() if _WORDS.fullmatch(plain_text(what)) is None}
     if not values:
         return Substituted(S, parsed, told or assume)
-    _check_parameters(values, parameters_of(parsed.S.field))
+    names = parameters_of(parsed.S.field)
+    for name in values:
+        if name not in names:
+            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
     texts = {name: value_text(value, name, parsed.variable, limits) for name, value in values.items()}
     template = _text_with_parameters(S, parsed)
     filled = Template(template, [*texts], _user_variable(parsed)).filled(texts)
-    declared = words_among(parameters_of(parsed.S.field))
+    declared = words_among(names)
     read = read_input(filled, var=_user_variable(parsed), limits=limits, exponentials=True, names=declared)
     others = {name: what for name, what in told.items() if str(name) not in texts}
     return Substituted(filled, read, others or None)
@@ -165,18 +163,6 @@ def _told(name: str, what: Any) -> Any:
     if chain is None or chain[0] != name:
         return what
     return chain[1]
-
-
-def _is_assumption(what: Any) -> bool:
-    """Is it what is known about a parameter, and not its value?"""
-    return _WORDS.fullmatch(plain_text(what)) is not None
-
-
-def _check_parameters(values: Mapping[str, Any], names: Sequence[str]) -> None:
-    """Raises `InputError` for the value of what isn't among the parameters."""
-    for name in values:
-        if name not in names:
-            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
 
 
 def _text_with_parameters(S: Any, parsed: Parsed) -> str:
