@@ -150,3 +150,9 @@ def test_a_stiff_equation_takes_one_step() -> None:
     with bounded_work(1000):
         value = kovacic.evaluate("y'' + 1000*y' + 1000*y = sin(x)", 200, x0=0, y0=1, dy0=0)
     assert value.digits >= 15
+    far = kovacic.evaluate("y'' + y = sin(x)", 10**300, x0=0, y0=0, dy0=0)  # (sin(x) - x cos(x))/2
+    with mpmath.workdps(400):
+        x = mpmath.mpf(10) ** 300
+        assert far.contains((mpmath.sin(x) - x * mpmath.cos(x)) / 2)
+    with pytest.raises(kovacic.LimitExceeded, match="loses? .* bits"):
+        kovacic.evaluate("y'' + y = sin(x)", 10**5000, x0=0, y0=0, dy0=0)

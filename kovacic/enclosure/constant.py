@@ -16,22 +16,27 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy
-from flint import acb, acb_mat, acb_poly, arb
+from flint import acb, acb_mat, acb_poly, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.analytic import AnalyticWay
 from kovacic.enclosure.constants import Constant, Number, in_balls
 from kovacic.enclosure.embedded import root_of
+from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, real_part
 from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.problem import Coefficients, NumericProblem
 from kovacic.enclosure.way import Traveller
+from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 
 _LARGEST = 12
 """The length of g, at most: matrices of these sizes cost less than a disc."""
+_LONGEST = 10_000
+"""Bits by which the precision may rise for a long way: half a second (measured)."""
 Term = tuple[Any, tuple[Any, ...]]
 
 
@@ -65,7 +70,8 @@ class ConstantWay(AnalyticWay):
             A[row, row] = rate
             if k > 0:  # (t^k exp(alpha t))' = alpha t^k exp(alpha t) + k t^(k-1) exp(alpha t)
                 A[row, row - 1] = acb(k)
-        E = (A * to_acb(b - a)).exp()
+        with working_precision(ctx.prec + self._lost_bits(A, b - a)):
+            E = (A * to_acb(b - a)).exp()
         ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
         matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
         added = [sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1)]
@@ -74,6 +80,14 @@ class ConstantWay(AnalyticWay):
             added = [acb(value.real) for value in added]
         y, dy = apply(matrix, particular)
         return product.after(matrix), (y + added[0], dy + added[1])
+
+    def _lost_bits(self, A: acb_mat, step: ExactPoint) -> int:
+        """By halving (v - u) A until it is small, and as many squares; raises LimitExceeded for numbers that are too long."""
+        size = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(step))
+        bits = 4 * max(0, upper_exponent(size))  # each square makes a ball a few times as wide
+        if bits > _LONGEST:
+            raise LimitExceeded(f"the way is so long that values lose {bits} bits", limit="digits")
+        return bits
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         return {stop: traveller.moved(stop).state for stop in stops}
