@@ -46,7 +46,7 @@ from kovacic import Solution, Structure
 from kovacic.closed_form.klein import covariants
 from kovacic.decision import SemiInvariant
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
-from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, integral
+from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed
 from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
@@ -141,7 +141,7 @@ def quadrature_leg(closed: CaseOneForm, a: acb, b: acb) -> Matrix:
         y, dy = E * p, E * (t * p + P.derivative()(x))
         return fundamental((y, dy), (alpha / E + y * area, (A.derivative()(x) - t * alpha + B(x) * p) / E + dy * area))
 
-    at_b = states(b, theta.growth(a, b), integral(integrand, a, b))
+    at_b = states(b, theta.growth(a, b), acb.integral(integrand, a, b))
     return multiply(at_b, adjugate(states(a, acb(1), acb(0))))  # the Wronskian is 1
 
 
@@ -235,7 +235,7 @@ class Pair:
             slope, f = omega(x), E * self.P(x)
             return (y, y * slope), (f / y, (E * self.first(x) - f * slope) / y)
 
-        growth = integral(omega, a, b).exp()
+        growth = acb.integral(omega, a, b).exp()
         at_a, at_b = states(a, acb(1), acb(1)), states(b, self.theta.growth(a, b), growth)
         return quotient(fundamental(*at_b), fundamental(*at_a))
 

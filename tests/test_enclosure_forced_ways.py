@@ -154,5 +154,5 @@ def test_a_stiff_equation_takes_one_step() -> None:
     with mpmath.workdps(400):
         x = mpmath.mpf(10) ** 300
         assert far.contains((mpmath.sin(x) - x * mpmath.cos(x)) / 2)
-    with pytest.raises(kovacic.LimitExceeded, match="loses? .* bits"):
+    with pytest.raises(kovacic.LimitExceeded, match="values lose"):
         kovacic.evaluate("y'' + y = sin(x)", 10**5000, x0=0, y0=0, dy0=0)

@@ -15,15 +15,14 @@ import flint
 import mpmath
 import pytest
 from build import Budget, ExactPoint, System, as_problem, make_frame
-from clocks import controlled, interrupted
 from flint import acb, acb_poly, arb, arb_poly, ctx, fmpq, fmpq_poly
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from kovacic import Ball, InputError, LimitExceeded, Limits
+from kovacic import Ball, InputError, Limits
 from kovacic.enclosure import frobenius
 from kovacic.enclosure.frame import least_growth, shift
-from kovacic.enclosure.log_derivative import _principal_part, integral
+from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State
 from kovacic.enclosure.points import as_point
 from kovacic.enclosure.singular import Singular
@@ -329,15 +328,3 @@ def test_the_tail_is_below_its_bound(seed: int) -> None:
             float((a - b).abs_upper()) < 2.0**-20 * max(1.0, float(b.abs_upper()))
             for a, b in zip(few, many, strict=True)
         )
-
-
-@pytest.mark.parametrize("looks", [2, 3, 11, 41])
-def test_a_quadrature_can_be_stopped_and_leaves_the_precision_alone(looks: int) -> None:
-    before = flint.ctx.prec
-    for stopping, error in (
-        (interrupted(looks), KeyboardInterrupt),
-        (controlled(looks_in_time=looks - 1), LimitExceeded),
-    ):
-        with pytest.raises(error), flint.ctx.workprec(500), stopping, Budget().watched():
-            integral(lambda z, _: (z * z).exp(), flint.acb(0), flint.acb(5))
-        assert flint.ctx.prec == before

@@ -1,5 +1,5 @@
 """Exact polynomials and rational functions in balls, and exp(int theta) for rational theta: partial fractions, with powers
-and logarithms followed along straight legs; and rigorous integrals of other functions, that can be stopped.
+and logarithms followed along straight legs.
 
 The guarantee: `growth(a, b)` contains exp(int_a^b theta dx) along the straight segment, if it returns.
 
@@ -25,10 +25,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.enclosure.points import kept_at_precision
-from kovacic.errors import LimitExceeded
-from kovacic.limits import check_duration, check_time
-
-_NODES = 3e-11  # seconds that the nodes of a quadrature take, over bits^2.7 (measured): they are computed in one piece
+from kovacic.limits import check_time
 
 
 def conjugates(field: Field) -> list[acb | None]:
@@ -173,32 +170,3 @@ def _taylor(poly: acb_poly, point: acb, count: int) -> list[acb]:
         derivative = derivative.derivative()
         factorial *= n + 1
     return found
-
-
-def integral(function: Callable[[acb, bool], acb], a: acb, b: acb) -> acb:
-    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
-
-    Raises LimitExceeded when the time is over.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
-    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
-    the exception comes after.
-    """
-    stopped: BaseException | None = None
-
-    def guarded(z: acb, analytic: bool) -> acb:
-        nonlocal stopped
-        if stopped is None:
-            try:
-                check_time()
-                return function(z, analytic)
-            except (LimitExceeded, KeyboardInterrupt) as reason:
-                stopped = reason
-        return acb(0)
-
-    check_duration(_NODES * ctx.prec**2.7, f"a quadrature with {ctx.prec} bits")
-    try:
-        result: acb = acb.integral(guarded, a, b)
-    except SystemError as error:  # the interrupt came between two calls of the integrand
-        raise error.__cause__ or error from None
-    if stopped is not None:
-        raise stopped
-    return result
