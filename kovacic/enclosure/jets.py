@@ -129,8 +129,8 @@ class CoefficientField:
             rate = _rate(near[0] * h, near[1] * h * h)
             growth = int(1.4427 * min(steepest, float(rate)))  # log2(e): in bits
             bits = prec + growth + _SPARE
-            # An error of dy/du counts for y beyond the disc: over the size of the disc, where that is small.
-            lost = max(0, int(-log2(rate))) if rate > 0 else 0
+            # An error of dy/du counts for y beyond a small disc, over its size; but not where the coefficients are small.
+            lost = max(0, min(-e, int(-log2(rate)))) if rate > 0 else 0
             bounds = []
             for radius in _RADII:
                 sizes = self.sizes(centre, h * radius)
