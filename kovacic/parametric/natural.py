@@ -176,29 +176,18 @@ class Natural(Statement):
             return _has_form(S, self.m)
         return any(_has_solution(S, number) for number in numbers)
 
-    def _given(self, number: int) -> Iterator[_Given]:
+    def determinants(self, number: int) -> tuple[Determinant, ...]:
+        """Delta for one natural number, for each way in which the exponents give it."""
+        return _determinants(self, number)
+
+    def given(self, number: int) -> Iterator[_Given]:
         """Where the exponents give the number."""
         for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors or ()):
             surface = hypersurface(exponents)
             with suppress(ZeroDivisionError):
                 yield _Given(exponents, surface, surface.restricted(self.S))
 
-    def determinants(self, number: int) -> list[Determinant]:
-        """Delta for one natural number, for each way in which the exponents give it."""
-        found: list[Determinant] = []
-        for exponents, surface, S in self._given(number):
-            if self.m == 1 and is_too_large(S.field):
-                found.append(Determinant(exponents))
-                continue
-            problem = analyse(S, Budget())
-            for conditions in self._conditions(problem, number):
-                determinant = _determinant(exponents, conditions, deficient=conditions.deficient and self.m == 1)
-                determinant = determinant.rewritten(partial(surface.back, field=exponents.field))
-                if determinant not in found:
-                    found.append(determinant)
-        return found
-
-    def _conditions(self, problem: Problem, number: int) -> list[RankConditions]:
+    def conditions(self, problem: Problem, number: int) -> list[RankConditions]:
         """One for each choice of exponents."""
         if self.m > 1:
             return [form_conditions(problem, self.m)]
@@ -214,7 +203,7 @@ class Natural(Statement):
         if number is None or self.m > 1:
             return ()
         found: dict[PolynomialSolution, None] = {}
-        for exponents, surface, S in self._given(number):
+        for exponents, surface, S in self.given(number):
             if surface.curve or is_too_large(S.field):
                 continue
             for choice in choices_of_degree(analyse(S, Budget()), number) or ():
@@ -316,12 +305,22 @@ def _has_no_natural_root(factor: FunctionPoly, assumptions: Assumptions) -> bool
     return all(assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c)
 
 
-def _determinant(exponents: FunctionPoly, conditions: RankConditions, *, deficient: bool) -> Determinant:
-    if deficient:
-        return Determinant(exponents, (exponents - exponents,))
-    if conditions.system is None:
-        return Determinant(exponents)
-    return Determinant(exponents, conditions.polynomials, conditions.system)
+@lru_cache(maxsize=64)
+def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
+    """Computed once for samples, lists and theorems."""
+    found: dict[Determinant, None] = {}
+    for exponents, surface, S in statement.given(number):
+        if statement.m == 1 and is_too_large(S.field):
+            found[Determinant(exponents)] = None
+            continue
+        for conditions in statement.conditions(analyse(S, Budget()), number):
+            determinant = Determinant(exponents, conditions.polynomials, conditions.system or ())
+            if conditions.deficient and statement.m == 1:
+                determinant = Determinant(exponents, (exponents - exponents,))
+            elif conditions.system is None:
+                determinant = Determinant(exponents)
+            found[determinant.rewritten(partial(surface.back, field=exponents.field))] = None
+    return tuple(found)
 
 
 @lru_cache(maxsize=256)

@@ -72,6 +72,8 @@ def shorter_sum(exponent: Any) -> Any:
     roots, rational = sympy.sift(
         sympy.Add.make_args(terms), lambda term: any(not e.exp.is_Integer for e in term.atoms(sympy.Pow)), binary=True
     )
+    if all(sympy.denom(term).is_number for term in rational):  # a polynomial already
+        return terms
     fraction = sympy.cancel(sympy.Add(*rational))
     if sympy.count_ops(fraction) >= sympy.count_ops(sympy.Add(*rational)):
         return terms
