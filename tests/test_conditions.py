@@ -462,6 +462,7 @@ def test_an_incomplete_answer_is_for_generic_values() -> None:
     heun = "a/x^2 + b/(x-1)^2 + c/(x-t)^2 + (e*x+q)/(x*(x-1)*(x-t))"
     answer = kovacic.conditions(heun, var="x", limits=Limits(seconds=0.5))
     assert not answer.within_limits
+    assert not type(answer).from_json(answer.to_json()).within_limits
     assert "for generic values: no Liouvillian solution" in str(answer)
     assert "otherwise, for generic values" in answer.latex()
     unfinished = kovacic.conditions("x^6 - 200000003*x^2 + b", var="x", limits=Limits(seconds=0.5))

@@ -18,9 +18,9 @@ from kovacic.parametric.charts import equations_on, normal_form, without_implied
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.letters import Letters
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.partition import LIMITED, Partition, Settings, as_far_as, partition, together
+from kovacic.parametric.partition import Partition, Settings, partition, together
 from kovacic.parametric.powers import in_powers
-from kovacic.parametric.regions import ParameterRegion, settled, verdict_of
+from kovacic.parametric.regions import Limited, ParameterRegion, settled, verdict_of
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement
@@ -68,11 +68,10 @@ def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
         with bounded_work(_STRATA):
             found = partition(powers.S, settings)
     except LimitExceeded as limit:
-        return replace(direct, complete=as_far_as(limit))
+        return replace(direct, complete=Limited.by(limit))
     if found.complete is True:
         return replace(found, regions=tuple(map(powers.back, found.regions)))
-    is_limited = str(found.complete).startswith(LIMITED)
-    return replace(direct, complete=found.complete) if is_limited else direct
+    return replace(direct, complete=found.complete) if isinstance(found.complete, Limited) else direct
 
 
 def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:

@@ -36,7 +36,7 @@ from kovacic.parametric.record import (
     verdict_data,
     verdict_from,
 )
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, said_of, settled
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, said_of, settled
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
@@ -121,7 +121,7 @@ class ParametricAnswer:
     @property
     def within_limits(self) -> bool:
         """Was everything examined, without reaching a limit of time?"""
-        return self.complete is True or not str(self.complete).startswith("only as far")
+        return not isinstance(self.complete, Limited)
 
     def region_at(self, values: Values) -> ParameterRegion | None:
         """The region that contains a point; None for the generic one.
@@ -377,6 +377,7 @@ class ParametricAnswer:
             "theory": self.theory,
             "notices": list(self.notices),
             "equation": equation_data(self.equation),
+            **({} if self.within_limits else {"within_limits": False}),
             **({"names": list(self.names)} if self.letters else {}),
             **constant_data(self.constant),
         }
@@ -428,7 +429,7 @@ class ParametricAnswer:
                 letters=letters,
                 regions=tuple(regions),
                 generic=verdict_from(data["generic"]["verdict"]),
-                complete=data["complete"],
+                complete=data["complete"] if data.get("within_limits", True) else Limited(data["complete"]),
                 theory=data["theory"],
                 assumptions=read_assumptions(data["assumptions"] or None, None, names),
                 S=reader.function(data["S"], variable),

@@ -31,7 +31,7 @@ from kovacic.limits import Budget, count_work
 from kovacic.parametric import prose, restriction
 from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, verdict_of
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, verdict_of
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
 from kovacic.parametric.solutions import solutions_there
@@ -39,8 +39,6 @@ from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, bo
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.writing.formula import Math
 
-#: How completeness begins where a limit was reached.
-LIMITED = "only as far as the limits allowed"
 #: Said of a theory that holds for an equation without apparent singularities.
 _TRANSFORMED = ", after Darboux' transformation"
 #: What is a formula in the name of a group.
@@ -92,7 +90,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
-        return Partition(verdict, as_far_as(limit), "nothing but the generic answer")
+        return Partition(verdict, Limited.by(limit), "nothing but the generic answer")
 
 
 def _is_reducible(verdict: RegionVerdict) -> bool:
@@ -176,7 +174,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
             complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
         _add_special(regions, findings.candidates, problem, expected, settings)
     except LimitExceeded as limit:
-        complete = as_far_as(limit)
+        complete = Limited.by(limit)
     _add_natural(regions, findings, half_integers, expected, settings)
     if complete is True:
         complete = together(regions)
@@ -250,13 +248,9 @@ def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Setting
         try:
             regions += _pieces(S, function, settings)
         except LimitExceeded as limit:
-            regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, as_far_as(limit)))
+            regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, Limited.by(limit)))
         settings = settings.also(function)
     return regions
-
-
-def as_far_as(limit: LimitExceeded) -> str:
-    return f"{LIMITED}: {limit}"
 
 
 def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:

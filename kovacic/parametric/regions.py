@@ -29,6 +29,14 @@ from kovacic.parametric.statements import (
 _WRITTEN_OUT = 300
 
 
+class Limited(str):
+    """What isn't proven because a limit of the call ended the search; no larger limit changes any other such sentence."""
+
+    @classmethod
+    def by(cls, limit: LimitExceeded) -> Limited:
+        return cls(f"only as far as the limits allowed: {limit}")
+
+
 @dataclass(frozen=True)
 class RegionVerdict:
     """What holds in a region of parameters.
