@@ -41,11 +41,13 @@ from kovacic.engine.riccati import numerators
 from kovacic.equation import parameters_of
 from kovacic.limits import check_time
 
+#: Families that are enumerated, or sums that are counted apart; all of a few are shown and tried.
 _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
+#: Points beyond which families aren't counted.
 _MOST_SUMMED_POINTS = 24
 _HIGHEST_POLE_ORDER = 40
-#: Of the coefficients of r, and of all numbers.
+#: The degree over Q of the coefficients of r, and the one from which on no further roots are adjoined.
 _HIGHEST_DEGREE = 6
 _MOST_ROOTS = 256
 #: Multiplications of coefficients.
