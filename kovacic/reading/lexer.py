@@ -155,6 +155,15 @@ class Tokens:
     variable: str | None = None
     latex: bool = False
 
+    @cached_property
+    def spaced(self) -> str:
+        """The tokens as one text, a space between them, for patterns; "x^2" is "x ^ 2 "."""
+        return " ".join(self.pieces)
+
+    def number(self, offset: int) -> int:
+        """The number of the token with this character of `spaced`."""
+        return self.spaced.count(" ", 0, offset)
+
     def are(self, k: int, *kinds: str) -> bool:
         """True if the tokens from number k on have these kinds."""
         return self.kinds[k : k + len(kinds)] == [*kinds]

@@ -8,10 +8,10 @@ meant.  It is decided here once; the reasons are notes.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, UNKNOWN
 from kovacic.errors import InputError, ParseError
@@ -29,6 +29,12 @@ _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _DIGITS = "0123456789"
+_NAME = r"[^\W\d]\w*"
+_ROOT = re.compile(r"\^ 1 / (\d+)(?!\S)")
+_STIFFNESS = re.compile(r"(?<!\S)(?:E (?:\* )?I|I (?:\* )?E)(?!\S| \()")
+_EXPONENT = re.compile(rf"(?<!\S)e \^ (- )?[\d.]+ ({_NAME})(?!\S| \()")
+_PRIMED = re.compile(rf"(?<!\S)({_NAME})'+(?!\S)")
+_DIFFERENTIATED = re.compile(rf"(?<!\S)(?:({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \( ({_NAME})(?= [(,)]))(?!\S)")
 _NAMED = ("NAME", "PRIMED", "HEAD")
 
 
@@ -56,10 +62,10 @@ class Vocabulary:
 
     def equation(self, tokens: Tokens) -> Named:
         """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
-        notes = [*_guesses(tokens)]
+        notes = _guesses(tokens)
         has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
         has_operator = OPERATOR not in self.declared and OPERATOR in tokens.names() and not has_other
-        y = self.unknown or _primed(tokens, self.declared) or _differentiated(tokens)
+        y = self.unknown or _primed(tokens, self.declared) or next(iter(differentiated(tokens)), None)
         if y is None:  # what the operator D is applied to
             usual = [name for name in tokens.names() if name in _USUAL_UNKNOWNS]
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
@@ -146,27 +152,21 @@ class Vocabulary:
 # ------------------------------------------------------------------------------------------------- what is asked back
 
 
-def _guesses(tokens: Tokens) -> Iterator[str]:
+def _guesses(tokens: Tokens) -> list[str]:
     """What may have been meant in another way: x^1/2 is x/2."""
-    for k, kind in enumerate(tokens.kinds):
-        if kind == "CIRCUMFLEX" and tokens.are(k + 1, "NUMBER", "SLASH", "NUMBER") and tokens.pieces[k + 1] == "1":
-            below = tokens.pieces[k + 3]
-            yield f"^1/{below} was read as (...)^1 divided by {below}; a root is written ^(1/{below})"
-            return
+    said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
+    return [said.format(found[1]) for found in _ROOT.finditer(tokens.spaced)][:1]
 
 
 def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
     """Raises `ParseError` for E I, which may be a stiffness, or the energy times the imaginary unit."""
-    if "I" in declared:
+    found = _STIFFNESS.search(tokens.spaced)
+    if found is None or "I" in declared:
         return
-    names = [k for k, kind in enumerate(tokens.kinds) if kind == "NAME" and tokens.pieces[k] in ("E", "I")]
-    for k, other in pairwise(names):
-        is_product = other == k + 1 or (other == k + 2 and tokens.kinds[k + 1] == "STAR")
-        if is_product and {tokens.pieces[k], tokens.pieces[other]} == {"E", "I"}:
-            hint = "take one letter for a stiffness, such as B; or declare I as a parameter: parameters=['I']"
-            shell = "take one letter for a stiffness, such as B; or declare I as a parameter: --names I"
-            said = "E I may be a stiffness, or an energy times the imaginary unit"
-            raise tokens.error(ParseError, said, k, other + 1, hint=hint, shell=shell)
+    hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
+    said = "E I may be a stiffness, or an energy times the imaginary unit"
+    begin, last = tokens.number(found.start()), tokens.number(found.end())
+    raise tokens.error(ParseError, said, begin, last + 1, hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
 
 
 def _check_decimals(tokens: Tokens, variable: str) -> None:
@@ -185,17 +185,13 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
 
 def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
     """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
-    for k, piece in enumerate(tokens.pieces):
-        if piece != "^" or tokens.pieces[k - 1] != "e":
-            continue
-        number = k + 2 if tokens.are(k + 1, "MINUS") else k + 1
-        is_glued = tokens.are(number, "NUMBER", "NAME") and tokens.ends[number] == tokens.starts[number + 1]
-        if is_glued and tokens.pieces[number + 1] != unknown:
-            power = tokens.piece(k + 1, number + 1)
-            factor = tokens.pieces[number + 1]
-            whole = tokens.piece(k - 1, number + 2)
-            hint = f"write e^({power}*{factor}) or e^({power})*{factor}"
-            raise tokens.error(ParseError, f"{whole} can be read in two ways", k - 1, number + 2, hint=hint)
+    for found in _EXPONENT.finditer(tokens.spaced):
+        e, last = tokens.number(found.start()), tokens.number(found.end())
+        if found[2] != unknown and tokens.ends[last - 1] == tokens.starts[last]:
+            power = tokens.piece(e + 2, last)
+            hint = f"write e^({power}*{found[2]}) or e^({power})*{found[2]}"
+            whole = tokens.piece(e, last + 1)
+            raise tokens.error(ParseError, f"{whole} can be read in two ways", e, last + 1, hint=hint)
 
 
 # ------------------------------------------------------------------------------------------------- products
@@ -222,26 +218,18 @@ def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
 
 def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
     """The first name that has primes; x'' for mx''."""
-    for k, piece in enumerate(tokens.pieces):
-        bare = piece.rstrip(PRIMES)
-        if tokens.kinds[k] not in ("PRIMED", "HEAD") or bare == piece:
-            continue
-        is_glued = len(bare) == 2 and not is_letter(bare) and bare not in declared and bare[1] in _USUAL_UNKNOWNS
-        return bare[1] if is_glued else bare
-    return None
+    found = _PRIMED.search(tokens.spaced)
+    if found is None:
+        return None
+    name = found[1]
+    is_glued = len(name) == 2 and not is_letter(name) and name not in declared and name[1] in _USUAL_UNKNOWNS
+    return name[1] if is_glued else name
 
 
-def _differentiated(tokens: Tokens) -> str | None:
-    """y in the first one of diff(y, x), diff(y(x), x) and diff(y)."""
-    for k, kind in enumerate(tokens.kinds[:-3]):
-        if kind != "HEAD" or tokens.pieces[k] not in DERIVATIVES:
-            continue
-        inner = tokens.pieces[k + 2]
-        is_called = tokens.are(k + 2, "HEAD") and not is_function(inner) and inner not in DERIVATIVES
-        is_name = tokens.are(k + 2, "NAME", "COMMA") or tokens.are(k + 2, "NAME", "RPAR")
-        if is_called or is_name:
-            return inner
-    return None
+def differentiated(tokens: Tokens) -> list[str]:
+    """The names that have primes, or are y in diff(y, x), diff(y(x), x) and diff(y)."""
+    names = (found[1] or found[2] for found in _DIFFERENTIATED.finditer(tokens.spaced))
+    return [name for name in names if not is_function(name) and name not in DERIVATIVES]
 
 
 # ------------------------------------------------------------------------------------------------- the variable
@@ -253,7 +241,7 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
     if it occurs; else the only usual letter that occurs as only a variable does; else x, and all names are parameters.
     """
-    named = _argument_of(tokens, y)
+    named = argument_of(tokens, y)
     if named is not None:
         return named, None
     excluded = {*_NO_VARIABLES, y, *declared}
@@ -289,16 +277,11 @@ def _letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
     return [name for name in found if not is_function(name)]
 
 
-def _argument_of(tokens: Tokens, unknown: str) -> str | None:
-    """The name in y''(x), or in D(y, x); None where the unknown function stands alone."""
-    for k, piece in enumerate(tokens.pieces):
-        if piece.rstrip(PRIMES) != unknown:
-            continue
-        if tokens.are(k, "HEAD", "LPAR", "NAME", "RPAR") or tokens.are(k, "NAME", "COMMA", "NAME"):
-            return tokens.pieces[k + 2]
-        if tokens.are(k - 2, "HEAD", "LPAR", "NAME", "COMMA", "LPAR", "NAME"):  # Derivative(y, (x, 2))
-            return tokens.pieces[k + 3]
-    return None
+def argument_of(tokens: Tokens, unknown: str) -> str | None:
+    """The name in y''(x), or in D(y, x) and Derivative(y, (x, 2)); None where the unknown function stands alone."""
+    pattern = rf"(?<!\S){re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))(?!\S)"
+    found = re.search(pattern, tokens.spaced)
+    return found and (found[1] or found[2])
 
 
 #: Where only a variable stands: in a function or an exponent, before a power, in a denominator or a sum in parentheses.

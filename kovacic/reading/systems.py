@@ -17,8 +17,8 @@ import sympy
 
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
-from kovacic.reading.naming import Vocabulary
+from kovacic.reading.lexer import Tokens
+from kovacic.reading.naming import Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import evaluate
 from kovacic.reading.pieces import Paste, taken_apart
 from kovacic.reading.symbolic import SymbolicReader
@@ -42,7 +42,7 @@ def read_equations(
     """The equations of a text, of any order; `names` are declared parameters.  Raises `InputError`."""
     paste = text if isinstance(text, Paste) else taken_apart(text)
     limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
-    unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in _differentiated(tokens)))
+    unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in differentiated(tokens)))
     if not unknowns:
         raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
     chosen = var or paste.variable or _variable(paste.equations, unknowns)
@@ -59,25 +59,11 @@ def read_equations(
     return SystemReading(tuple(equations), functions, paste.conditions, tuple(notes))
 
 
-def _differentiated(tokens: Tokens) -> list[str]:
-    """The names that have primes, or are differentiated."""
-    found = []
-    for k, piece in enumerate(tokens.pieces):
-        is_argument = k > 1 and tokens.pieces[k - 2] in DERIVATIVES and tokens.kinds[k - 1] == "LPAR"
-        if tokens.kinds[k] in ("PRIMED", "HEAD") and piece.endswith(PRIMES):
-            found.append(piece.rstrip(PRIMES))
-        elif is_argument and tokens.kinds[k] in ("NAME", "HEAD"):
-            found.append(piece)
-    return found
-
-
 def _variable(equations: Collection[Tokens], unknowns: Collection[str]) -> str:
     """What an unknown function is applied to or differentiated by; else t, and x where that occurs and isn't unknown."""
     for tokens in equations:
-        for k, piece in enumerate(tokens.pieces):
-            is_applied = tokens.are(k, "HEAD", "LPAR", "NAME", "RPAR") or tokens.are(k, "NAME", "COMMA", "NAME")
-            if piece.rstrip(PRIMES) in unknowns and is_applied:
-                return tokens.pieces[k + 2]
+        for name in filter(None, (argument_of(tokens, unknown) for unknown in unknowns)):
+            return name
     occurring = {name for tokens in equations for name in tokens.names()}
     if "x" in occurring and "x" not in unknowns and "t" not in occurring:
         return "x"
