@@ -95,6 +95,8 @@ def test_general_solutions_of_linear_equations(problem: tuple[Any, Any, int, Any
 
 
 def test_text_of_first_order() -> None:
+    g = sympy.Function("g")
+    assert kovacic.dsolve("y' + y = g(x)", "y").rhs.diff(x) == g(x) - kovacic.dsolve("y' + y = g(x)", "y(x)").rhs
     assert kovacic.dsolve("y' = a*y").rhs == sympy.Symbol("C1") * exp(sympy.Symbol("a") * x)
     assert kovacic.dsolve("y' + y = Heaviside(t - 1), y(0) = 0").rhs == (1 - exp(1 - t)) * Heaviside(t - 1)
     assert kovacic.dsolve("y' = y*tan(x)").rhs == sympy.Symbol("C1") / cos(x)

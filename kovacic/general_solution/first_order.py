@@ -125,7 +125,8 @@ def read_first_order(
     """The equation, None if it isn't of this kind; `names` are declared.  Raises `InputError` for what can't be read."""
     guesses: tuple[str, ...] = ()
     if isinstance(eq, str | Paste):
-        source = source_of(eq, var, limits, equation=True, names=names)
+        unknown = None if func is None else str(func).partition("(")[0]
+        source = source_of(eq, var, limits, unknown=unknown, equation=True, names=names)
         guesses = source.guesses
         eq = expression_of(source, limits)
     if not isinstance(eq, sympy.Basic):
