@@ -181,9 +181,10 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     expanded = sympy.expand(value) if value.has(sin, cos) else value
     terms = (sympy.Mul.make_args(term) for term in sympy.Add.make_args(expanded))
     if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
-        found = sympy.powsimp(TR8(expanded))
+        found = sympy.powsimp(sympy.expand(TR8(expanded)))
         yield found
         yield _factored(found)
+        yield sympy.collect(found, sorted(value.atoms(Heaviside), key=str), _factored)
 
 
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
