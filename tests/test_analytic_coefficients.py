@@ -155,7 +155,7 @@ def test_a_complex_way_around_a_singular_point() -> None:
     ("equation", "x0", "place"),
     [
         ("y'' + log(x)*y = 0", 1, -1),
-        ("y'' + sqrt(x)*y = 0", 1, 0),
+        ("y'' + sqrt(x)*y = 0", 1, -1),
         ("y'' + y/(x - sqrt(2)) + exp(x)*y = 0", 1, 2),
         ("y'' + y/sin(x^2) = 0", 1, 3),
         ("y'' + log(cos(x))*y = 0", 0, 2),

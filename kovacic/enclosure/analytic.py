@@ -158,10 +158,12 @@ class AnalyticWay(Way):
         return max(_STEEPEST, _SHARE * self.prec)
 
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
-        for end in dict.fromkeys((a, b)):
+        for name, end in (("start", a), ("end", b)):
             if not all(value.is_finite() for value in self.functions.values(to_acb(end))):
-                part = "right-hand side has" if self.problem else "coefficients have"
-                raise InputError(f"the {part} no value at {end}, an end of the path", hint="choose a point beside it")
+                said = f"the coefficients have no value at the {name} {end} of the path"
+                if self.problem is not None:
+                    said = f"the right-hand side has no value at {end}, an end of the path"
+                raise InputError(said, hint="choose a point beside it")
         if self.problem is not None:
             self.problem.check_segment(a, b)
         if self.problem is not None and self.problem.embedded is not None:

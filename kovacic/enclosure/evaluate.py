@@ -91,7 +91,8 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     equation
         S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high), an equation
         a y'' + b y' + c y = f, or a solution of this package.  All of them may have exp, log, sqrt, sin, tan, erf, ... in
-        them: then with y0 and dy0, by Taylor's method, where they are analytic (b/a, c/a and f/a) all along the path.
+        them: then with y0 and dy0, by Taylor's method, where b/a, c/a and f/a are analytic along the path; at the ends of a
+        line they need a value only, as sqrt(x) at 0.
         There may be algebraic constants; then no bound is lost, but the start is at a regular point.
     x : number, sequence or array
         Where: a number, a sequence of numbers, or a NumPy array.
