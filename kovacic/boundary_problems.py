@@ -223,7 +223,8 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
     if domain is not None:
         if isinstance(domain, str) or len(domain) != 2:
             raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-        ends = [_domain_end(value) for value in domain]
+        texts = [exact_text(value, "an end of the domain") for value in domain]
+        ends = [_INFINITE_ENDS.get(text) or read_expression(text, what="an end of the domain") for text in texts]
         if not points <= {*ends}:
             raise InputError("the conditions are at points that aren't the ends of the domain")
     elif not points:
@@ -244,11 +245,6 @@ def _position_of(end: Expr) -> float:
     if end.is_infinite:
         return float("inf") if end is sympy.oo else -float("inf")
     return float(ball(end).mid())
-
-
-def _domain_end(value: Any) -> Expr:
-    text = exact_text(value, "an end of the domain")
-    return _INFINITE_ENDS.get(text) or read_expression(text, what="an end of the domain")
 
 
 def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[int, tuple[Wish, Wish]]:
