@@ -50,6 +50,8 @@ from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed
 from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
+from kovacic.engine.riccati import Form, normalised
+from kovacic.engine.riccati import root as root_of
 from kovacic.limits import check_time
 
 Found = TypeVar("Found")
@@ -264,7 +266,12 @@ def charts(S: RatFunc, structure: Structure, invariant: Any) -> tuple[Chart, Cha
     """The three pairs (1)."""
     forms = covariants(S, structure, invariant)
     octahedral = structure is Structure.OCTAHEDRAL
-    v, f, t = forms.vertices, (forms.F if octahedral else forms.H), forms.edges
+    v, f, t = forms.F, forms.H, normalised(forms.T, forms.problem)
+    if octahedral:
+        v, f = root_of(forms.H, 2, forms.problem), forms.F
+        edges = t.P.exact_quotient(v.P)
+        assert edges is not None
+        t = Form(t.degree - v.degree, t.R - v.R, edges)
     nu, n = (Fraction(1, 5), 30) if structure is Structure.ICOSAHEDRAL else (Fraction(1, 4), 12)
     a, third = (Fraction(1, 6) - nu) / 2, Fraction(1, 3)
     b = a + Fraction(1, 2)

@@ -101,7 +101,7 @@ def test_published_equations_have_two_independent_checked_solutions(entry: publi
         assert form is not None
         assert len(answer.solutions) == 2
         # In case 3 Klein's forms are checked numerically, and Gauss' functions of a pull-back exactly.
-        assert form.checked == "exact" or (entry.case == 3 and form.checked == "numerical, 50 digits")
+        assert form.checked == "exact"
         if answer.S.num.height_bits() < 200:
             for real, imaginary in (("0.31", "0.83"), ("-1.7", "0.41"), ("-0.6", "-0.37"), ("2.9", "-0.2")):
                 check_at(answer, acb(real, imaginary).mid())

@@ -28,7 +28,7 @@ import kovacic
 from kovacic.closed_form.check import is_numerical_solution, value_at
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
-from kovacic.closed_form.klein import KleinForm
+from kovacic.closed_form.klein import Covariants
 from kovacic.closed_form.primitive import RationalPrimitive
 from kovacic.closed_form.product import product
 from kovacic.closed_form.real_pair import is_real_pair
@@ -305,7 +305,7 @@ def test_wrong_answers_do_not_pass_the_checks() -> None:
         ("-1", Conjugate),
         ("x^2 + 3", Triangular),
         ("1/x - 3/(16*x^2)", OnCurve),
-        ("(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)", KleinForm),
+        ("(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)", Covariants),
     ],
 )
 def test_structure_needs_no_sympy(S: str, kind: type) -> None:

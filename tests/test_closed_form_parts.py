@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from dataclasses import replace
 from fractions import Fraction
 
 import flint
@@ -20,15 +21,19 @@ from kovacic import Structure
 from kovacic.closed_form.curve import integrate_on_curve, unit
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive, integrate_exponential
-from kovacic.closed_form.form import ClosedForm, written
+from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.integrals import logarithms
-from kovacic.closed_form.klein import RATIOS, KleinForm
+from kovacic.closed_form.klein import RATIOS, Covariants
 from kovacic.closed_form.primitive import (
     integrate_inverse_square,
 )
 from kovacic.closed_form.product import product
+from kovacic.closed_form.structure import build
 from kovacic.closed_form.torsion import completed
+from kovacic.special import choice
 from kovacic.special.choice import solutions
+from kovacic.special.gauss import klein_pullback
+from kovacic.special.search import SpecialFunctions
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = RatFunc(QQ.poly([]))
@@ -168,16 +173,12 @@ def test_closed_forms_can_be_pickled() -> None:
 
 def test_pull_backs_give_their_function_back() -> None:
     form = closed_form_of(kovacic.solve("(-189*x**2 - 611)/(900*x**4 - 1800*x**2 + 900)"))  # by x^2
-    assert isinstance(form.structure, KleinForm)
+    assert isinstance(form.structure, Covariants)
     assert form.structure.J == 1 / X**2
-    assert str(written(form.structure, form.gauge, "x").y1) == (
-        "x**(1/30)*(x**2 - 1)**(1/3)*hyper((-1/60, 29/60), (4/5,), x**(-2))"
-    )
+    assert str(form.y1) == "(x**2 - 1)**(1/3)*hyper((-1/30, 11/30), (2/3,), 1/2 - x/2)"
 
 
 def test_exact_check_notices_every_changed_part() -> None:
-    from dataclasses import replace
-
     answer = kovacic.solve("6/x^2 - 1")
     form = closed_form_of(answer).structure
     assert not is_exact_solution(replace(form, A=form.A + 1), answer.S, ZERO)  # type: ignore[union-attr, arg-type, call-arg]
@@ -263,3 +264,18 @@ def test_what_is_left_and_why() -> None:
     assert "isn't a rational function times the exponential" in str(integrate_exponential(X, X + 1 / X))
     assert "residue" in str(integrate_exponential(1 / (X - 1), X * X))
     assert not isinstance(integrate_exponential(1 / (X - 1) + 1 / (X + 1), X * X), str)
+
+
+@pytest.mark.parametrize("S", KLEIN.values())
+def test_the_absolute_invariant_pulls_the_equation_back(S: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exactly, and where no other pull-back is found the solutions are written by it."""
+    answer = kovacic.solve(S)
+    found = build(answer.S, answer.decision, answer.gauge)
+    assert isinstance(found, Covariants)
+    assert klein_pullback(found).gives(answer.S)
+    assert not klein_pullback(replace(found, J=1 - found.J)).gives(answer.S)
+    monkeypatch.setattr(choice, "find", lambda *_, **__: SpecialFunctions(None, ()))
+    monkeypatch.setattr(choice, "find_transform", lambda *_: None)
+    form = choice.solutions(answer.S, answer.decision, answer.gauge)
+    assert all(y.has(sympy.hyper) for y in form)
+    assert sum(len(str(y)) for y in form) < 250

@@ -7,18 +7,15 @@ import random
 from random import Random
 from typing import Any
 
-import flint
 import mpmath
 import pytest
 import sympy
-from build import jet, parametrize, read_input
+from build import parametrize, read_input
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
-import kovacic
 from kovacic import dsolve
-from kovacic.closed_form.form import at_edges
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import Approach, UnknownLimit, limit_at
 from kovacic.general_solution.check import is_finite
@@ -372,24 +369,3 @@ def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
         for point in ("1.37", "0.61", "2.9"):
             value, size = (complex(sympy.N(e.subs("x", sympy.Float(point, 30)), 20)) for e in (difference, integrand))
             assert abs(value) < 1e-9 * (1 + abs(size))
-
-
-KLEIN = [
-    "(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)",
-    "(-135*x**2 + 80*x - 80)/(576*x**4 - 1152*x**3 + 576*x**2)",
-    "(-864*x**2 + 739*x - 675)/(3600*x**4 - 7200*x**3 + 3600*x**2)",
-]
-
-
-@pytest.mark.parametrize("S", KLEIN)
-def test_three_finite_groups_at_the_edges(S: str) -> None:
-    """The pair in 1/J solves the equation and isn't the one in J: at the poles of J its quotient is finite."""
-    answer = kovacic.solve(S)
-    form = answer.closed_form
-    assert form is not None
-    pair = at_edges(form.structure, answer.S, answer.gauge, "x")
-    assert pair is not None
-    with flint.ctx.workdps(40):
-        point = flint.acb("2.3", "0.4")
-        (u, du, _), (v, dv, _) = (jet(y, x, point) for y in pair)
-        assert not (u * dv - du * v).contains(0)

@@ -372,7 +372,8 @@ def test_initial_values_have_no_wronskian_of_values_below() -> None:
     turned = kovacic.dsolve("x*y'' + y' + x*y = 0", ics={"y'(1)": 0, "y(1)": 1}).rhs
     assert turned == solution
     airy = kovacic.dsolve("y'' - x*y = 1").rhs
-    assert airy.atoms(sympy.Integral) == {sympy.Integral(f(x), x) for f in (sympy.airyai, sympy.airybi)}
+    without_constants = {integral.function.as_independent(x)[1] for integral in airy.atoms(sympy.Integral)}
+    assert without_constants == {sympy.airyai(x), sympy.airybi(x)}
 
 
 def test_views_show_them() -> None:

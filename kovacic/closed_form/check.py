@@ -50,7 +50,7 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
         if not square or not solves:
             return False
         return isinstance(form, Conjugate) or _is_complete(form.integral)
-    raise TypeError("solutions of case 3 are checked numerically")
+    raise TypeError("the solutions of case 3 are pull-backs of Gauss' equation")
 
 
 def _without(gauge: RatFunc, y: Product) -> RatFunc:

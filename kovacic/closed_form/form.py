@@ -10,11 +10,10 @@ from typing import Any
 from sympy import Add, Mul, Symbol, exp
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, display, hypergeometric, rational
+from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
 from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import triangular
-from kovacic.closed_form.klein import Hypergeometric, KleinForm
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 from kovacic.errors import VerificationFailed
@@ -22,7 +21,6 @@ from kovacic.limits import check_time
 from kovacic.numerals import as_latex
 
 EXACT = "exact"
-NUMERICAL = "numerical, 50 digits"
 
 
 @dataclass(frozen=True)
@@ -40,8 +38,7 @@ class ClosedForm:
     gauge : RatFunc
         The logarithmic derivative of the factor that is in y1 and y2: 0 where S itself was given.
     checked : str
-        "exact" if the equation was verified in rational functions from the factors, or "numerical, 50 digits"; what is shown
-        has been checked at a point in either case.
+        "exact": the equation was verified in rational functions; what is shown has been checked at a point, too.
     notes : tuple of str
         What was left as an integral, and why; what is to be known about the formulas.
 
@@ -77,19 +74,18 @@ def written(structure: ClosedStructure, gauge: RatFunc, variable: str) -> Closed
     """The solutions that the structure says, as SymPy expressions; not checked yet."""
     atoms = Atoms(Symbol(variable))
     y1, y2, notes = expressions(structure, atoms)
-    checked = NUMERICAL if isinstance(structure, KleinForm) else EXACT
     notes = (*notes, *atoms.notes)
     build = partial(_same, structure)
-    return ClosedForm(one_exponential(y1), one_exponential(y2), atoms.x, gauge, checked, notes, build=build)
+    return ClosedForm(one_exponential(y1), one_exponential(y2), atoms.x, gauge, EXACT, notes, build=build)
 
 
 def verified(form: ClosedForm, structure: ClosedStructure, S: RatFunc) -> ClosedForm:
-    """The same, checked: the structure exactly in cases 1 and 2, and what is shown at a point.
+    """The same, checked: the structure exactly, and what is shown at a point.
 
     Raises `VerificationFailed` if a solution doesn't pass, which is a defect of this package.
     """
     check_time()
-    passed = isinstance(structure, KleinForm) or is_exact_solution(structure, S, form.gauge)
+    passed = is_exact_solution(structure, S, form.gauge)
     if not passed or not all(is_numerical_solution(y, form.variable, S, form.gauge) for y in form):
         raise VerificationFailed(f"a closed form for S = {S} failed its check; please report the equation")
     return form
@@ -110,7 +106,7 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         return triangular(form, atoms)
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
-    return *_hypergeometric(form.at_vertices, form.J, atoms), ()
+    raise TypeError("the solutions of case 3 are pull-backs of Gauss' equation")
 
 
 def one_exponential(y: Expr) -> Expr:
@@ -125,18 +121,3 @@ def one_exponential(y: Expr) -> Expr:
     if len(y.atoms(exp)) < 2:
         return y
     return y.replace(lambda e: e.is_Mul, merged)
-
-
-def _hypergeometric(pair: tuple[Hypergeometric, Hypergeometric], J: RatFunc, atoms: Atoms) -> tuple[Expr, Expr]:
-    z = atoms.factored(J)
-    first, second = (
-        Mul(display(y.factor, atoms), hypergeometric((rational(y.a), rational(y.b)), (rational(y.c),), z)) for y in pair
-    )
-    return first, second
-
-
-def at_edges(form: KleinForm, S: RatFunc, gauge: RatFunc, variable: str) -> tuple[Expr, Expr] | None:
-    """Two other solutions in case 3, functions of 1/J, for the poles of J; None where they don't pass the check."""
-    atoms = Atoms(Symbol(variable))
-    pair = _hypergeometric(form.at_edges, 1 / form.J, atoms)
-    return pair if all(is_numerical_solution(y, atoms.x, S, gauge) for y in pair) else None

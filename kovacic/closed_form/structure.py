@@ -16,7 +16,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, Unit, gathered_zeros, integrate_on_curve
 from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
-from kovacic.closed_form.klein import KleinForm, klein_form
+from kovacic.closed_form.klein import Covariants, covariants
 from kovacic.closed_form.primitive import OpenPrimitive, Primitive, RationalPrimitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product, written_length
 from kovacic.closed_form.torsion import completed
@@ -100,7 +100,7 @@ class OnCurve:
         return 2 * (self.common.length + written_length([*parts, *primitive_parts(self.integral)]))
 
 
-ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | KleinForm
+ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | Covariants
 
 
 def _residue_parts(residues: Iterable[Residue]) -> list[object]:
@@ -131,7 +131,7 @@ def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
         return _imprimitive(S, semi, gauge)
     if decision.invariant is None:
         raise ValueError("the decision was made without its certificate")
-    return klein_form(S, structure, decision.invariant, gauge)
+    return covariants(S, structure, decision.invariant)
 
 
 def _reducible(semi: SemiInvariant, invariant: SemiInvariant | None, gauge: RatFunc) -> ClosedStructure:

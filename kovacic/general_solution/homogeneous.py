@@ -12,8 +12,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
-from kovacic.closed_form.form import at_edges
-from kovacic.closed_form.klein import KleinForm
+from kovacic.closed_form.klein import Covariants
 from kovacic.decision import Status
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import LimitExceeded
@@ -120,7 +119,7 @@ def decide(question: Question, budget: Budget) -> Solution:
 def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair:
     """The closed form; in case 3 with given conditions one that doesn't jump where J is 1 or infinite."""
     form = solutions(solution.S, solution.decision, solution.gauge, solution.variable, budget)
-    if question.conditions and isinstance(form.structure, KleinForm):
+    if question.conditions and isinstance(form.structure, Covariants):
         joined = _joined(solution, form.structure, budget)
         if joined is not None:
             return joined
@@ -158,7 +157,7 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     return y1, y2
 
 
-def _joined(solution: Solution, form: KleinForm, budget: Budget) -> Pair | None:
+def _joined(solution: Solution, form: Covariants, budget: Budget) -> Pair | None:
     """Other solutions in case 3, where J is 1 or infinite at real points that aren't singular: functions of J jump there."""
     S = solution.S
     places = form.J.den * (form.J.num - form.J.den)
@@ -167,9 +166,8 @@ def _joined(solution: Solution, form: KleinForm, budget: Budget) -> Pair | None:
     if not _may_be_zero(places):
         return None
     pair = special_functions(S, solution.gauge, solution.variable, budget)
-    if pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
-        return pair.y1, pair.y2
-    return at_edges(form, S, solution.gauge, solution.variable)
+    is_known = pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))
+    return (pair.y1, pair.y2) if is_known else None
 
 
 def _may_be_zero(polynomial: Poly) -> bool:

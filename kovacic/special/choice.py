@@ -29,15 +29,16 @@ from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.form import EXACT, ClosedForm, verified, written
 from kovacic.closed_form.jets import jet
-from kovacic.closed_form.klein import KleinForm
+from kovacic.closed_form.klein import Covariants
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
 from kovacic.closed_form.structure import ClosedStructure, Triangular, build
 from kovacic.decision import Decision
-from kovacic.errors import LimitExceeded
+from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numerals import as_text
 from kovacic.special.gauge import GaugeTransform
+from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import Pullback
 from kovacic.special.search import find, find_transform, written_pair
 
@@ -143,12 +144,13 @@ class _Equation:
         """That of the structure, and y1 times an integral that is left beside a long one that is written out."""
         structure = self.structure
         check_time()
+        if isinstance(structure, Covariants):
+            pullback = klein_pullback(structure)
+            if not pullback.gives(self.S):
+                raise VerificationFailed(f"Klein's invariant of S = {self.S} isn't right; please report the equation")
+            return [PairForm(FormKind.SPECIAL, structure.length, partial(self._in_special_functions, pullback))]
         is_left = isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive)
-        kind = FormKind.ELEMENTARY
-        if is_left:
-            kind = FormKind.INTEGRAL
-        elif isinstance(structure, KleinForm):
-            kind = FormKind.SPECIAL
+        kind = FormKind.INTEGRAL if is_left else FormKind.ELEMENTARY
         forms = [PairForm(kind, structure.length, partial(self._written, structure))]
         if isinstance(structure, Triangular) and not is_left and structure.length > SHORT:
             left = replace(structure, primitive=OpenPrimitive(LONG.format(structure.length)))

@@ -33,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import islice, product
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -42,6 +43,8 @@ from flint import acb, fmpq, fmpq_poly
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.klein import Covariants
+from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
 from kovacic.limits import Budget
 from kovacic.special import prices
@@ -160,6 +163,14 @@ class Gauss(StandardEquation):
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
         return _values(_maps(n, d, *map(square_root, self.parameters))[coordinate])
+
+
+def klein_pullback(found: Covariants) -> Pullback:
+    """That of the equation with the exponent differences nu, 1/3, 1/2 at 0, 1, infinity by the absolute invariant."""
+    field = found.J.field
+    nu = Fraction(1, 5 if found.structure is Structure.ICOSAHEDRAL else 4)
+    squares = [field.poly([difference**2]) for difference in (nu, Fraction(1, 3), HALF)]
+    return Pullback(Gauss(*squares), found.J)
 
 
 def _shifted(points: list[Point], apparent: list[Point], budget: Budget) -> Iterator[Pullback]:
