@@ -25,10 +25,18 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     x^(s+1) z^-e is a constant wherever both powers are continuous.  Without an exponential it is K x^(s+1)/(s+1).
 
     >>> x, s = sympy.symbols("x s")
-    >>> print(incomplete_gamma(x**s * exp(-x), x))
-    -uppergamma(s + 1, x)
+    >>> print(incomplete_gamma(x**s * exp(-x), x), incomplete_gamma((x + 2) ** s * exp(-x), x))
+    -uppergamma(s + 1, x) -exp(2)*uppergamma(s + 1, x + 2)
     """
     K, rest = term.as_independent(x, as_Add=False)
+    lines = {factor.as_base_exp()[0] for factor in sympy.Mul.make_args(rest)} - {sympy.E, x}
+    line = next(iter(lines), x)
+    if len(lines) == 1 and line.is_Add and not (slope := line.diff(x)).has(x):  # (a x + b)^s, in t = a x + b
+        t = sympy.Dummy()
+        found = incomplete_gamma(
+            sympy.expand_power_exp(term.xreplace({line: t}).subs(x, (t - line + slope * x) / slope)), t
+        )
+        return None if found is None else found.subs(t, line) / slope
     found = _power_and_exponent(rest, x)
     if found is None:
         return None
