@@ -43,6 +43,8 @@ from kovacic.parametric.solutions import PolynomialSolution, translated
 from kovacic.parametric.statements import Statement, Vanishes, alternatives_of, both
 from kovacic.writing.formula import caret
 
+#: The natural number in conditions.
+_NUMBER = sympy.Dummy("d")
 _NUMBERED = "a level with k zeros is number k (Sturm)"
 
 
@@ -137,7 +139,7 @@ class _Window(NamedTuple):
     def has_zero_of(self, polynomial: Any, E: Any) -> bool:
         """True if a polynomial over Q has a real zero in it."""
         roots = sympy.Poly(polynomial, E).real_roots()
-        return any((self.low is None or root > self.low) and (self.high is None or root <= self.high) for root in roots)
+        return any(root == self.high or _is_between(root, self.low, self.high) for root in roots)
 
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
         """A d from which on no E with `function`(E, d) = 0 is in the window; None where that isn't known."""
@@ -160,7 +162,7 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
     low, high = bounds
     slope = num.diff(t) * den - num * den.diff(t)
     stationary = [] if slope.is_zero else sympy.Poly(slope, t).real_roots()
-    inside = [root for root in stationary if (low is None or root > low) and (high is None or root < high)]
+    inside = [root for root in stationary if _is_between(root, low, high)]
     at_the_ends = [sympy.limit(V, t, -sympy.oo if low is None else low, "+")]
     at_the_ends.append(sympy.limit(V, t, sympy.oo if high is None else high, "-"))
     values = [*(V.subs(t, root) for root in inside), *(value for value in at_the_ends if value != sympy.oo)]
@@ -169,8 +171,21 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
     number = min(sympy.floor(value) for value in values) - 1
     # V is nowhere equal to it.
     crossings = sympy.Poly(num - number * den, t).real_roots()
-    is_crossed = any((low is None or root > low) and (high is None or root < high) for root in crossings)
-    return None if is_crossed else number
+    return None if any(_is_between(root, low, high) for root in crossings) else number
+
+
+def _is_between(value: Any, low: Any, high: Any) -> bool:
+    """None is a bound at infinity."""
+    is_above = low is None or value > low
+    is_below = high is None or value < high
+    return bool(is_above and is_below)
+
+
+class _Numbers(NamedTuple):
+    """Degrees that are tried, None where there is none to choose; and are these all?"""
+
+    some: tuple[int | None, ...]
+    are_all: bool
 
 
 class _Listed(NamedTuple):
@@ -221,26 +236,32 @@ class _ClosedFormSearch:
         """The E for which the statement may hold, and that are possible for a level."""
         pairs: list[tuple[int | None, Any]] = []
         are_all = True
-        d = sympy.Dummy("d")
         for alternative in alternatives_of(statement):
-            functions = []
-            numbers: Sequence[int | None] = (None,)
-            for part in both(alternative).parts:
-                if isinstance(part, Natural) and part.factors is not None:
-                    factors = [sympy.numer(sympy.together(factor.to_sympy(d))) for factor in part.factors]
-                    lasts = [self.window.last_number(factor, self.E, d) for factor in factors]
-                    are_all = are_all and None not in lasts
-                    numbers = range(max([self.max_degree + 1, *(last for last in lasts if last is not None)]))
-                    functions.append(sympy.Mul(*factors))
-                elif isinstance(part, Vanishes):
-                    functions.append(part.function.to_sympy(d))
-                else:
-                    are_all = False
-            for number in numbers if functions else ():
-                together = reduce(sympy.gcd, (function.subs(d, number or 0) for function in functions))
-                factors = [factor for factor, _ in sympy.factor_list(together)[1] if factor.has(self.E)]
-                pairs += [(number, sympy.Poly(factor, self.E).monic().as_expr()) for factor in factors]
+            parts = both(alternative).parts
+            functions = [_zero_where(part) for part in parts]
+            if None in functions:
+                are_all = False
+                continue
+            numbers = self._numbers(parts)
+            are_all = are_all and numbers.are_all
+            for number in numbers.some:
+                together = reduce(sympy.gcd, (function.subs(_NUMBER, number or 0) for function in functions))
+                polynomials = [
+                    sympy.Poly(f, self.E).monic() for f, _ in sympy.factor_list(together)[1] if f.has(self.E)
+                ]
+                are_rational = all(polynomial.domain.is_QQ or polynomial.domain.is_ZZ for polynomial in polynomials)
+                are_all = are_all and are_rational
+                pairs += [(number, polynomial.as_expr()) for polynomial in polynomials if are_rational]
         return _Listed(tuple(pairs), are_all)
+
+    def _numbers(self, parts: Sequence[Statement]) -> _Numbers:
+        """The degrees that are to be tried: all for which E may be in the window, where they are finitely many."""
+        natural = [part for part in parts if isinstance(part, Natural)]
+        if not natural:
+            return _Numbers((None,), are_all=True)
+        lasts = [self.window.last_number(factor, self.E, _NUMBER) for factor in _factors_of(natural[0])]
+        bounds = [last for last in lasts if last is not None]
+        return _Numbers(tuple(range(max([self.max_degree + 1, *bounds]))), are_all=None not in lasts)
 
     def _levels(self, solution: PolynomialSolution, polynomial: Any) -> Iterator[Algebraic]:
         """The levels at the zeros, if the solution is square integrable there."""
@@ -282,15 +303,15 @@ class _ClosedFormSearch:
         """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
         levels: dict[Algebraic, None] = {}
         higher = None
-        for region in self.conditions.regions:
+        for region in self.conditions.regions if self._are_examined else ():
             parts = both(region.statement).parts
-            numbers: Sequence[int | None] = (None,)
-            if isinstance(parts[-1], Natural):
-                numbers = range(self.max_degree + 1)
-                higher = self.max_degree + 1 if region.case == 1 and self._are_examined else higher
-            functions = [part.function.to_sympy(sympy.Dummy()) for part in parts if isinstance(part, Vanishes)]
-            is_known = len(functions) + isinstance(parts[-1], Natural) == len(parts)
-            for number in numbers if is_known and self._are_examined else ():
+            numbers = self._numbers(parts)
+            if not numbers.are_all and region.case == 1:
+                higher = self.max_degree + 1
+            if None in map(_zero_where, parts):
+                continue
+            functions = [_zero_where(part) for part in parts if isinstance(part, Vanishes)]
+            for number in numbers.some:
                 for solution in region.solution(number):
                     levels.update(dict.fromkeys(self._under_conditions(solution, functions)))
         return ClosedForms(self.conditions, tuple(levels), not self.conditions.regions, higher=higher)
@@ -342,6 +363,18 @@ class _ClosedFormSearch:
         x = sympy.Symbol(question.variable)
         states = level.states_at({}, question.energy)
         return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
+
+
+def _factors_of(natural: Natural) -> list[Any]:
+    """Polynomials in the number and the parameters of which one vanishes."""
+    return [sympy.numer(sympy.together(factor.to_sympy(_NUMBER))) for factor in natural.factors or ()]
+
+
+def _zero_where(statement: Statement) -> Any:
+    """A function that vanishes where the statement holds for a number; None for other kinds of statements."""
+    if isinstance(statement, Natural) and statement.factors:
+        return sympy.Mul(*_factors_of(statement))
+    return statement.function.to_sympy(_NUMBER) if isinstance(statement, Vanishes) else None
 
 
 def _vanish(functions: Sequence[Any], polynomial: Any, E: Any) -> bool:
