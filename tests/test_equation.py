@@ -330,6 +330,19 @@ def test_powers_with_a_letter_in_the_exponent_are_refused(text: str) -> None:
         kovacic.solve(text, var="x")
 
 
+@pytest.mark.parametrize(
+    ("text", "S"),
+    [
+        ("exp(x^2)*y'' + exp(x^2)*y = 0", "-1"),
+        ("sqrt(x)*y'' + x*sqrt(x)*y = 0", "-x"),
+        ("x^n*y'' + x^n*y = x^n", "-1"),
+        ("log(x)*y'' = x*log(x)*y", "x"),
+    ],
+)
+def test_a_common_factor_cancels_that_is_not_rational(text: str, S: str) -> None:
+    assert str(kovacic.solve(text, var="x").S) == S
+
+
 def test_euler_s_number_is_a_value_of_a_parameter() -> None:
     (notice,) = [n for n in kovacic.solve("x^2 + e").notices if "Euler" in n]
     assert "one of its generic values" in notice

@@ -96,11 +96,7 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
                 return read_source(as_equation(source), limits)
         if not exponentials:
             raise
-        if source.tokens is None:
-            quotient = _divided(given, source, limits)
-            if quotient is not None:
-                return quotient
-        return _in_other_functions(source, error, limits)
+        return _divided(source, limits) or _in_other_functions(source, error, limits)
 
 
 def _in_other_functions(source: Source, error: NotRational, limits: Limits) -> Parsed:
@@ -158,18 +154,18 @@ def _with_note(parsed: Parsed) -> Parsed:
     return replace(parsed, notices=(*parsed.notices, f"{said}; dsolve has solutions with it"))
 
 
-def _divided(given: Any, source: Source, limits: Limits) -> Parsed | None:
-    """An equation divided by the coefficient of its second derivative; None where that doesn't help."""
-    from sympy import Function, Symbol
+def _divided(source: Source, limits: Limits) -> Parsed | None:
+    """The equation over the coefficient of y'', where that is no rational function and cancels; None elsewhere."""
+    from sympy import Integer, Symbol, cancel
 
-    from kovacic.reading.symbolic import divided
+    from kovacic.reading.parts import parts_of, source_of_parts
 
-    quotient = divided(given)
-    if quotient is None:
+    (a, *others), notices = parts_of(source, limits)
+    if a.is_rational_function(Symbol(source.variable)):
         return None
-    y = Function(source.unknown)(Symbol(source.variable))
     with suppress(NotRational):
-        return read_source(source_of(quotient, source.variable, limits, unknown=y, equation=True), limits)
+        found = read_source(source_of_parts((Integer(1), *(cancel(part / a) for part in others)), source), limits)
+        return replace(found, notices=(*notices, *found.notices))
     return None
 
 

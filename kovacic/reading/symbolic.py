@@ -164,21 +164,6 @@ def function_of(expression: Any) -> Any:
     return candidates.pop()
 
 
-def divided(eq: Any) -> Any:
-    """An equation divided by the coefficient of its second derivative, where a common factor isn't rational; None without."""
-    expression = eq
-    if isinstance(eq, sympy.Equality):
-        expression = eq.lhs - eq.rhs
-    second = [d for d in expression.atoms(sympy.Derivative) if d.derivative_count == 2]
-    if not second:
-        return None
-    expanded = sympy.expand(expression)
-    leading = expanded.coeff(second[0])
-    if not leading.has(sympy.Function):
-        return None
-    return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(expanded)))
-
-
 #: What stands for the k-th derivative of an unknown function at a point, `at(point, k)`, by its name.
 Unknowns = Mapping[str, Callable[[Any, int], Any]]
 
