@@ -29,17 +29,16 @@ from kovacic.closed_form.product import product
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.expanded_size import expanded_size
 from kovacic.general_solution.first_order import FirstOrderEquation, GivenValue, check_first_order, value_of
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.textbook import in_book_form
+from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_zero, when_zero
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-#: The most terms of a numerator and a denominator, multiplied out, that are divided by their common divisor: about 0.1 s.
+#: The longest solution with Bessel functions, in subexpressions, that is differentiated by their recurrences.
 _LONGEST = 400
 #: The largest sum of exponents with which E is integrated: partial fractions of order 1,000 take 20 s.
 _HIGHEST = 100
@@ -87,7 +86,7 @@ def solved_riccati(
     forms = [*_forms(found, solved_for)]
     if is_inverted:
         forms = [1 / w for w in forms]
-    forms += [*_over_one_denominator(forms[0]), sympy.signsimp(forms[0])]
+    forms += [*over_one_denominator(forms[0], equation.x), sympy.signsimp(forms[0])]
     w = shortest(forms).xreplace(dict.fromkeys(found.constants, equation.constant()))
     if not found.u.has(*found.constants):
         w = in_book_form(w, equation.x)
@@ -203,15 +202,6 @@ def _reduced(term: Expr, x: Expr) -> Expr:
         sympy.Mul.make_args(term), lambda factor: bool(factor.is_rational_function(x)), binary=True
     )
     return sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*others)
-
-
-def _over_one_denominator(w: Expr) -> Iterator[Expr]:
-    """The quotient of two polynomials in x and in functions of x without a common divisor, unless these are too long."""
-    if w.has(sympy.Integral) or size(w) > _LONGEST:
-        return
-    numerator, denominator = sympy.fraction(sympy.together(w))
-    if expanded_size(numerator) <= _LONGEST and expanded_size(denominator) <= _LONGEST:
-        yield sympy.cancel(numerator / denominator)
 
 
 def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:

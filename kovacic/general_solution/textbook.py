@@ -233,12 +233,18 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
         yield sympy.cancel(value)
 
 
+def over_one_denominator(value: Expr, x: Expr) -> Iterator[Expr]:
+    """A quotient in lowest terms, unless it is too large to be multiplied out."""
+    if _is_small(value):
+        yield sympy.cancel(sympy.together(value))
+
+
 def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
     """Over one denominator, and with common factors before the sum; different exponentials stay different."""
     letters = {e: sympy.Dummy() for e in value.atoms(exp) if e.has(x)}
     back = {letter: e for e, letter in letters.items()}
     plain = value.xreplace(letters)
-    for form in (plain, sympy.cancel(sympy.together(plain))):
+    for form in (plain, *over_one_denominator(plain, x)):
         yield _factored(form).xreplace(back)
 
 
