@@ -399,3 +399,12 @@ def test_numbers_for_integers_are_ones_for_which_the_answer_holds() -> None:
     found = dsolve(x * D2 + (b**2 - x) * D1 + D0 - 1 / x, ics={slope_at(Rational(-3, 2)): 1}).rhs
     inner = [e for e in found.atoms(sympy.Integral) if e.function.has(sympy.Integral)]
     assert all(e.limits[0][0] not in e.function.atoms(sympy.Integral).pop().bound_symbols for e in inner)
+
+
+def test_a_zero_that_the_pair_alone_has_is_no_exception() -> None:
+    """sin(sqrt(k)) = 0 at k = 0 as well, where the equation has the solution x with these values."""
+    with pytest.warns(UserWarning, match=r"unless sin\(sqrt\(k\)\) = 0 and k != 0, where there is no solution"):
+        found = kovacic.dsolve("y'' + k*y = 0", ics="y(0)=0, y(1)=1")
+    k = next(symbol for symbol in found.rhs.free_symbols if symbol.name == "k")
+    assert sympy.limit(found.rhs, k, 0) == sympy.Symbol("x")
+    assert kovacic.dsolve("y'' = 0", ics="y(0)=0, y(1)=1").rhs == sympy.Symbol("x")

@@ -265,6 +265,15 @@ def condition_of(zero: Expr) -> str:
     return f"{left} = 0"
 
 
+def exception_of(zero: Expr) -> str:
+    """The same for an exception; sin(sqrt(k))/sqrt(k) is 1 at k = 0, where its factor sin(sqrt(k)) vanishes."""
+    left = vanishing_factors(zero)
+    _, below = sympy.fraction(sympy.together(zero))
+    letters = [factor.as_base_exp()[0] for factor in sympy.Mul.make_args(below)]
+    guards = [f"{letter} != 0" for letter in letters if letter.is_Symbol and left.subs(letter, 0) == 0]
+    return " and ".join([condition_of(zero), *guards])
+
+
 def can_be(case: ParameterCase) -> bool:
     """Are there factors that may be zero in all that is zero in a case?"""
     return all(vanishing_factors(zero) != 1 for zero in case.zeros)
