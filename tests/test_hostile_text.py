@@ -139,7 +139,7 @@ def test_an_undecided_answer_with_another_reason(text: str) -> None:
 @pytest.mark.parametrize("text", TOGETHER)
 def test_conditions_that_were_changed_by_hand(text: str) -> None:
     data = json.loads(kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").to_json())
-    data |= {"notices": [text], "theory": text, "complete": text}
+    data |= {"notices": [text], "theory": text, "complete": text, "theorem": {"said": text, "sources": [text]}}
     data["regions"][0] |= {"omega": text}
     data["generic"]["verdict"]["family"] = text
     found = Conditions.from_json(json.dumps(data))

@@ -19,6 +19,7 @@ from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.cases import in_lines
 from kovacic.parametric.derivation import derived
@@ -36,7 +37,7 @@ from kovacic.parametric.record import (
     verdict_data,
     verdict_from,
 )
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, said_of, settled
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, said_of, settled
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
@@ -73,8 +74,8 @@ class ParametricAnswer:
         The other values, in their order.
     complete : bool or str
         True where the list is proven to be complete, else a sentence such as "up to degree 12 (...)".
-    theory : str
-        By which theorems.
+    theory : Theory
+        By which theorems, a str; `sources` are the keys of the publications.
     limits : Limits
         They hold for what is asked later, too.
     notices : tuple of str
@@ -105,7 +106,7 @@ class ParametricAnswer:
     generic: RegionVerdict
     regions: tuple[ParameterRegion, ...]
     complete: bool | str
-    theory: str
+    theory: Theory
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     notices: tuple[str, ...] = ()
     assumptions: Assumptions = NOTHING_ASSUMED
@@ -374,7 +375,8 @@ class ParametricAnswer:
             "generic": {"case": self.generic.case, "group": self.generic.group, "verdict": verdict_data(self.generic)},
             "regions": [*map(region_data, self.regions)],
             "complete": self.complete,
-            "theory": self.theory,
+            "theory": str(self.theory),
+            "theorem": {"said": prose.marked(self.theory.words), "sources": list(self.theory.sources)},
             "notices": list(self.notices),
             "equation": equation_data(self.equation),
             **({} if self.within_limits else {"within_limits": False}),
@@ -415,6 +417,7 @@ class ParametricAnswer:
             parameters = tuple(data["parameters"])
             names = tuple(data.get("names", parameters))
             variable = data["variable"]
+            theorem = data.get("theorem", {"said": data["theory"], "sources": ()})
             constant = constant_from(data)
             letters = letters_from(names)
             if not all(name.isidentifier() for name in (*parameters, variable)):
@@ -430,7 +433,7 @@ class ParametricAnswer:
                 regions=tuple(regions),
                 generic=verdict_from(data["generic"]["verdict"]),
                 complete=data["complete"] if data.get("within_limits", True) else Limited(data["complete"]),
-                theory=data["theory"],
+                theory=Theory(theorem["said"], *theorem["sources"]),
                 assumptions=read_assumptions(data["assumptions"] or None, None, names),
                 S=reader.function(data["S"], variable),
                 notices=tuple(data["notices"]),

@@ -31,7 +31,7 @@ from kovacic.limits import Budget, count_work
 from kovacic.parametric import prose, restriction
 from kovacic.parametric.darboux import Back, Transformation, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, verdict_of
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
 from kovacic.parametric.solutions import solutions_there
@@ -39,8 +39,6 @@ from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, bo
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.writing.formula import Math
 
-#: Said of a theory that holds for an equation without apparent singularities.
-_TRANSFORMED = ", after Darboux' transformation"
 #: What is a formula in the name of a group.
 _FORMULA = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _UNKNOWN = RegionVerdict(None, known=False)
@@ -52,7 +50,7 @@ class Partition:
 
     generic: RegionVerdict
     complete: bool | str
-    theory: str
+    theory: Theory
     regions: tuple[ParameterRegion, ...] = ()
 
 
@@ -83,14 +81,14 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     decision = decide(S, settings.budget, certify=False)
     verdict = verdict_of(decision)
     if constants.ground == QQ:
-        return Partition(verdict, verdict.known or str(decision.undecided), "the engine")
+        return Partition(verdict, verdict.known or str(decision.undecided), Theory("the engine"))
     if not isinstance(constants, FunctionField):
         # Functions on a hypersurface; see the head of this module for case 1.
-        return Partition(verdict, _is_reducible(verdict) or "for generic values only", "the engine")
+        return Partition(verdict, _is_reducible(verdict) or "for generic values only", Theory("the engine"))
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
-        return Partition(verdict, Limited.by(limit), "nothing but the generic answer")
+        return Partition(verdict, Limited.by(limit), Theory("nothing but the generic answer"))
 
 
 def _is_reducible(verdict: RegionVerdict) -> bool:
@@ -101,14 +99,14 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
     problem = analyse(S, settings.budget)
     if _is_reducible(expected):  # where S is defined: see the head of this module
         always = ParameterRegion(ALWAYS, expected)
-        name = "a rational omega for generic values, and so for all"
+        name = Theory("a rational omega for generic values, and so for all", "Kov86")
         theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [always])
     else:
         theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
     if theorem is not None:
         return _by_theorem(problem, theorem, expected, settings)
     if settings.only_theorems:
-        return Partition(expected, "for generic values only", "no theorem covers all values")
+        return Partition(expected, "for generic values only", Theory("no theorem covers all values"))
     simpler = transformation(problem)
     if simpler is not None:
         return _by_transformation(problem, simpler, settings)
@@ -144,7 +142,7 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
         origin = region.origin and Back(region.origin, found.W, settings.variable)
         regions.append(replace(region, origin=origin))
     complete = together(regions) if inner.complete is True else inner.complete
-    theory = f"{inner.theory.removesuffix(_TRANSFORMED)}{_TRANSFORMED}"
+    theory = inner.theory.also(", after Darboux' transformation", "Dar82")
     return Partition(inner.generic, complete, theory, tuple(regions))
 
 
@@ -159,7 +157,7 @@ def together(regions: Iterable[ParameterRegion]) -> bool | str:
 def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
     """The regions where S changes, those of the candidates, those with a natural number, as far as the limits allow."""
     regions: list[ParameterRegion] = []
-    findings = Findings("polynomial conditions")
+    findings = Findings(Theory("polynomial conditions"))
     complete: bool | str = True
     half_integers: Statement = NEVER
     try:
@@ -217,7 +215,7 @@ def _add_natural(
         is_reducible = structure is Structure.REDUCIBLE
         if is_without_solution and half_integers != NEVER and not is_reducible:
             regions.append(ParameterRegion(half_integers, RegionVerdict(Structure.IMPRIMITIVE)))
-            findings.theory += "; half-integers: Treibich & Verdier"
+            findings.theory = findings.theory.also("; half-integers: Treibich & Verdier", "TV90")
             half_integers = NEVER
         is_smaller = is_without_solution or is_reducible
         if is_smaller and structure is not expected.structure:

@@ -37,6 +37,26 @@ class Limited(str):
         return cls(f"only as far as the limits allowed: {limit}")
 
 
+class Theory(str):
+    """By which theorems something is proven, in a sentence; formulas stand between backquotes where it is made."""
+
+    words: Words
+    #: The keys of the publications.
+    sources: tuple[str, ...]
+
+    def __new__(cls, literal: str, *sources: str) -> Theory:
+        words = prose.phrase(literal)
+        self = super().__new__(cls, prose.text_of(words))
+        self.words = words
+        self.sources = sources
+        return self
+
+    def also(self, literal: str, *sources: str) -> Theory:
+        """With another theorem, each said once."""
+        said = prose.marked(self.words)
+        return self if said.endswith(literal) else Theory(f"{said}{literal}", *self.sources, *sources)
+
+
 @dataclass(frozen=True)
 class RegionVerdict:
     """What holds in a region of parameters.
@@ -291,6 +311,6 @@ def settled(
 class Theorem:
     """The regions, in their order, that describe all values at which none of the functions in `exceptions` vanishes."""
 
-    name: str
+    name: Theory
     exceptions: list[FunctionPoly]
     regions: Iterable[ParameterRegion]

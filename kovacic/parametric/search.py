@@ -35,6 +35,7 @@ from kovacic.parametric.functions import degrees, irreducible_factors, over_para
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
+from kovacic.parametric.regions import Theory
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of
 from kovacic.parametric.theorems import mean_of_singular_points
@@ -55,7 +56,7 @@ Degrees = dict[int, list[Structure]]
 class Findings:
     """Candidates for special values, conditions with a natural number, and what limits completeness (sentences)."""
 
-    theory: str
+    theory: Theory
     candidates: list[FunctionPoly] = field(default_factory=list)
     natural: list[Natural] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
@@ -93,9 +94,11 @@ def search(problem: Problem) -> Findings:
     """
     wanted = _degrees_that_decide(problem)
     if wanted is not None:
-        findings = Findings("exponents that don't depend on the parameters: invariants of bounded degree")
+        findings = Findings(
+            Theory("exponents that don't depend on the parameters: invariants of bounded degree", "UW96", "HW97")
+        )
     else:
-        findings = Findings("the exponents, and polynomials of bounded or natural degree")
+        findings = Findings(Theory("the exponents, and polynomials of bounded or natural degree", "Kov86", "AMW11"))
         _add_reducible(problem, findings)
         wanted = _degrees_that_are_possible(problem)
     candidates = _where_a_logarithm_vanishes(problem) if wanted else None

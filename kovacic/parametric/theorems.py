@@ -66,7 +66,7 @@ from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.powers_of_factors import shorter_sum
 from kovacic.parametric.prose import ABELIAN, phrase
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import NEVER, Statement, both
 from kovacic.reading.symbolic import read_expression
@@ -153,9 +153,9 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     for coordinate, equation in _quotients(problem, variable):
         if not riemann.is_fuchsian(equation) or riemann.singular_points(equation) > 3:
             continue
-        points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
+        points = "singular points" if coordinate.n == 1 else f"singular points in `{coordinate}`"
         origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
-        name = f"at most three regular {points}: Kimura's theorem"
+        name = Theory(f"at most three regular {points}: Kimura's theorem", "Kim69")
         return Theorem(name, restriction.confluence(problem), structures(equation, coordinate.n, origin))
     return None
 
@@ -340,7 +340,7 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     if form is None:
         return None
     author = "Whittaker" if form.q else "Bessel"
-    name = f"{author}'s equation in {form.coordinate}: Martinet & Ramis"
+    name = Theory(f"{author}'s equation in `{form.coordinate}`: Martinet & Ramis", "MR89", "DLR92")
     origin = Signed(partial(laguerre_formula, form, variable), 2)
     region = ParameterRegion(_condition(form), _verdict(form), origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])

@@ -32,16 +32,6 @@ from kovacic.views.bibliography import literature
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
 from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy, rational_functions
 
-#: Publications, by a name that the theory of an answer contains.
-_SOURCES = {
-    "Kimura": ("Kim69",),
-    "Martinet": ("MR89", "DLR92"),
-    "Darboux": ("Dar82",),
-    "Treibich": ("TV90",),
-    "invariants": ("UW96", "HW97"),
-    "natural degree": ("Kov86", "AMW11"),
-    "rational omega": ("Kov86",),
-}
 #: What the signs in a solution are called, those that aren't parameters.
 _SIGNS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
 #: Solutions that are written one by one; more are written with symbols for their signs.
@@ -368,9 +358,9 @@ class _TheoremWriter:
         answer = self.answer
         yield Heading("Proof")
         if answer.complete is True:
-            yield say("The list is complete (", *_theory(answer), ").")
+            yield say("The list is complete (", *answer.theory.words, ").")
         else:
-            yield say(f"The list is complete {answer.complete} (", *_theory(answer), ").")
+            yield say(f"The list is complete {answer.complete} (", *answer.theory.words, ").")
         for notice in answer.notices:
             if not notice.startswith(f"in {answer.variable} = "):
                 yield say(f"Note: {notice}.")
@@ -379,13 +369,10 @@ class _TheoremWriter:
 
     def _sources(self) -> list[str]:
         """The keys of the publications on which the theory rests, each once."""
-        keys: list[str] = []
-        for name, of_name in _SOURCES.items():
-            if name in self.answer.theory:
-                keys += of_name
+        keys = [*self.answer.theory.sources]
         if any(_schwarz_in(case.statement) for case in self.cases):
             keys.append("Kim69")
-        return [*dict.fromkeys(keys)] or ["Kov86"]
+        return [key for key in dict.fromkeys(keys) if key in literature()] or ["Kov86"]
 
 
 class _ScaledTerm(NamedTuple):
@@ -457,11 +444,6 @@ def _group(verdict: RegionVerdict) -> list[str | Math]:
     """Its name, and what the theorem of Morales and Ramis needs."""
     component = verdict.identity_component
     return ["The group is ", *verdict.group_in_words, ". Its identity component is ", *component, "."]
-
-
-def _theory(answer: ParametricAnswer) -> list[str | Math]:
-    """The theorem that proves it; the coordinate in which it holds is a formula."""
-    return [*prose.phrase(re.sub(r" in (.+?): ", r" in `\1`: ", answer.theory))]
 
 
 def _said(statement: Statement) -> list[str | Math]:
