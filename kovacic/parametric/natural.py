@@ -180,12 +180,12 @@ class Natural(Statement):
         """Delta for one natural number, for each way in which the exponents give it."""
         return _determinants(self, number)
 
-    def given(self, number: int) -> Iterator[_Given]:
+    def given(self, number: int) -> Iterator[_GivenBy]:
         """Where the exponents give the number."""
         for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors or ()):
             surface = hypersurface(exponents)
             with suppress(ZeroDivisionError):
-                yield _Given(exponents, surface, surface.restricted(self.S))
+                yield _GivenBy(exponents, surface, surface.restricted(self.S))
 
     def conditions(self, problem: Problem, number: int) -> list[RankConditions]:
         """One for each choice of exponents."""
@@ -286,7 +286,7 @@ class Natural(Statement):
         return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero)
 
 
-class _Given(NamedTuple):
+class _GivenBy(NamedTuple):
     """The exponents give a number where a polynomial vanishes: that, its zeros, and S there."""
 
     exponents: FunctionPoly
