@@ -19,12 +19,13 @@ from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.riccati_equation import linear_equation
 from kovacic.general_solution.textbook import sums
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import read_input
 from kovacic.special.choice import shortest
 from kovacic.views.explain import ExplanationWriter
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, page, say
-from kovacic.writing.formula import Math, latex_text, of_sympy, shortened
+from kovacic.writing.formula import Math, caret, latex_text, of_sympy, shortened
 
 Expr = Any  # SymPy publishes no types
 
@@ -79,7 +80,7 @@ def explain(
         blocks += _steps_of_first_order(answer)
     elif isinstance(answer, SecondOrderAnswer):
         blocks += _steps(answer)
-    blocks += (say(f"Note: {notice}.") for notice in answer.notices)
+    blocks += (say(f"Note: {caret(notice)}.") for notice in answer.notices)
     blocks += [Heading("The solution"), Formula(of_sympy(answer.eq.lhs).equals(of_sympy(answer.eq.rhs)))]
     title = f"The solution of {shortened(eq) if isinstance(eq, str) else answer.eq.lhs}"
     document = FORMATS[format].render([Heading(title, 1), *blocks])
@@ -119,11 +120,14 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     question = answer.question
     solution = answer.found.solution
     own = partial(_in_question, answer)
-    B, C = map(own, answer.basis.rates)
     F = own(right_hand_side(question.equation))
     y = question.equation.unknown
     yield Heading("The equation")
-    yield from _equation(y, (C, B, sympy.Integer(1)), F, question.conditions)
+    if question.equation.change is None:
+        B, C = map(own, answer.basis.rates)
+        yield from _equation(y, (C, B, sympy.Integer(1)), F, question.conditions)
+    else:
+        yield say("Its coefficients are rational in ", of_sympy(function_of_x(question.equation)), ".")
     if question.equation.change is None and solution.gauge:
         yield Heading("Normal form")
         yield from ExplanationWriter(solution).normal_form(y)
