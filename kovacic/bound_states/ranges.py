@@ -148,7 +148,7 @@ def _solved(condition: Any, signs: Signs) -> Any:
             return solved
     if _degree(rest, n) == 2:
         return _solved_for_square(rest, signs, is_strict=is_strict)
-    return _beyond(rest, 0, 1, is_strict=is_strict)
+    return _beyond(shortest(rest), 0, 1, is_strict=is_strict)
 
 
 def _without_denominator(positive: Any) -> Any:
