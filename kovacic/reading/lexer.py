@@ -10,6 +10,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 from typing import NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, ParseError
@@ -76,7 +77,15 @@ def scanned(text: str) -> list[Token]:
     """
     plain, origins = text, None
     if not text.isascii():
-        pieces = [_ordinary(text, k) for k in range(len(text))]
+        pieces: list[str] = []
+        for is_raised, run in groupby(range(len(text)), key=lambda k: _kind_of(text[k]) == "<super"):
+            places = [*run]
+            word = "".join(text[k] for k in places)
+            if is_raised and any(character not in _SUPERSCRIPTS for character in word):  # e²ˣ
+                plain = unicodedata.normalize("NFKC", word).replace("−", "-")
+                pieces += [f"^({plain})", *[""] * (len(word) - 1)]
+            else:
+                pieces += list(word) if is_raised else [_ordinary(text, k) for k in places]
         plain = "".join(pieces)
         origins = [k for k, piece in enumerate(pieces) for _ in piece]
     tokens: list[Token] = []
@@ -102,41 +111,21 @@ def _ordinary(text: str, k: int) -> str:
     if character in _FRACTIONS:
         is_mixed = before.isdecimal()
         return character if is_mixed else f"({unicodedata.normalize('NFKC', character)})".replace("\u2044", "/")
-    kind = unicodedata.decomposition(character).partition(">")[0]
+    kind = _kind_of(character)
     plain = unicodedata.normalize("NFKC", character)
-    if kind == "<super" and character not in _SUPERSCRIPTS:
-        return _raised(text, k, plain)
-    if kind == "<super":
-        return _raised(text, k, plain) if _is_raised_word(text, k) else character
     if kind == "<sub" and character.isnumeric() and not (before.isalpha() or before in _LOWERED):
         return character
     if kind == "<sub":
-        return plain if before and unicodedata.decomposition(before).startswith("<sub") else f"_{plain}"
+        return plain if before and _kind_of(before) == "<sub" else f"_{plain}"
     letter, *dots = list(unicodedata.normalize("NFD", character))
     if letter in _DOTTED and "".join(dots) in _DOTS:
         return letter + _DOTS["".join(dots)]
     return plain if kind == "<font" else character
 
 
-def _is_super(text: str, k: int) -> bool:
-    return 0 <= k < len(text) and unicodedata.decomposition(text[k]).startswith("<super>")
-
-
-def _is_raised_word(text: str, k: int) -> bool:
-    """True if the raised characters about the one at k include others than digits and signs."""
-    first, last = k, k
-    while k - first < 9 and _is_super(text, first - 1):
-        first -= 1
-    while last - k < 9 and _is_super(text, last + 1):
-        last += 1
-    return any(character not in _SUPERSCRIPTS for character in text[first : last + 1])
-
-
-def _raised(text: str, k: int, plain: str) -> str:
-    """Its part of ^(2x) for raised characters that aren't a number."""
-    opening = "" if _is_super(text, k - 1) else "^("
-    closing = "" if _is_super(text, k + 1) else ")"
-    return f"{opening}{plain.replace('−', '-')}{closing}"
+def _kind_of(character: str) -> str:
+    """ "<super", "<sub", "<font" or the like for a character that is another one in another style."""
+    return unicodedata.decomposition(character).partition(">")[0]
 
 
 @dataclass(frozen=True)
