@@ -5,11 +5,12 @@ constants that occurred, and with what the user should know about how it was rea
 position in the text, what would be too large `LimitExceeded` before it is computed; nothing is ever executed.
 
 `read` is the door: read it first, and then `source`, which every text and SymPy expression goes through.  A text is scanned by
-`lexer`, taken apart by `pieces` (an equation, its values, what stands around them), and written in one notation by `dialects`,
-a table of token rules; `naming` decides what every name is, and `parser` carries out the operations.  A SymPy expression is
-walked by `symbolic`.  Both call a reader, which says what numbers, names and calls mean: `expression` (S), `differential`
-(equations), `systems` (several equations), or `symbolic` (SymPy's expressions).  Readers calculate with `arithmetic`, or with
-`linear` where an unknown function or what isn't rational may occur; `exponentials` makes exp(k x) a variable, and
-`change_of_variable` has the way back;
-`constants` has the field, `names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
+`lexer`; `notations`, a table of patterns of tokens, has what other systems and books write in a few tokens of their own;
+`pieces` takes a paste apart (an equation, its values, what stands around them); `dialects` reads what may have anything in it:
+fractions, roots, bars, derivatives.  `naming` decides what every name is, and `parser` carries out the operations.  A SymPy
+expression is walked by `symbolic`.  Both call a reader, which says what numbers, names and calls mean: `expression` (S),
+`differential` (equations), or `symbolic` (SymPy's expressions, and the equations of `systems`).  Readers calculate with
+`arithmetic`, or with `linear` where an unknown function or what isn't rational may occur; `exponentials` makes exp(k x) a
+variable, and `change_of_variable` has the way back; `constants` has the field, `names` the names with a meaning; the results,
+`Equation` and `Parsed`, are `kovacic.equation`'s.
 """

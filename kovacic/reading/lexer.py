@@ -140,9 +140,8 @@ class Tokens:
     pieces: list[str]
     starts: list[int]
     ends: list[int]
-    #: The variable that the notation stands for where none is named, and whether it is LaTeX.
+    #: The variable that the notation stands for where none is named.
     variable: str | None = None
-    latex: bool = False
 
     @cached_property
     def spaced(self) -> str:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, UNKNOWN
 from kovacic.errors import InputError, ParseError
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
-from kovacic.reading.names import FUNCTION_NAMES, GREEK, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -350,6 +350,3 @@ def chosen_variable(names: list[str]) -> str:
         hint=f"name it: var={likely!r}; the others are parameters",
         shell=f"name it: --var {likely}; the others are parameters",
     )
-
-
-__all__ = ["GREEK", "OPERATOR", "USUAL_VARIABLES", "Named", "Vocabulary", "chosen_variable"]

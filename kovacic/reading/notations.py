@@ -168,7 +168,6 @@ def _rule(notation: str, marks: str, text: str, result: str | Callable[[Match], 
 
 
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
-_NO_MAKER = r"(?<!=\x20)(?<!=\x20\x20)"
 _OF_X = r"(LETTER) \( (LETTER) \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = RewriteTable(

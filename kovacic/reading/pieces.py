@@ -43,7 +43,6 @@ _WHOLE = frozenset({"Eq", "Equality"})
 _WORDS = ("WORD", "COMMAND", "NEWLINE", "TEXT")
 _INEQUALITIES = frozenset({*"<>≤≥≠", "<=", ">="})
 _POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
-BOUNDED = "bounded"
 
 
 class PastedPiece(NamedTuple):
