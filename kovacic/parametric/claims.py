@@ -338,15 +338,3 @@ class DegreeExists(Claim):
     def _holds(self, point: ParameterPoint) -> bool:
         numbers = sorted(self.degree.numbers_at(point))
         return len(numbers) > 0 and self.statement.exists(point, numbers)
-
-
-@dataclass(frozen=True)
-class SolutionWithZeros(Claim):
-    """A solution, or an invariant of degree m, with one of these numbers of zeros exists."""
-
-    zeros: tuple[Fraction, ...]
-    m: int
-    statement: Existence
-
-    def _holds(self, point: ParameterPoint) -> bool:
-        return self.statement.exists(point, sorted(map(int, self.zeros)))

@@ -29,13 +29,11 @@ from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
-    Alternatives,
     Claim,
     DegreeBySum,
     DegreeClaim,
     DegreeExists,
     SignedDegree,
-    SolutionWithZeros,
     rational_roots,
 )
 from kovacic.parametric.exponents import (
@@ -252,21 +250,14 @@ class Natural(Statement):
 
     @cached_property
     def claim(self) -> Claim:
-        factors = self.factors
-        if factors is not None and not any(any(degrees(factor)) for factor in factors):
-            zeros = [factor.field.rational_value(-factor[0] / factor[1]) for factor in factors]
-            return SolutionWithZeros(tuple(zero for zero in zeros if zero is not None), self.m, self)
         return DegreeExists(self._degree, self.m, self)
 
     @property
     def _degree(self) -> DegreeClaim:
-        """The equations for the number, each solved for a parameter; sums of exponents where one of them can't be."""
-        listed = None
-        if self.factors is not None:
-            listed = alternatives(self.factors, self.letter, self.setting)
-        if listed is None or listed.equations:
-            return self._by_exponents() or listed or Alternatives(self.letter)
-        return listed
+        """The equations for the number, each solved for a parameter; sums of exponents where one with parameters can't be."""
+        listed = alternatives(self.factors or (), self.letter, self.setting)
+        is_open = self.factors is None or any(any(degrees(one.equation)) for one in listed.equations)
+        return (self._by_exponents() if is_open else None) or listed
 
     def _by_exponents(self) -> DegreeClaim | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""

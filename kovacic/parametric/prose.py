@@ -29,7 +29,6 @@ from kovacic.parametric.claims import (
     IsNonzero,
     IsZero,
     SignedDegree,
-    SolutionWithZeros,
     SumOfRoots,
     ThatIs,
 )
@@ -453,13 +452,6 @@ def _degree_exists(claim: DegreeExists) -> Words:
     return said if claim.m == 1 else (*said, f" for an invariant of degree {claim.m}")
 
 
-def _solution_with_zeros(claim: SolutionWithZeros) -> Words:
-    numbers = _joined([(formula(str(number)),) for number in claim.zeros], " or ")
-    what = "a solution" if claim.m == 1 else f"an invariant of degree {claim.m}"
-    noun = "zero" if claim.zeros == (Fraction(1),) else "zeros"
-    return (f"{what} with ", *numbers, f" {noun} exists")
-
-
 #: How each kind of claim is written; `riemann` adds its own.
 _WRITERS: dict[type, Callable[[Any], Words]] = {
     IsZero: lambda claim: (equation(claim.function),),
@@ -475,7 +467,6 @@ _WRITERS: dict[type, Callable[[Any], Words]] = {
     SignedDegree: _signed_degree,
     DegreeBySum: _degree_by_sum,
     DegreeExists: _degree_exists,
-    SolutionWithZeros: _solution_with_zeros,
 }
 
 
