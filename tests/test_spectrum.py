@@ -14,6 +14,7 @@ from scipy.integrate import quad
 from shooting import is_level, zeros
 
 import kovacic
+from kovacic.bound_states.closed_forms import _Window
 from kovacic.bound_states.levels import Levels
 
 x, n = sympy.symbols("x n")
@@ -336,6 +337,17 @@ def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     assert "no eigenfunction has a closed form" in found.text()
 
 
+def test_the_numbers_whose_energies_may_be_levels() -> None:
+    """-(d + 1)^2 is above -30 for d <= 4; 2 d + 1 is in an upper half-line for all d."""
+    E, d = sympy.symbols("E d")
+    window = _Window(sympy.Integer(-30), sympy.Integer(0))
+    last = window.last_number((d + 1) ** 2 + E, E, d)
+    assert last is not None
+    assert last >= 5
+    assert window.last_number(E**2 - d, E, d) is None
+    assert _Window(sympy.Integer(-30), None).last_number(2 * d + 1 - E, E, d) is None
+
+
 def test_states_of_a_family_that_is_solvable_for_some_values() -> None:
     found = kovacic.spectrum("g^2*x^6 - g*(4*k+3)*x^2", assume={"g": "positive"})
     root = 2 * sympy.sqrt(2)
@@ -457,7 +469,6 @@ def test_names_of_parameters_and_variables_are_free() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.slow
 def test_a_sympy_expression_and_values() -> None:
     b = sympy.Symbol("b", positive=True)
     found = kovacic.spectrum(sympy.exp(-2 * x) - 2 * b * sympy.exp(-x))
