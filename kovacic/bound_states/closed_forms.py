@@ -224,11 +224,14 @@ class _ClosedFormSearch:
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
                 solutions = [one for one in region.solution(number) if _vanish(one.conditions, polynomial, self.E)]
-                here = [level for one in solutions for level in self._levels(one, polynomial)]
-                levels += here
-                if not here and any(self._excludes(one, polynomial) for one in solutions):
+                fits = [self._fits(one, polynomial) for one in solutions if self._are_examined]
+                here = [one for one, fit in zip(solutions, fits, strict=False) if fit == [True, True]]
+                levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
+                if here:
+                    continue
+                if any(self._excludes(fit) for fit in fits):
                     excluded.append(polynomial)
-                elif not here and not self._is_without_closed_form(polynomial):
+                elif not self._is_without_closed_form(polynomial):
                     complete = False
         return ClosedForms(self.conditions, tuple(levels), complete, tuple(excluded), higher)
 
@@ -263,35 +266,29 @@ class _ClosedFormSearch:
         bounds = [last for last in lasts if last is not None]
         return _Numbers(tuple(range(max([self.max_degree + 1, *bounds]))), are_all=None not in lasts)
 
-    def _levels(self, solution: PolynomialSolution, polynomial: Any) -> Iterator[Algebraic]:
-        """The levels at the zeros, if the solution is square integrable there."""
-        if not self._are_examined:
-            return
-        if all(self._holds(demands_at(end, solution.y, self.question), polynomial) for end in self.ends):
-            yield self._level(solution, polynomial, sympy.Integer(0), [])
-
     @property
     def _are_examined(self) -> bool:
         """Can it be told what is square integrable at the ends?  At an ordinary point that is a condition on E."""
         return bool(self.ends) and not any(end.is_ordinary for end in self.ends)
 
-    def _excludes(self, solution: PolynomialSolution, polynomial: Any) -> bool:
-        """Is it the only square integrable solution at one end, and not square integrable at the other?"""
-        if not self._are_examined:
-            return False
-        first, last = (self._holds(demands_at(end, solution.y, self.question), polynomial) for end in self.ends)
-        if None in (first, last) or first == last:
-            return False
-        end = self.ends[0] if first else self.ends[1]
-        return end.circle is False
+    def _fits(self, solution: PolynomialSolution, polynomial: Any) -> list[bool | None]:
+        """Is it the square integrable solution at the left and the right end, for all real zeros of the polynomial?
 
-    def _holds(self, demands: list[Any], polynomial: Any) -> bool | None:
-        """Are the demands fulfilled at all real zeros of the polynomial, or not at any of them?  None where neither is so."""
+        False where it isn't for any of them, None where that differs.
+        """
         E = self.question.E
-        verdicts = set()
-        for root in sympy.Poly(polynomial, self.E).real_roots():
-            verdicts.add(all(bool(demand.subs(E, root)) for demand in demands))
-        return verdicts.pop() if len(verdicts) == 1 else None
+        roots = sympy.Poly(polynomial, self.E).real_roots()
+        found: list[bool | None] = []
+        for end in self.ends:
+            demands = demands_at(end, solution.y, self.question)
+            verdicts = {all(bool(demand.subs(E, root)) for demand in demands) for root in roots}
+            found.append(verdicts.pop() if len(verdicts) == 1 else None)
+        return found
+
+    def _excludes(self, fit: list[bool | None]) -> bool:
+        """Is a solution the only square integrable one at one end, and not square integrable at the other?"""
+        first, last = self.ends
+        return (fit == [True, False] and first.circle is False) or (fit == [False, True] and last.circle is False)
 
     def _is_without_closed_form(self, polynomial: Any) -> bool:
         """Is there no Liouvillian solution where it vanishes?"""

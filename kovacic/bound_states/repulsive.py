@@ -28,19 +28,25 @@ def is_repulsive(real: RealPotential, ends: Sequence[End], signs: Signs) -> bool
     """True if the theorem is proven to apply."""
     original = real.original
     infinite = [end for end in ends if end.at.is_infinite]
-    is_monotonic = original.kind in ("x", "exp", "sinh")
-    if not infinite or not is_monotonic or any(end.threshold is None for end in infinite) or not real.V.has(real.t):
-        return False
+    has_limits = all(end.threshold is not None for end in infinite)
     rate = signs.sign(original.rate)
-    slope = sympy.factor(sympy.diff(real.V, real.t))
+    if (
+        not infinite
+        or not has_limits
+        or original.kind not in ("x", "exp", "sinh")
+        or rate is None
+        or not real.V.has(real.t)
+    ):
+        return False
     first, last = (end.at for end in ends)
-    centre = first if first.is_finite else last
-    if centre.is_infinite:
-        centre = sympy.Integer(0)
-    sides = [(sign, half) for sign, half in ((1, (first, centre)), (-1, (centre, last))) if half[0] != half[1]]
-    return rate is not None and all(
-        _has_sign(slope, real.t, range_of(original, half, signs), sign * rate, signs) for sign, half in sides
-    )
+    centre = next((at for at in (first, last) if at.is_finite), sympy.Integer(0))
+    slope = sympy.factor(sympy.diff(real.V, real.t))
+    # V increases on the left of the centre, and falls on the right; t grows with x for a positive rate.
+    for sign, half in ((rate, (first, centre)), (-rate, (centre, last))):
+        is_empty = half[0] == half[1]
+        if not is_empty and not _has_sign(slope, real.t, range_of(original, half, signs), sign, signs):
+            return False
+    return True
 
 
 def _has_sign(function: Any, t: Any, bounds: tuple[Any, Any], sign: int, signs: Signs) -> bool:
