@@ -139,7 +139,6 @@ def test_circles_are_found() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.slow
 def test_no_circle_of_imports() -> None:
     assert not circles(imports())
 

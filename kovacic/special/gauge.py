@@ -39,7 +39,7 @@ from kovacic.limits import count_work
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
-from kovacic.special.polar_parts import integral_of_square_root, irregular_places, scales, unit
+from kovacic.special.polar_parts import half_rate, integral_of_square_root, irregular_places, scales, unit
 from kovacic.special.pullback import TRIAL, Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 
@@ -70,11 +70,6 @@ class GaugeTransform:
         first = 2 * da == b * D - d2b
         second = d2a == a * D - 2 * db * T - b * T.derivative()
         return first and second and bool(a * a + a * db - da * b - b * b * T)
-
-
-def half_rate(m: Poly) -> RatFunc:
-    """The logarithmic derivative of sqrt(m)."""
-    return RatFunc(m.derivative(), m) * Fraction(1, 2)
 
 
 def transforms(problem: Problem) -> Iterator[GaugeTransform]:

@@ -60,6 +60,11 @@ class PolarPart:
     residue: Poly
 
 
+def half_rate(m: Poly) -> RatFunc:
+    """The logarithmic derivative of sqrt(m)."""
+    return RatFunc(m.derivative(), m) * Fraction(1, 2)
+
+
 def unit(place: Place, precision: int) -> Poly:
     """V modulo p^precision, for S = V/p^k."""
     power = place.factor**precision

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Protocol
 
 import sympy
 from sympy import Mul, exp
@@ -20,8 +20,8 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.exact import radical
-from kovacic.special.gauge import GaugeTransform, half_rate
 from kovacic.special.numbers import HALF, Number, multiplicities, root
+from kovacic.special.polar_parts import half_rate
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,19 @@ class WrittenFactor:
         return len(self.product.powers) + len(self.product.roots) + bool(self.product.exponential) + len(self.others)
 
 
+class Combined(Protocol):
+    """sqrt(m) (a v + b v'): what a `gauge.GaugeTransform` makes of v."""
+
+    @property
+    def m(self) -> Poly: ...
+
+    @property
+    def a(self) -> RatFunc: ...
+
+    @property
+    def b(self) -> RatFunc: ...
+
+
 #: Powers and exponentials, and the special function that they are multiplied with.
 WrittenTerm = tuple[WrittenFactor, Expr]
 
@@ -47,9 +60,7 @@ class Writer:
     With a gauge transformation a v + b v' is written for what would be v without.
     """
 
-    def __init__(
-        self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any], transform: GaugeTransform | None = None
-    ) -> None:
+    def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any], transform: Combined | None = None) -> None:
         self.gauge = gauge
         self.transform = transform
         self.atoms = Atoms(x)
@@ -116,7 +127,7 @@ class Writer:
         )
         return y1, y2
 
-    def _combined(self, transform: GaugeTransform, before: WrittenFactor, function: Expr) -> Expr:
+    def _combined(self, transform: Combined, before: WrittenFactor, function: Expr) -> Expr:
         """P sqrt(m) ((a + b P'/P) F + b F') for v = P F, F' = s F + t F1 with another function F1."""
         x = self.atoms.x
         b = self.atoms.ratio(transform.b)
