@@ -100,8 +100,9 @@ class Conditions(ParametricAnswer):
         Parameters
         ----------
         format : str
-            "text" (the default), "markdown" with formulas between dollar signs, "latex", the body of a document with amsmath,
-            amssymb and graphicx, or "html", a page of its own.
+            "text" (the default), "markdown" with formulas between dollar signs, "latex", the environments theorem and proof
+            for a document with amsmath, amssymb, amsthm, graphicx and ``\newtheorem{theorem}{Theorem}``, or "html", a page of
+            its own.
 
         Returns
         -------

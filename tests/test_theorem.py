@@ -49,6 +49,10 @@ FAMILIES = {
     "coulomb": "l*(l+1)/x^2 - 2*Z/x + b^2",
     "constant": "sqrt(2)*mu + x^2",
 }
+PREAMBLE = r"""\documentclass{article}
+\usepackage{amsmath,amssymb,amsthm,graphicx}
+\newtheorem{theorem}{Theorem}
+\begin{document}"""
 
 
 @cache
@@ -303,12 +307,25 @@ def test_other_formats(form: str) -> None:
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
 def test_latex_compiles_with_lines_that_fit_a_page(tmp_path: Path) -> None:
     body = "\n\\clearpage\n".join(conditions(name).theorem(format="latex") for name in FAMILIES)
-    packages = r"\documentclass{article}\usepackage{amsmath,amssymb,graphicx}\begin{document}"
-    (tmp_path / "a.tex").write_text(f"{packages}\n{body}\n\\end{{document}}\n", encoding="utf-8")
+    (tmp_path / "a.tex").write_text(f"{PREAMBLE}\n{body}\n\\end{{document}}\n", encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "a.tex"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stdout[-2000:]
     assert not re.findall(r"Overfull \\hbox \((?!\d\.)", done.stdout)
+
+
+def test_latex_has_the_environments_of_amsthm() -> None:
+    """One theorem with its proof after it; the lines that follow are the author's again."""
+    latex = conditions("weber").theorem(format="latex")
+    inside = r"\\begin\{theorem\}(.*)\\end\{theorem\}\s*\\begin\{proof\}(.*)\\end\{proof\}\s*\{(.*)\\par\}\n"
+    found = re.fullmatch(inside, latex, re.DOTALL)
+    assert found is not None
+    claim, proof, rest = found.groups()
+    assert "if and only if" in claim
+    assert "The list is complete" in proof
+    assert r"\subsection*{References}" in rest
+    assert r"\section" not in latex
+    assert "section" not in claim + proof
 
 
 def test_what_isnt_known_is_said() -> None:

@@ -109,8 +109,8 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     json="One line of JSON.",
     latex="A LaTeX formula.",
     default="summary",
-    choice="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; the body of a LaTeX document "
-    "(amsmath, amssymb, graphicx); or a page of its own for a browser.",
+    choice="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; theorem and proof for a LaTeX "
+    "document (amsmath, amssymb, amsthm, graphicx); or a page of its own for a browser.",
 )
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
 @options.NAMES

@@ -1,7 +1,7 @@
 """Conditions as the theorem that a paper prints: hypothesis, cases, groups, solutions, Delta_d, what proves it, references.
 
 "Let ... The equation ... has Liouvillian solutions if and only if one of the following holds": each case where none of those
-before holds.  Text, Markdown, LaTeX or HTML, as for `explain`.
+before holds.  Text, Markdown and HTML have headings, as for `explain`; LaTeX has the environments theorem and proof.
 """
 
 from __future__ import annotations
@@ -40,17 +40,21 @@ _ONE_BY_ONE = 2
 _TABLE = 3
 #: Characters of Delta_d above which nobody prints it.
 _LONGEST = 240
+_PROOF = Heading("Proof")
+_REFERENCES = Heading("References")
 _NOUNS = ("integer", "half-integer")
 _LATEX_RELATIONS = {">=": r"\ge", "<=": r"\le", "!=": r"\ne"}
 
 
 def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
-    """The theorem as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
+    """The theorem as "text", "markdown", "latex" (the body of a document that defines theorem and proof) or "html".
 
     Raises `ValueError` for another format.
     """
     if format not in FORMATS:
         raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
+    if format == "latex":
+        return _in_environments(blocks(answer))
     body = FORMATS[format].render(blocks(answer))
     return page(f"y'' = {answer.right.text}", body) if format == "html" else body
 
@@ -58,6 +62,19 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
 def blocks(answer: ParametricAnswer) -> list[Block]:
     """The theorem, and what it rests on."""
     return [*_TheoremWriter(answer).blocks()]
+
+
+def _in_environments(written: list[Block]) -> str:
+    """LaTeX with `theorem` and `proof` in place of these headings; the references keep theirs."""
+    latex = FORMATS["latex"]
+    start, end = written.index(_PROOF), written.index(_REFERENCES)
+    environments = {"theorem": written[1:start], "proof": written[start + 1 : end]}
+    # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
+    parts = [
+        f"\\begin{{{name}}}\\raggedright\n{latex.render(inside)}\\end{{{name}}}\n"
+        for name, inside in environments.items()
+    ]
+    return "\n".join([*parts, f"{{{latex.render(written[end:])}\\par}}\n"])
 
 
 class _TheoremWriter:
@@ -356,7 +373,7 @@ class _TheoremWriter:
 
     def _proof(self) -> Iterator[Block]:
         answer = self.answer
-        yield Heading("Proof")
+        yield _PROOF
         if answer.complete is True:
             yield say("The list is complete (", *answer.theory.words, ").")
         else:
@@ -364,7 +381,7 @@ class _TheoremWriter:
         for notice in answer.notices:
             if not notice.startswith(f"in {answer.variable} = "):
                 yield say(f"Note: {notice}.")
-        yield Heading("References")
+        yield _REFERENCES
         yield from (say(literature()[key].text()) for key in self._sources())
 
     def _sources(self) -> list[str]:

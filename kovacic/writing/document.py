@@ -145,7 +145,8 @@ def _rows(math: Math) -> list[str]:
 
 def _latex_formula(math: Math) -> str:
     """A paragraph; lines of an array one by one."""
-    shown = [rf"\hangindent2em$\displaystyle {breakable(row)}$\par\smallskip" for row in _rows(math)]
+    # In a group, for in a list, such as a theorem, \par doesn't end what \hangindent began.
+    shown = [rf"{{\hangindent2em$\displaystyle {breakable(row)}$\par}}\smallskip" for row in _rows(math)]
     return "\n".join([r"\smallskip", *shown])
 
 
