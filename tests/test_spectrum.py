@@ -901,6 +901,22 @@ def test_the_command_draws_the_levels(tmp_path: Any) -> None:
         kovacic.spectrum("x^4").plot()
 
 
+@parametrize(
+    "V, said",
+    [
+        ("ax^2", "note: ax was read as a*x"),
+        ("V(x) = ax^2", "note: ax was read as a*x"),
+        ("-1/2 psi'' + ax^2 psi = E psi", "note: ax was read as a*x"),
+        ("2/r^2 - 1/r", "note: r is taken for the variable, of which V is a function"),
+        ("-hbar^2/(2m) psi'' + x^2 psi = E psi", "note: hbar and m taken as positive"),
+    ],
+)
+def test_the_command_says_what_was_guessed(V: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    run(["spectrum", V, "--from", "0", "--boundary", "friedrichs"])
+    notes = [line.strip() for line in capsys.readouterr().out.splitlines() if "note:" in line]
+    assert notes == [said]
+
+
 def test_levels_that_are_false_never_leave(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kovacic.bound_states.api.Levels", lambda n, energy, *rest: Levels(n, energy + 1, *rest))
     with pytest.raises(kovacic.VerificationFailed, match="failed its own check at n = 0"):

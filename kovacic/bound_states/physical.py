@@ -20,11 +20,15 @@ from kovacic.reading.symbolic import expression_of, function_of
 
 @dataclass(frozen=True)
 class Schroedinger:
-    """-kinetic psi'' + V psi = E psi in the variable x; V and kinetic are free of E, kinetic of x."""
+    """-kinetic psi'' + V psi = E psi in the variable x; V and kinetic are free of E, kinetic of x.
+
+    `guesses` say what was guessed when the text was read.
+    """
 
     V: Any
     kinetic: Any
     variable: str
+    guesses: tuple[str, ...] = ()
 
     @property
     def scaled(self) -> Any:
@@ -40,14 +44,16 @@ class Schroedinger:
         """The spectrum of V/kinetic as that of the equation."""
         k = self.kinetic
         energy = sympy.Symbol(found.energy)
-        note = f"{' and '.join(self.positive)} taken as positive" if self.positive else ""
+        notes = [*self.guesses]
+        if self.positive:
+            notes.append(f"{' and '.join(self.positive)} taken as positive")
         return replace(
             found,
             potential=self.V,
             kinetic=k,
             levels=tuple(replace(one, energy=_simple(k * one.energy)) for one in found.levels),
             algebraic=tuple(self._algebraic(one, energy) for one in found.algebraic),
-            notices=(*found.notices, note) if note else found.notices,
+            notices=(*found.notices, *notes),
         )
 
     def _algebraic(self, one: Algebraic, energy: Any) -> Algebraic:
@@ -65,7 +71,8 @@ def _simple(energy: Any) -> Any:
 
 def read_schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> Schroedinger:
     """The equation in a text.  Raises `InputError` for one that isn't Schroedinger's."""
-    whole = expression_of(source_of(text, var, limits, equation=True), limits)
+    source = source_of(text, var, limits, equation=True)
+    whole = expression_of(source, limits)
     psi = function_of(whole)
     x = psi.args[0]
     letters = [sympy.Dummy() for _ in range(3)]
@@ -80,7 +87,7 @@ def read_schroedinger(text: str, var: str | None, energy: str, limits: Limits) -
     if kinetic.has(x) or kinetic.is_negative:
         raise InputError(f"the factor of psi'' over that of {energy}, {kinetic}, isn't a positive constant")
     V = sympy.Symbol(energy) - c / slope
-    return Schroedinger(sympy.expand(V), kinetic, x.name)
+    return Schroedinger(sympy.expand(V), kinetic, x.name, source.guesses)
 
 
 #: V(x) = ..., V = ...

@@ -105,10 +105,11 @@ class SpectralProblem:
 
 
 class _Potential(NamedTuple):
-    """V as an expression, and V - E as it is read: text where V is."""
+    """V as an expression, V - E as it is read: text where V is; and what was guessed when a text was read."""
 
     expression: Any
     S: Any
+    guesses: tuple[str, ...] = ()
 
 
 class _Variable(NamedTuple):
@@ -151,7 +152,7 @@ def read_question(
         sympy.Symbol(str(name)): value for name, said in of_shifts.items() if (value := _number(said)) is not None
     }
     if values:
-        given = _Potential(given.expression.xreplace(values), given.S.xreplace(values))
+        given = _Potential(given.expression.xreplace(values), given.S.xreplace(values), given.guesses)
         with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True, names=names)
         shifts = [name for name in shifts if sympy.Symbol(name) not in values]
     others = {name: said for name, said in (assume or {}).items() if name not in of_shifts}
@@ -180,7 +181,7 @@ def read_question(
         signs=signs,
         friedrichs=boundary == FRIEDRICHS,
         boundary=read_boundary(boundary, ends, variable.name),
-        notices=variable.notices,
+        notices=(*given.guesses, *variable.notices),
         kinetic=signs.real(sympy.sympify(kinetic)),
     )
 
@@ -210,7 +211,7 @@ def _in_one_piece(given: _Potential, variable: str, energy: str, ends: list[Any]
     pieces = pieces_of(V, sympy.S.One, sympy.Symbol(variable), (ends[0], ends[1])) if len(names_of(V)) == 1 else ()
     if len(pieces) != 1:
         raise NotRational(f"{caret(as_text(V))} is a function in pieces, and its levels have no formula here")
-    return _Potential(pieces[0].Q, pieces[0].Q - sympy.Symbol(energy))
+    return _Potential(pieces[0].Q, pieces[0].Q - sympy.Symbol(energy), given.guesses)
 
 
 def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> Boundary:
@@ -290,7 +291,7 @@ def _as_written(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _
                 "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
             )
         expression = expression_of(source, SYMBOLIC, what="the potential")
-        return _Potential(expression, expression - sympy.Symbol(energy))
+        return _Potential(expression, expression - sympy.Symbol(energy), source.guesses)
     expression = V
     if not hasattr(V, "free_symbols"):
         expression = read_expression(exact_text(V, "the potential"))
