@@ -98,6 +98,29 @@ def test_corners(f: Any) -> None:
         assert abs(left - 2 * here + right) < 1e-10
 
 
+@parametrize("seed", range(60), ordinary=6, long=40)
+def test_values_at_a_corner_are_checked_on_either_side(seed: int, recwarn: Any) -> None:
+    """y'' + b y' + c y = f(|x - a|), y(a) = y'(a) = 0 has a solution in |x - a|: nothing is left unchecked."""
+    b, c = [(0, 1), (0, -1), (0, 0), (2, 1), (0, 4)][seed % 5]
+    a = [sympy.Integer(0), sympy.Rational(3, 2), A, sympy.pi][seed % 4]
+    u = x - a
+    f = [abs(u), u * sympy.sign(u), sympy.Max(u, -u), abs(u) ** 3, sympy.exp(-abs(u)), 2 * u * Heaviside(u) - u][
+        seed % 6
+    ]
+    ics = {y(a): 0, y(x).diff(x).subs(x, a): 0}
+    found = kovacic.dsolve(sympy.Eq(applied(b, c, y(x)), f), y(x), ics=ics).rhs
+    assert not [str(warning.message) for warning in recwarn]
+    for side in (-1, 1):
+        near = found.subs(A, 1).subs(x, a.subs(A, 1) + side * sympy.Rational(1, 10**6))
+        assert abs(near.evalf(40)) < 1e-10
+
+
+def test_the_slope_beside_an_impulse_is_that_before_it(recwarn: Any) -> None:
+    found = kovacic.dsolve("y'' + y = DiracDelta(x)", ics="y(0)=0, y'(0)=-1/2").rhs
+    assert str(found) == "sin(Abs(x))/2"
+    assert not [str(warning.message) for warning in recwarn]
+
+
 def test_conditions_with_a_symbol_as_the_break() -> None:
     a = sympy.Symbol("a", positive=True)
     ics = {y(0): 0, y(x).diff(x).subs(x, 0): 0}

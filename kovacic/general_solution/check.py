@@ -43,6 +43,8 @@ _STEP = fmpq(3, 7 * 101)
 _SMALL = arb(10) ** (-DIGITS // 2)
 #: How many values of the integers are tried.
 _SAMPLES = 6
+#: Functions that aren't steps or impulses, and aren't analytic either.
+_CORNERS = tuple(function for function in JUMPING if function not in (sympy.Heaviside, sympy.DiracDelta))
 #: What is raised for functions that can't be evaluated.
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
@@ -340,18 +342,43 @@ def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
 
 def _is_violated(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
     """Is the difference of the two sides of a condition seen not to be zero?  Raises as `_is_wrong_at` does."""
+    h = in_steps(sympy.sympify(question.given.h or 0), question.x)
+    # at an impulse y' is that just before it; elsewhere y and y' are those on either side
+    sides = (-1,) if h.has(sympy.DiracDelta) else (-1, 1)
+    return any(_is_violated_beside(question.x, value, condition, numbers, side) for side in sides)
+
+
+def _is_violated_beside(x: Expr, value: Expr, condition: Condition, numbers: dict[Expr, Expr], side: int) -> bool:
+    """The same with |u| and the like as they are just before the points of the condition (-1), or just after them (1)."""
     assert condition.value is not None
+    sample: dict[Expr, Expr] = {}
+    if value.has(*_CORNERS):  # at numbers, for the side depends on where the corners are
+        symbols = (value.free_symbols | {*_symbols_of([condition])}) - {x, *numbers}
+        sample = numbers | next(islice(samples(symbols), 1, None))
+        value = value.xreplace(sample)
     total = -condition.value
     for term in condition.terms:
-        total += term.coefficient * value_at(value, question.x, term.point, term.order)
-    total = total.xreplace(numbers)
+        point = term.point.xreplace(sample)
+        total += term.coefficient * value_at(_beside(value, x, point, side), x, point, term.order)
+    total = total.xreplace(sample or numbers)
     unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
     letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
     total = total.xreplace(letters)
     # parameters on which a step depends, with values on either side of it as a rule
     symbols = set().union(*(step.free_symbols for step in total.atoms(sympy.Heaviside)))
     tried = islice(samples(symbols), _SAMPLES if symbols else 1)
-    return any(_is_not_zero(total.xreplace(sample)) for sample in tried)
+    return any(_is_not_zero(total.xreplace(steps)) for steps in tried)
+
+
+def _beside(value: Expr, x: Expr, point: Expr, side: int) -> Expr:
+    """What a formula is near a point, on a side of it; steps, which have a value just before the point, stay."""
+    steps = {step: sympy.Dummy() for step in value.atoms(sympy.Heaviside, sympy.DiracDelta)}
+    corners = value.xreplace(steps)
+    if not corners.has(*_CORNERS):
+        return value
+    distances = [abs(other - point) for other in break_points(corners, x) if other != point]
+    near = on_piece(corners, x, point + side * min(distances, default=sympy.Integer(1)) / 2)
+    return near.xreplace({letter: step for step, letter in steps.items()})
 
 
 def _is_not_zero(number: Expr) -> bool:
