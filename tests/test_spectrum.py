@@ -901,7 +901,7 @@ def test_the_command_draws_the_levels(tmp_path: Any) -> None:
         kovacic.spectrum("x^4").plot()
 
 
-@parametrize(
+@pytest.mark.parametrize(
     "V, said",
     [
         ("ax^2", "note: ax was read as a*x"),
