@@ -902,7 +902,7 @@ def test_the_command_draws_the_levels(tmp_path: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    "V, said",
+    ("V", "said"),
     [
         ("ax^2", "note: ax was read as a*x"),
         ("V(x) = ax^2", "note: ax was read as a*x"),
