@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
@@ -51,7 +52,8 @@ def find_conditions(
         known = known.also(PI, ("irrational", "positive"))
     for name in nonzero(letters):
         known = known.also(name, ("nonzero",))
-    return conditions_of(parsed, known, most, limits, letters)
+    found = conditions_of(parsed, known, most, limits, letters)
+    return replace(found, given=S) if isinstance(S, str) else found
 
 
 def _without_parameters(parsed: Parsed, given: Parsed, *, is_guessed: bool) -> InputError:

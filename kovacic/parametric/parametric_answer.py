@@ -89,6 +89,8 @@ class ParametricAnswer:
         S itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
     letters : tuple
         Parameters of S that stand for others, sqrt(a) and exp(a): their names, and the SymPy expressions.
+    given : str
+        The text that was read, with the values in it that were given; empty where there wasn't one.
 
     Examples
     --------
@@ -113,6 +115,7 @@ class ParametricAnswer:
     constant: ParameterPoint = NO_CONSTANT
     equation: Equation | None = None
     letters: Letters = ()
+    given: str = field(default="", compare=False)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -357,7 +360,7 @@ class ParametricAnswer:
         Returns
         -------
         dict
-            With the keys S, variable, parameters, assumptions, generic, regions, complete, theory, notices, equation.
+            With the keys S, variable, parameters, assumptions, generic, regions, complete, theory, notices, equation, given.
 
         Examples
         --------
@@ -379,6 +382,7 @@ class ParametricAnswer:
             "theorem": {"said": prose.marked(self.theory.words), "sources": list(self.theory.sources)},
             "notices": list(self.notices),
             "equation": equation_data(self.equation),
+            **({"given": self.given} if self.given else {}),
             **({} if self.within_limits else {"within_limits": False}),
             **({"names": list(self.names)} if self.letters else {}),
             **constant_data(self.constant),
@@ -439,6 +443,7 @@ class ParametricAnswer:
                 notices=tuple(data["notices"]),
                 constant=constant,
                 equation=equation_from(data.get("equation"), variable, names),
+                given=str(data.get("given", "")),
             )
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -15,19 +16,25 @@ import sympy
 
 from kovacic.algebra.function_field import FunctionField
 from kovacic.decision import Structure
-from kovacic.equation import PI
+from kovacic.equation import PI, Equation
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget
 from kovacic.parametric import prose
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.facts import WORDS
 from kovacic.parametric.formulas import partial_fractions
 from kovacic.parametric.integers import free_letter
+from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import NO_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution, general, translated, weight_by_signs
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
+from kovacic.parametric.unexpanded import unexpanded
+from kovacic.reading.names import words_among
+from kovacic.reading.read import read_input
+from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
 from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy, rational_functions
@@ -104,15 +111,47 @@ class _TheoremWriter:
 
     def _hypothesis(self) -> Iterator[Block]:
         equation = self.answer.equation
+        given = self._given()
         yield say(*self._about_parameters(), "The equation")
-        if equation is None or equation.is_normal_form:
-            yield Formula(self._normal_form("y"))
-            return
         v = self._unknown
-        yield Formula(Math(str(equation), latex_text(equation.text(caret=False))))
-        yield say(*self._change(), "becomes, with ", *self._substitution(v), ", its normal form")
-        yield Formula(self._normal_form(v))
-        yield say("Each of the two equations")
+        normal_form = self._normal_form(v)
+        if equation is None:
+            yield Formula(given or normal_form)
+            return
+        if equation.is_normal_form and (given is None or equation.change or given.latex == normal_form.latex):
+            yield Formula(normal_form)
+            return
+        expanded = Math(str(equation), latex_text(equation.text(caret=False)))
+        yield Formula(given or expanded)
+        if given and equation.change:
+            yield say("is, in ", self._change(), ", the equation")
+            yield Formula(expanded)
+            yield say("and that becomes, with ", *self._substitution(v), ", its normal form")
+        elif v == equation.unknown:
+            yield say("has the normal form")
+        else:
+            yield say(*self._in_changed(), "becomes, with ", *self._substitution(v), ", its normal form")
+        yield Formula(normal_form)
+        yield say("Each of these equations")
+
+    def _given(self) -> Math | None:
+        """The equation as the user wrote it; None without a text that is read as this one.
+
+        An algebraic constant with a letter for it, alpha, is one in the equation, too.
+        """
+        answer = self.answer
+        if any(map(str.isidentifier, answer.constant.names)):
+            return None
+        names = words_among(answer.parameters)
+        with Budget(answer.limits).watched(), suppress(InputError, LimitExceeded):
+            source = source_of(answer.given, self._variable, answer.limits, names=names)
+            read, _ = spelled(
+                read_input(answer.given, var=self._variable, limits=answer.limits, exponentials=True, names=names)
+            )
+            is_same = read.S.to_str(read.variable) == answer.S.to_str(answer.variable)
+            if is_same and _written(read.equation) == _written(answer.equation):
+                return unexpanded(source)
+        return None
 
     @property
     def _unknown(self) -> str:
@@ -169,13 +208,18 @@ class _TheoremWriter:
                 found += [", ", Math(f"{name} {sign} {value}", latex)]
         return found
 
-    def _change(self) -> list[str | Math]:
+    def _in_changed(self) -> list[str | Math]:
+        """`in t = exp(x) (x is the variable that was given) `; nothing in the user's own variable."""
         change = self.answer.equation and self.answer.equation.change
         if not change:
             return []
+        return ["in ", self._change(), " (", _name(change.variable), " is the variable that was given) "]
+
+    def _change(self) -> Math:
+        change = self.answer.equation and self.answer.equation.change
+        assert change
         t = Math(self.answer.variable, latex_text(self.answer.variable))
-        expression = Math(change.expression.replace("**", "^"), latex_text(change.expression))
-        return ["in ", t.equals(expression), " (", _name(change.variable), " is the variable that was given) "]
+        return t.equals(Math(change.expression.replace("**", "^"), latex_text(change.expression)))
 
     def _substitution(self, v: str) -> list[str | Math]:
         equation = self.answer.equation
@@ -410,6 +454,13 @@ def _scaled_term(coefficient: sympy.Expr, sign: sympy.Expr) -> _ScaledTerm:
 def _naturals_in(statement: Statement) -> list[Natural]:
     """Those of the parts that hold together."""
     return [part for part in both(statement).parts if isinstance(part, Natural)]
+
+
+def _written(equation: Equation | None) -> tuple[str, str]:
+    """An equation, over whichever field, and its change of variable; empty where there is none."""
+    if equation is None:
+        return "", ""
+    return str(equation), equation.change.expression if equation.change else ""
 
 
 def _delta_named(d: str) -> Math:
