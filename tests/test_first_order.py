@@ -237,6 +237,25 @@ def test_given_functions_in_a_system() -> None:
     assert sympy.simplify(solution[v(t)].diff(t) + solution[u(t)]) == 0
 
 
+@pytest.mark.parametrize("f", ["cos(t)", "sin(t) + 1", "exp(t)", "t*exp(2*t)", "1/t"])
+@pytest.mark.parametrize(
+    "matrix", [(0, 1, -1, 0), (1, 1, 1, -1), (3, -4, 1, -1), (2, -1, 1, 2), (0, 1, -2, -3), (1, 0, 2, 1)]
+)
+def test_free_constants_stand_in_terms_of_their_own(matrix: tuple[int, ...], f: str) -> None:
+    """C1 and C2 are 0 in each term that has them, for none is collected with numbers."""
+    a, b, c, d = matrix
+    names = dict.fromkeys(sympy.symbols("C1 C2"), 0)
+    for solution in kovacic.dsolve(f"x' = {a}*x + {b}*y, y' = {c}*x + {d}*y + {f}"):
+        terms = sympy.Add.make_args(solution.rhs)
+        assert solution.rhs.has(*names)
+        assert all(term.subs(names) == 0 for term in terms if term.has(*names))
+
+
+def test_the_second_unknown_of_a_forced_oscillator() -> None:
+    _, y = kovacic.dsolve("x' = y, y' = -x + cos(t)")
+    assert str(y.rhs) == "-C1*sin(t) + C2*cos(t) + t*cos(t)/2 + sin(t)/2"
+
+
 def test_what_is_no_such_system_is_refused() -> None:
     first = sympy.Eq(u(t).diff(t), v(t))
     with pytest.raises(kovacic.InputError, match="3 equations"):

@@ -144,6 +144,7 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     Raises `InputError` for values that no solution has, and `NotImplementedError` where nothing is found.
     """
     conditions = _conditions(system, ics)
+    given = [e for _, condition in conditions for e in (condition.value, *condition.points)]
     start = _initial_values(conditions)
     is_swapped = _is_swapped(system, start)
     ordered = system.swapped if is_swapped else system
@@ -163,14 +164,23 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     if conditions:
         pair, others = _with_constants(system, pair, conditions)
         notices += others
-    pair = shortest([*sums(pair[0], system.t)]), shortest([*sums(pair[1], system.t)])
     entries = (*system.matrix[0], *system.matrix[1], *system.right)
+    own = sympy.Tuple(*entries, *given).free_symbols | {system.t}
+    constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
+    pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
     notices += exceptions_of(sympy.Tuple(*pair), system.t, entries)
     for number, solution in enumerate(pair):
         notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
     return [sympy.Eq(f, e, evaluate=False) for f, e in zip(system.functions, pair, strict=True)], [
         *dict.fromkeys(notices)
     ]
+
+
+def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:
+    """In a short form, the terms with free constants, in which it is linear, apart from the others."""
+    homogeneous = sympy.Add(*(constant * value.diff(constant) for constant in constants))
+    rest = value.subs(dict.fromkeys(constants, 0))
+    return sympy.Add(*(shortest([*sums(part, t)]) for part in (homogeneous, rest)))
 
 
 def _is_swapped(system: LinearSystem, start: tuple[Expr, Expr, Expr] | None) -> bool:
