@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import warnings
 from collections.abc import Callable, Iterator
 from random import Random
@@ -408,3 +409,19 @@ def test_a_zero_that_the_pair_alone_has_is_no_exception() -> None:
     k = next(symbol for symbol in found.rhs.free_symbols if symbol.name == "k")
     assert sympy.limit(found.rhs, k, 0) == sympy.Symbol("x")
     assert kovacic.dsolve("y'' = 0", ics="y(0)=0, y(1)=1").rhs == sympy.Symbol("x")
+
+
+@pytest.mark.parametrize(
+    ("equation", "ics", "said"),
+    [
+        (
+            "y'' + a*y' + b*y = 0",
+            "y(0)=0, y(1)=1",
+            "sin(sqrt(-a**2 + 4*b)/2) = 0 and -a**2 + 4*b != 0, where there is no solution",
+        ),
+        ("y'' + k^2*y = x", "y(0)=0, y'(1)=0", "unless cos(k) = 0, where there is no solution"),
+    ],
+)
+def test_exceptions_without_a_solution(equation: str, ics: str, said: str) -> None:
+    with pytest.warns(UserWarning, match=re.escape(said)):
+        kovacic.dsolve(equation, ics=ics)

@@ -269,8 +269,8 @@ def exception_of(zero: Expr) -> str:
     """The same for an exception; sin(sqrt(k))/sqrt(k) is 1 at k = 0, where its factor sin(sqrt(k)) vanishes."""
     left = vanishing_factors(zero)
     _, below = sympy.fraction(sympy.together(zero))
-    letters = [factor.as_base_exp()[0] for factor in sympy.Mul.make_args(below)]
-    guards = [f"{letter} != 0" for letter in letters if letter.is_Symbol and left.subs(letter, 0) == 0]
+    bases = [factor.as_base_exp()[0] for factor in sympy.Mul.make_args(below)]
+    guards = [f"{base} != 0" for base in bases if not base.is_number and left.subs(base, 0) == 0]
     return " and ".join([condition_of(zero), *guards])
 
 

@@ -26,7 +26,15 @@ from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
-from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, can_be, condition_of, exception_of
+from kovacic.general_solution.constants import (
+    Determined,
+    Outcome,
+    ParameterCase,
+    can_be,
+    condition_of,
+    exception_of,
+    vanishing_factors,
+)
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
@@ -416,7 +424,7 @@ def _by_sign(question: Question, found: DecidedBasis, particular: Expr, names: t
 def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCase) -> str:
     """The solutions for particular values of the parameters."""
     where = " and ".join(map(exception_of, case.zeros))
-    if case.outcome is Outcome.NONE:
+    if case.outcome is Outcome.NONE or any(vanishing_factors(zero) == 1 for zero in case.needed):
         return f"{where}, where there is no solution"
     if case.outcome is Outcome.OPEN:
         return f"{where}: give such values for the solutions there"
