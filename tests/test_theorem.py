@@ -430,10 +430,17 @@ def test_an_equation_that_was_not_given_like_this_is_printed_as_it_was_read() ->
     assert "y'' = (x^2 + m) y" in Conditions.from_json({**data, "given": "m + x^4"}).theorem()
 
 
+def test_a_normal_form_in_another_variable_says_in_which() -> None:
+    """y'' - y' has no first derivative in t = exp(x)."""
+    text = kovacic.conditions("y'' - y' + (a*exp(3*x) + b*exp(2*x))*y = 0", var="x").theorem()
+    assert "\n\nis, in t = exp(x), the equation\n\n" in text
+    assert "\n\nwhich has the normal form\n\n    y'' = " in text
+
+
 def test_a_case_for_two_regions_excludes_the_first_from_the_second() -> None:
     text = kovacic.conditions("(1+L*x)*y''+b*y'+c*y=0", var="x").theorem()
     assert "For c = 0, and L != 0:\n\n    y = (L*x + 1)^(1 - b/L)\n\n    y = 1\n" in text
-    assert "Each of these equations" in text
+    assert "\n\nEach of these equations has Liouvillian solutions if and only if" in text
 
 
 def test_the_generic_case_is_stated_after_the_others_or_for_all_values() -> None:

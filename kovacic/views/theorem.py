@@ -95,8 +95,7 @@ class _TheoremWriter:
     def blocks(self) -> Iterator[Block]:
         cases = self.cases
         yield Heading("Theorem", 1)
-        yield from self._hypothesis()
-        yield self._claim(cases)
+        yield from self._hypothesis(self._claim(cases))
         for k, case in enumerate(cases, 1):
             number = f"({k}) " if len(cases) > 1 else ""
             yield from self._case(case, number)
@@ -109,30 +108,31 @@ class _TheoremWriter:
 
     # The hypothesis
 
-    def _hypothesis(self) -> Iterator[Block]:
+    def _hypothesis(self, claim: str) -> Iterator[Block]:
+        """The equation, and in the same sentence what is claimed."""
         equation = self.answer.equation
         given = self._given()
         yield say(*self._about_parameters(), "The equation")
         v = self._unknown
         normal_form = self._normal_form(v)
-        if equation is None:
+        is_seen = given is None or equation is None or given.latex == normal_form.latex
+        if equation is None or (equation.is_normal_form and not equation.change and is_seen):
             yield Formula(given or normal_form)
-            return
-        if equation.is_normal_form and (given is None or equation.change or given.latex == normal_form.latex):
-            yield Formula(normal_form)
+            yield say(claim)
             return
         expanded = Math(str(equation), latex_text(equation.text(caret=False)))
         yield Formula(given or expanded)
+        start = self._in_changed()
         if given and equation.change:
             yield say("is, in ", self._change(), ", the equation")
             yield Formula(expanded)
-            yield say("and that becomes, with ", *self._substitution(v), ", its normal form")
-        elif v == equation.unknown:
-            yield say("has the normal form")
+            start = ["which "]
+        if v == equation.unknown:
+            yield say(*start, "has the normal form")
         else:
-            yield say(*self._in_changed(), "becomes, with ", *self._substitution(v), ", its normal form")
+            yield say(*start, "becomes, with ", *self._substitution(v), ", its normal form")
         yield Formula(normal_form)
-        yield say("Each of these equations")
+        yield say(f"Each of these equations {claim}")
 
     def _given(self) -> Math | None:
         """The equation as the user wrote it; None without a text that is read as this one.
@@ -242,18 +242,18 @@ class _TheoremWriter:
 
     # What is claimed
 
-    def _claim(self, cases: list[Case]) -> Block:
+    def _claim(self, cases: list[Case]) -> str:
         is_complete = self.answer.complete is True
         if self.is_solvable:
-            return say("has Liouvillian solutions for all these values. More precisely:")
+            return "has Liouvillian solutions for all these values. More precisely:"
         if not cases:
             generic = "" if is_complete else " for generic values"
-            return say(f"has no Liouvillian solution{generic}.")
+            return f"has no Liouvillian solution{generic}."
         which = "the following holds" if len(cases) == 1 else "one of the following holds"
         if not is_complete:
-            return say(f"has Liouvillian solutions if {which}, and none for other generic values:")
+            return f"has Liouvillian solutions if {which}, and none for other generic values:"
         order = "" if len(cases) == 1 else " (each case where none of those before it holds)"
-        return say(f"has Liouvillian solutions if and only if {which}{order}:")
+        return f"has Liouvillian solutions if and only if {which}{order}:"
 
     def _case(self, case: Case, number: str) -> Iterator[Block]:
         rows = _alternatives(case)
