@@ -164,9 +164,13 @@ def _known(integrand: Expr, t: Expr) -> Expr | None:
 
 
 def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
-    """For t = log(u), with powers of u for exponentials."""
-    powers = expression.replace(exp, lambda e: u ** e.diff(t) * exp(e.subs(t, 0)))
-    return powers.subs(t, log(u))
+    """For t = log(u), with powers of u for exponentials of r t + s; exp(-t^2) stays one."""
+
+    def power(e: Expr) -> Expr:
+        rate = e.diff(t)
+        return exp(e) if rate.has(t) else u**rate * exp(e.subs(t, 0))
+
+    return expression.replace(exp, power).subs(t, log(u))
 
 
 def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
@@ -257,7 +261,8 @@ def _has_exponentials(term: Expr, _: Expr) -> bool:
 def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     """In u = exp(k x), for which x is written."""
     term = sympy.expand(term)
-    rates = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
+    slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
+    rates = {e: slope for e, slope in slopes.items() if not slope.has(x)}  # exp(sin(x)) isn't one of them
     k = _rate_of_variable(term, rates)
     if k is None:
         return None

@@ -29,9 +29,9 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     -uppergamma(s + 1, x) -exp(2)*uppergamma(s + 1, x + 2)
     """
     K, rest = term.as_independent(x, as_Add=False)
-    lines = {factor.as_base_exp()[0] for factor in sympy.Mul.make_args(rest)} - {sympy.E, x}
-    line = next(iter(lines), x)
-    if len(lines) == 1 and line.is_Add and not (slope := line.diff(x)).has(x):  # (a x + b)^s, in t = a x + b
+    bases = {factor.as_base_exp()[0] for factor in sympy.Mul.make_args(rest)} - {sympy.E}
+    line = next(iter(bases), x)
+    if len(bases) == 1 and line.is_Add and not (slope := line.diff(x)).has(x):  # (a x + b)^s, in t = a x + b
         t = sympy.Dummy()
         found = incomplete_gamma(
             sympy.expand_power_exp(term.xreplace({line: t}).subs(x, (t - line + slope * x) / slope)), t

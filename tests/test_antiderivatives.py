@@ -1,0 +1,73 @@
+"""Each rule for antiderivatives is right by itself, whatever the other ones would have taken first."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import sympy
+from build import parametrize
+from flint import acb, fmpq
+from sympy import atan, cos, exp, log, sin, sqrt
+
+from kovacic.closed_form.jets import jet
+from kovacic.general_solution import antiderivatives
+from kovacic.general_solution.integrands import prepared
+from kovacic.general_solution.special_integrals import incomplete_gamma
+
+x = sympy.Symbol("x")
+POINTS = (acb(fmpq(3, 10), fmpq(1, 7)), acb(fmpq(6, 5)), acb(fmpq(17, 10), fmpq(-1, 9)))
+INNER = [x, 2 * x, x**2, sin(x), cos(x), exp(x), exp(-2 * x), log(x), sqrt(x), x + 1, 1 / x, sympy.I * x, sqrt(x + 1)]
+OUTER: list[Any] = [
+    exp,
+    sin,
+    cos,
+    log,
+    atan,
+    sqrt,
+    sympy.erf,
+    lambda u: 1 / u,
+    lambda u: u**2,
+    lambda u: 1 / (1 + u**2),
+]
+
+
+def integrands(count: int) -> Iterator[Any]:
+    """f(u) u', f(u) g and f(u) g(v), each as a single term."""
+    choice = random.Random(5).choice
+    for k in range(count):
+        u = choice(INNER)
+        beside = [u.diff(x), choice(INNER), choice(OUTER)(choice(INNER))][k % 3]
+        whole = prepared(choice(OUTER)(u) * beside)
+        yield from sympy.Add.make_args(whole)
+
+
+@parametrize("number", range(len(antiderivatives._RULES)), ordinary=0, long=16)
+def test_each_rule_alone_finds_antiderivatives(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rule = antiderivatives._RULES[number]
+    monkeypatch.setattr(antiderivatives, "_RULES", (rule,))
+    for term in integrands(60):
+        found = rule.integral(term, x) if rule.concerns(term, x) else None
+        for point in POINTS if found is not None else ():
+            value, wanted = jet(found, x, point)[1], jet(term, x, point)[0]
+            assert value.is_finite(), (rule.claim, term, found)
+            assert value.overlaps(wanted), (rule.claim, term, found)
+
+
+def test_functions_of_a_logarithm_beside_a_square_in_an_exponent() -> None:
+    """exp(-t^2) for t = log(x) is no power of x with a constant exponent."""
+    found = antiderivatives.antiderivative(sympy.erf(log(x)) / x, x)
+    assert found == log(x) * sympy.erf(log(x)) + exp(-(log(x) ** 2)) / sqrt(sympy.pi)
+
+
+def test_powers_of_two_lines_have_no_incomplete_gamma_function() -> None:
+    assert incomplete_gamma(sqrt(x) / (x + 1), x) is None
+
+
+def test_an_exponential_of_a_wave_is_no_power_of_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    """exp(sin(x)) isn't u^cos(x) with u = exp(x)."""
+    (rule,) = (rule for rule in antiderivatives._RULES if rule.claim.startswith("int f(exp(k x)) dx"))
+    monkeypatch.setattr(antiderivatives, "_RULES", (rule,))
+    assert antiderivatives.antiderivative(exp(sin(x)) * cos(x), x) is None
