@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 import strategies
 import sympy
-from build import QQ, AlgebraicField, Budget, RatFunc, analyse, function, parametrize
+from build import QQ, AlgebraicField, Budget, RatFunc, analyse, function, parametrize, read_expression
 from hypothesis import given, settings
 from strategies import Example
 from transform import hypergeometric
@@ -244,3 +244,31 @@ def test_solutions_use_the_root_that_was_meant() -> None:
         solution = answer.solutions[0].subs(sympy.Symbol("x"), x)
         residual = sympy.diff(solution, x, 2) / solution - expected
         assert abs(complex(residual.subs(x, sympy.Rational(7, 5)).evalf(20))) < 1e-12
+
+
+# Razavy's (z cosh(2 x) - M)^2: E = z^2 + 3 +- 2 z for M = 2, z^2 + 5 and z^2 + 7 +- 2 sqrt(1 + 4 z^2) for M = 3.
+@parametrize(
+    "S, degree, energies",
+    [
+        ("(sqrt(2)*cosh(2*x)-3)^2 - E", 2, ["7", "3", "15"]),
+        ("(sqrt(3)*cosh(2*x)-2)^2 - E", 1, ["6 + 2*sqrt(3)", "6 - 2*sqrt(3)"]),
+        ("(sqrt(3)*cosh(2*x)-3)^2 - E", 2, ["8", "10 + 2*sqrt(13)", "10 - 2*sqrt(13)"]),
+        ("(I*cosh(2*x)-3)^2 - E", 2, ["4", "6 + 2*sqrt(3)*I", "6 - 2*sqrt(3)*I"]),
+        ("(I*sinh(2*x)-2)^2 - E", 1, ["2", "6"]),
+        ("(sqrt(2)*(exp(2*x)+exp(-2*x))/2-3)^2 - E", 2, ["7", "3", "15"]),
+        ("x^6+2*sqrt(2)*x^4-5*x^2-E", 2, ["3*sqrt(2) + 4", "3*sqrt(2) - 4"]),
+    ],
+    ordinary=3,
+)
+def test_degrees_that_only_an_algebraic_constant_makes_natural(S: str, degree: int, energies: list[str]) -> None:
+    found = kovacic.conditions(S)
+    (region,) = found.regions
+    (delta,) = region.determinants
+    name, value = delta.split(" = ")
+    assert name == f"Delta_{degree}"
+    assert not {"(2)^2", "(3)^2"} & {value[k : k + 5] for k in range(len(value))}  # in lowest powers of the constant
+    expected = sympy.Mul(*(sympy.Symbol("E") - read_expression(energy) for energy in energies))
+    assert sympy.expand(read_expression(value) - expected) == 0
+    for solution in region.solution(degree):
+        assert all(condition.free_symbols == {sympy.Symbol("E")} for condition in solution.conditions)
+    assert found.check(8)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.ratfunc import RatFunc
@@ -22,7 +23,7 @@ from kovacic.parametric.partition import Partition, Settings, partition, togethe
 from kovacic.parametric.powers import in_powers
 from kovacic.parametric.regions import Limited, ParameterRegion, settled, verdict_of
 from kovacic.parametric.restriction import reduced, with_free_constant
-from kovacic.parametric.solutions import GivenSolutions
+from kovacic.parametric.solutions import GivenSolutions, Origin
 from kovacic.parametric.statements import Statement
 
 #: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
@@ -54,7 +55,7 @@ def derived(
     with budget.watched(), suppress(LimitExceeded):
         generic = result.generic if result.complete is True else None
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
-    regions = settled(result.regions, variable, field.names, constant.names)
+    regions = settled(result.regions, variable, field.names, constant)
     given = equation or normal_form(lifted, variable)
     return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
 
@@ -109,11 +110,15 @@ def _finished(
     region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget, letters: Letters
 ) -> ParameterRegion:
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
+    statement = region.statement
     if region.origin is not None:
         there = equations_on(region.statement, equation)
         pieces = tuple((one.equation, one.zeros) for one in there)
-        region = replace(region, origin=GivenSolutions(region.origin, pieces, letters) if there else None)
-    statement = region.statement
+        # With an algebraic constant the statement knows its value; the origin is about all values.
+        origin: Origin = region.origin
+        if isinstance(statement, Natural) and statement.constant.names:
+            origin = partial(statement.solutions, equation.variable)
+        region = replace(region, origin=GivenSolutions(origin, pieces, letters) if there else None)
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region
     return replace(region, shown_degree=max_degree, limits=budget.limits)

@@ -154,6 +154,10 @@ class ParameterPoint:
         return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))
 
 
+#: The point of no algebraic constant.
+NO_CONSTANT = ParameterPoint((), ())
+
+
 @dataclass(frozen=True)
 class Coset:
     """The numbers `start + k step` with integers k; step > 0."""

@@ -48,6 +48,7 @@ from kovacic.parametric.exponents import (
 )
 from kovacic.parametric.formulas import in_sum, shown
 from kovacic.parametric.functions import (
+    NO_CONSTANT,
     Coset,
     ParameterPoint,
     degrees,
@@ -58,7 +59,7 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.integers import LETTERS, free_letter
 from kovacic.parametric.prose import Words
 from kovacic.parametric.ranks import RankConditions
-from kovacic.parametric.restriction import Hypersurface, hypersurface
+from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.solving import alternatives
 from kovacic.parametric.statements import Setting, Statement
@@ -138,9 +139,11 @@ class Natural(Statement):
     factors: tuple[FunctionPoly, ...] | None
     structure: Structure
     setting: Setting = field(default=Setting(), compare=False)
+    #: The algebraic number among the parameters, if there is one: as the setting has it, and compared.
+    constant: ParameterPoint = NO_CONSTANT
 
     def avoiding(self, setting: Setting) -> Statement:
-        return replace(self, setting=setting)
+        return replace(self, setting=setting, constant=setting.constant)
 
     @property
     def letter(self) -> str:
@@ -151,7 +154,13 @@ class Natural(Statement):
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
         if self.factors is None:
             return replace(self, S=S)
-        return replace(self, S=S, factors=tuple(map(change, self.factors)))
+        changed = list[FunctionPoly]()
+        for factor in map(change, self.factors):
+            if factor.degree > 1 and not any(degrees(factor)):  # numbers: it may have several factors there
+                changed += (over_parameters(part) for part, _ in factor.field.factor(factor))
+            else:
+                changed.append(factor)
+        return replace(self, S=S, factors=tuple(changed))
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point, as far as they are listed."""
@@ -179,9 +188,10 @@ class Natural(Statement):
         return _determinants(self, number)
 
     def given(self, number: int) -> Iterator[_GivenBy]:
-        """Where the exponents give the number."""
-        for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors or ()):
-            surface = hypersurface(exponents)
+        """Where the exponents give the number: on hypersurfaces, or for all values of the parameters, where 0 vanishes."""
+        equations = [over_parameters(factor(Fraction(number))) for factor in self.factors or ()]
+        for exponents in union(irreducible_factors(value) if value else [value] for value in equations):
+            surface = hypersurface(exponents) if exponents else everywhere(exponents.field, self.constant)
             with suppress(ZeroDivisionError):
                 yield _GivenBy(exponents, surface, surface.restricted(self.S))
 
@@ -211,28 +221,35 @@ class Natural(Statement):
         return tuple(found)
 
     def values(self, number: int) -> dict[str, Words]:
-        """What Delta is for a number, in the parameters, each with the equations for the exponents where it is that."""
+        """What Delta is for a number, in the parameters, each with the equations for the exponents where it is that.
+
+        There is no equation where it is that for all values.
+        """
         found: dict[str, dict[Math, None]] = {}
         for determinant in self.determinants(number):
-            found.setdefault(str(determinant), {})[prose.equation(determinant.exponents)] = None
+            places = found.setdefault(str(determinant), {})
+            if determinant.exponents:
+                places[prose.equation(determinant.exponents)] = None
         return {value: prose.alternatives_of([*places]) for value, places in found.items()}
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         if not self.factors:
             return []
         factor = random.choice(self.factors)
-        if not any(degrees(factor)):
-            return []
         number = random.randint(0, _EXAMPLES)
+        if not any(degrees(factor)):
+            root = factor.field.rational_value(-factor[0] / factor[1]) if factor.degree == 1 else None
+            if root is None or root.denominator > 1 or root < 0:
+                return []
+            number = int(root)
         found = []
         if self.m == 1:  # of invariants the numbers of zeros say enough
             found = [one for one in self.determinants(number) if one.factors or one.system]
         if not found:
-            return [over_parameters(factor(Fraction(number)))]
+            return [*filter(None, [over_parameters(factor(Fraction(number)))])]
         chosen = random.choice(found)
-        if chosen.factors:
-            return [chosen.exponents, random.choice(chosen.factors)]
-        return [chosen.exponents, *chosen.system]
+        zeros = [random.choice(chosen.factors)] if chosen.factors else chosen.system
+        return [*filter(None, [chosen.exponents, *zeros])]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         if self._possible(assumptions) == ():
@@ -310,7 +327,8 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
                 determinant = Determinant(exponents, (exponents - exponents,))
             elif conditions.system is None:
                 determinant = Determinant(exponents)
-            found[determinant.rewritten(partial(surface.back, field=exponents.field))] = None
+            determinant = determinant.rewritten(partial(surface.back, field=exponents.field))
+            found[determinant.rewritten(partial(in_lowest_powers, constant=statement.constant))] = None
     return tuple(found)
 
 

@@ -23,7 +23,7 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.cases import in_lines
 from kovacic.parametric.derivation import derived
-from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
 from kovacic.parametric.letters import Letters, letters_from, values_of_letters
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
@@ -38,7 +38,6 @@ from kovacic.parametric.record import (
     verdict_from,
 )
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, said_of, settled
-from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
@@ -429,7 +428,7 @@ class ParametricAnswer:
             field = FunctionField((*names, *constant.names))
             reader = StatementReader(field)
             read = [*map(reader.region, data["regions"])]
-            regions = settled(read, variable, field.names, constant.names)
+            regions = settled(read, variable, field.names, constant)
             answer = cls(
                 variable=variable,
                 parameters=parameters,

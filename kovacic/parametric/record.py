@@ -23,12 +23,11 @@ from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json, fraction
 from kovacic.parametric import prose
-from kovacic.parametric.functions import ParameterPoint, in_field, over_parameters
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, in_field, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
-from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value

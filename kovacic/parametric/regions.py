@@ -13,6 +13,7 @@ from kovacic.equation import PI
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
+from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
@@ -223,8 +224,11 @@ class ParameterRegion:
             for d in range(self.shown_degree + 1):
                 values = statement.values(d)
                 said = [
-                    value + f" where {prose.text_of(places)}" * (len(values) > 1) for value, places in values.items()
+                    value + f" where {prose.text_of(places)}" * (len(values) > 1 and len(places) > 0)
+                    for value, places in values.items()
                 ]
+                if not said:  # the degree isn't d
+                    continue
                 text = ", ".join(said)
                 found.append(f"Delta_{d} = {text[:_WRITTEN_OUT]}" + "..." * (len(text) > _WRITTEN_OUT))
         return tuple(found)
@@ -287,17 +291,17 @@ def said_of(region: ParameterRegion) -> str:
 
 
 def settled(
-    regions: Sequence[ParameterRegion], variable: str, names: tuple[str, ...], constants: tuple[str, ...]
+    regions: Sequence[ParameterRegion], variable: str, names: tuple[str, ...], constant: ParameterPoint
 ) -> list[ParameterRegion]:
     """The regions in their order, so that each is printed for the values that belong to none before it.
 
-    `names` are the parameters, among them the `constants`, for which nothing is solved, nor for pi.
+    `names` are the parameters, among them that of the `constant`, for which nothing is solved, nor for pi.
     """
-    fixed = (*constants, *(name for name in names if name == PI))
+    fixed = (*constant.names, *(name for name in names if name == PI))
     covered: list[frozenset[FunctionPoly]] = []
     found = []
     for region in regions:
-        setting = Setting((variable, *names), fixed, tuple(covered))
+        setting = Setting((variable, *names), fixed, tuple(covered), constant)
         found.append(replace(region, statement=region.statement.avoiding(setting)))
         for one in alternatives_of(all_of(both(region.statement).parts)):
             parts = both(one).parts

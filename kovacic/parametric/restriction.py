@@ -31,6 +31,7 @@ from kovacic.limits import Budget
 from kovacic.parametric import functions
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.functions import (
+    NO_CONSTANT,
     ParameterPoint,
     degrees,
     element,
@@ -158,10 +159,6 @@ def _down(constant: Poly) -> FunctionPoly:
     while isinstance(constant, ExtensionPoly):
         constant = norm(constant)
     return over_parameters(constant)
-
-
-#: The point of no algebraic constant.
-NO_CONSTANT = ParameterPoint((), ())
 
 
 class Curve(NamedTuple):
@@ -364,18 +361,25 @@ def over_all(statement: Statement, field: FunctionField) -> Statement:
 
 def reduced(statement: Statement, constant: ParameterPoint) -> Statement:
     """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
+    return statement.rewritten(lambda function: in_lowest_powers(function, constant))
+
+
+def in_lowest_powers(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
+    """The function with its numerator in lowest powers of the constant, the last parameter of its field, if there is one."""
     if not constant.names:
-        return statement
-    return statement.rewritten(lambda function: _reduced(function, constant))
-
-
-def _reduced(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
-    """The numerator in lowest powers of the constant, the last parameter of its field."""
+        return function
     field = function.field
-    base = FunctionField(function.field.names[:-1])
-    numbers = constant.field
-    assert isinstance(numbers, AlgebraicField)
-    extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]))
-    values = [*(extension.embed(base.generator(name)) for name in base.names), extension.generator]
-    total = _free(functions.numerator(function).value_at(values, extension), field)
+    total = _free(everywhere(field, constant).at(functions.numerator(function)), field)
     return over_parameters(total / element(field, function.den))
+
+
+def everywhere(field: FunctionField, constant: ParameterPoint) -> Hypersurface:
+    """All values of the parameters of a field, where the last one of them is the constant, if there is one."""
+    numbers = constant.field
+    if not isinstance(numbers, AlgebraicField):
+        return Hypersurface(field.names, tuple(map(field.generator, field.names)), field)
+    *others, name = field.names
+    base = FunctionField(tuple(others))
+    extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]), name)
+    values = [extension.embed(base.generator(other)) for other in others]
+    return Hypersurface(field.names, (*values, extension.generator), extension)

@@ -330,8 +330,8 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     for part in exponents.parts:
         exponent = sympy.factor(part.exponent.to_sympy(x))
         y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
-    conditions = [given.to_sympy(x)]
-    where = {prose.equation(given).text: None}
+    conditions = [given.to_sympy(x)] if given else []
+    where = dict.fromkeys([prose.equation(given).text] if given else [])
     for factors in alternatives:
         conditions.append(sympy.Mul(*(factor.to_sympy(x) for factor in factors)))
         where[" or ".join(f"{caret(as_text(factor.to_sympy(x)))} = 0" for factor in factors)] = None

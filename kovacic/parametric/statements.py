@@ -18,7 +18,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero
-from kovacic.parametric.functions import ParameterPoint, numerator
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, numerator
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,14 @@ class Setting:
     """What a statement is printed beside.
 
     No integer is called like one of the `names`; nothing is solved for one of the `fixed` ones, which are constants; nothing is
-    said of the common zeros of functions that are `covered`, because they belong to earlier regions.
+    said of the common zeros of functions that are `covered`, because they belong to earlier regions.  `constant` is the value
+    of the algebraic number among the names, if there is one.
     """
 
     names: tuple[str, ...] = ()
     fixed: tuple[str, ...] = ()
     covered: tuple[frozenset[FunctionPoly], ...] = ()
+    constant: ParameterPoint = NO_CONSTANT
 
     def covers(self, *zeros: FunctionPoly) -> bool:
         """True if an earlier region contains the common zeros of the functions."""
