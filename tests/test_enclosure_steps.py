@@ -57,3 +57,32 @@ def test_bumps_are_passed_in_few_discs(seed: int) -> None:
 def test_too_many_discs_are_foreseen(equation: str, x: int) -> None:
     with bounded_work(100), pytest.raises(kovacic.LimitExceeded, match=r"takes .* steps or more"):
         kovacic.evaluate(equation, x, x0=0, y0=1, dy0=0)
+
+
+@pytest.mark.parametrize(
+    ("S", "x0", "x"),
+    [
+        ("-(x^2+1)/(x^2+4)", 0, 1000),
+        ("x", 0, -150),
+        ("x", -150, -2),
+        ("x", -40, -150),
+        ("x - x^3", 1, 40),
+        ("(1-x)/(x^2+5)", 3, 300_000),
+        ("-2 + 3/(x^2+1)", -900, 700),
+        ("-(x^2+9*x+1)/(2*x^2+4)", -1000, 900),
+    ],
+)
+def test_oscillations_far_out_are_those_that_discs_beside_the_axis_find(S: str, x0: int, x: int) -> None:
+    start: dict[str, Any] = {"x0": x0, "y0": 1, "dy0": "1/3", "derivative": True, "method": "taylor"}
+    with bounded_work(1600):
+        states = kovacic.evaluate(S, [x, x + 1], **start)
+    (around,) = kovacic.evaluate(S, [x], path=[(x0 + x) // 2 + 0.5j], digits=35, **start)
+    for ball, other in zip(states[0], around, strict=True):
+        assert other.radius < ball.radius
+        assert ball.overlaps(other)
+
+
+def test_thousands_of_oscillations_are_one_step() -> None:
+    with bounded_work(1600):
+        value = kovacic.evaluate("-(x^2+1)/(x^2+4)", 10**5, x0=0, y0=1, dy0=0)
+    assert float(value) == pytest.approx(-0.02070360324758066, abs=1e-17)  # 3,131 discs gave the same

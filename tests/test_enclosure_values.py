@@ -237,7 +237,7 @@ def test_wrong_input_is_refused(arguments: dict[str, object], words: str) -> Non
 
 def test_an_exhausted_limit_is_an_error_when_nothing_is_known() -> None:
     with pytest.raises(LimitExceeded):
-        evaluate(AIRY, -(10**6), x0=0, y0=1, dy0=0, digits=50, method="taylor", limits=Limits(seconds=0.05))
+        evaluate(AIRY, 10**4, x0=0, y0=1, dy0=0, digits=50, method="taylor", limits=Limits(seconds=0.05))
 
 
 def test_a_value_that_is_zero_is_a_tiny_ball_with_a_warning() -> None:
@@ -259,7 +259,7 @@ def test_the_global_precision_is_untouched_even_by_an_interruption() -> None:
     before = flint.ctx.prec
     evaluate(AIRY, 3, x0=0, y0=1, dy0=0, digits=200)
     with pytest.raises(LimitExceeded):
-        evaluate(AIRY, -(10**6), x0=0, y0=1, dy0=0, digits=50, method="taylor", limits=Limits(seconds=0.02))
+        evaluate(AIRY, 10**4, x0=0, y0=1, dy0=0, digits=50, method="taylor", limits=Limits(seconds=0.02))
     assert flint.ctx.prec == before
 
 

@@ -23,6 +23,7 @@ from kovacic.enclosure.embedded import check_apart
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply, real_part
+from kovacic.enclosure.oscillation import swing, swing_from
 from kovacic.enclosure.points import ExactPoint, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
@@ -60,12 +61,22 @@ class RationalWay(Way):
             check_apart((pole.zeta for pole in self.gauge.poles), to_acb(a), to_acb(b))
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
-        return forecast(self.problem.system, a, b, self.prec)
+        return forecast(self.problem.system, *self._in_discs(a, b), self.prec)
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         system = self.problem.system
         split = alone and is_split(system, self.prec)
-        return walk(system, a, b, self.prec, growth=growth_of_disc(self.prec, alone=alone), split=split)
+        enter, leave = self._in_discs(a, b)
+        if enter != a:
+            yield swing(system, a, enter, self.prec)
+        yield from walk(system, enter, leave, self.prec, growth=growth_of_disc(self.prec, alone=alone), split=split)
+        if leave != b:
+            yield swing(system, leave, b, self.prec)
+
+    def _in_discs(self, a: ExactPoint, b: ExactPoint) -> tuple[ExactPoint, ExactPoint]:
+        """The part of the way that goes by discs: far out, solutions that oscillate are known by amplitude and phase."""
+        system = self.problem.system
+        return swing_from(system, b, a, self.prec), swing_from(system, a, b, self.prec)
 
     def into(self, x: ExactPoint) -> Matrix | None:
         return None if self.gauge is None else (acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1))
@@ -122,7 +133,7 @@ class RationalWay(Way):
             farthest = waiting[-1].point
             self.check(here, farthest)
             product = traveller.product if inward is None else traveller.product.after(inward)
-            ahead = self.forecast(here, farthest)
+            ahead = forecast(self.problem.system, here, farthest, self.prec)
             for number, leg in enumerate(walk(self.problem.system, here, farthest, self.prec), 1):
                 served = [*leg.disc.served(self.problem.system, here, waiting)]
                 if served:
