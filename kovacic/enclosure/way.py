@@ -80,7 +80,7 @@ def _square(radius: arb) -> acb:
     return acb(arb(0, radius), arb(0, radius))
 
 
-class Known(Protocol):
+class Followed(Protocol):
     """A solution that is known on a part of a way."""
 
     def state(self, x: ExactPoint) -> State:
@@ -102,7 +102,7 @@ class WayStep(Protocol):
     def added(self) -> State:
         """What a right-hand side adds to that."""
 
-    def local(self, state: State) -> Known:
+    def local(self, state: State) -> Followed:
         """The solution in the disc, from its state where the disc is entered."""
 
 
@@ -274,7 +274,7 @@ class Ray:
         self._nearest: Any = 0  # what is nearer was forgotten
         self._leave: list[Any] = []
         self._passed: list[_Passed] = []
-        self._locals: dict[int, Known] = {}
+        self._locals: dict[int, Followed] = {}
         self._steps = self.way.walk(self.here, self.far)
 
     def state(self, stop: ExactPoint) -> State:
