@@ -425,3 +425,28 @@ def test_a_zero_that_the_pair_alone_has_is_no_exception() -> None:
 def test_exceptions_without_a_solution(equation: str, ics: str, said: str) -> None:
     with pytest.warns(UserWarning, match=re.escape(said)):
         kovacic.dsolve(equation, ics=ics)
+
+
+@pytest.mark.parametrize(
+    ("ics", "said"),
+    [
+        ("y(0)=0, y(a)=1", "unless sinh(a*k) = 0 and k != 0, where there is no solution"),
+        ("y(b)=0, y(a)=1", "unless sinh(k*(a - b)) = 0 and k != 0, where there is no solution"),
+        ("y'(0)=0, y(a)=1", "unless cosh(a*k) = 0, where there is a solution only if k = 0"),
+        ("y'(0)=0, y'(a)=1", "unless k*sinh(a*k) = 0:"),
+        ("y(0)=1, y'(a)=-h*y(a)", "unless h*sinh(a*k) + k*cosh(a*k) = 0 and k != 0"),
+    ],
+)
+def test_exceptions_are_in_the_functions_of_the_answer(ics: str, said: str) -> None:
+    """What is named is the denominator, up to a factor that is none of these functions."""
+    with pytest.warns(UserWarning, match=re.escape(said)):
+        found = kovacic.dsolve("y'' - k^2*y = 0", ics=ics).rhs
+    _, below = sympy.fraction(sympy.together(found))
+    zero = sympy.sympify(said.removeprefix("unless ").partition(" = 0")[0])
+    plain = {symbol: sympy.Symbol(symbol.name) for symbol in found.free_symbols}
+    assert not sympy.cancel(below.xreplace(plain) / zero).has(sympy.sinh, sympy.cosh)
+
+
+def test_exceptions_beside_an_answer_in_exponentials_are_in_these() -> None:
+    with pytest.warns(UserWarning, match=r"unless exp\(a\*k\) - 1 = 0 and k != 0, where there is no solution"):
+        kovacic.dsolve("y'' - 3*k*y' + 2*k^2*y = 0", ics="y(0)=0, y(a)=1")

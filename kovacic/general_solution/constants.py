@@ -18,6 +18,7 @@ from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.textbook import in_hyperbolic_functions
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 from kovacic.limits import check_time
 
@@ -255,23 +256,26 @@ def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Pa
     return ParameterCase((minor,), split.generic.outcome, found.values)
 
 
-def condition_of(zero: Expr) -> str:
-    """`zero = 0` in a short form: without factors that aren't zero."""
+def condition_of(zero: Expr, answer: Expr = sympy.S.Zero) -> str:
+    """`zero = 0` in a short form: without factors that aren't zero, and with hyperbolic functions beside an answer in these."""
     left = vanishing_factors(zero)
     if isinstance(1 / left, sympy.gamma):
         return f"{(1 / left).args[0]} is one of 0, -1, -2, ..."
+    if answer.has(sinh, cosh):
+        factors = sympy.Mul.make_args(in_hyperbolic_functions(left))
+        left = sympy.Mul(*(factor for factor in factors if not is_nowhere_zero(factor)))
     if left.could_extract_minus_sign():
         left = -left
     return f"{left} = 0"
 
 
-def exception_of(zero: Expr) -> str:
+def exception_of(zero: Expr, answer: Expr) -> str:
     """The same for an exception; sin(sqrt(k))/sqrt(k) is 1 at k = 0, where its factor sin(sqrt(k)) vanishes."""
     left = vanishing_factors(zero)
     _, below = sympy.fraction(sympy.together(zero))
     bases = [factor.as_base_exp()[0] for factor in sympy.Mul.make_args(below)]
     guards = [f"{base} != 0" for base in bases if not base.is_number and left.subs(base, 0) == 0]
-    return " and ".join([condition_of(zero), *guards])
+    return " and ".join([condition_of(zero, answer), *guards])
 
 
 def can_be(case: ParameterCase) -> bool:

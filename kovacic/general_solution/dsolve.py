@@ -388,12 +388,12 @@ def _determined(question: Question, found: DecidedBasis) -> SecondOrderAnswer:
     names = free_constants(question, basis, particular)
     determined = constants_of(question, basis, particular, names, limits)
     generic = determined.generic
-    exceptions = [_said(question, basis, particular, case) for case in determined.particular if can_be(case)]
-    if generic.outcome is Outcome.NONE:
-        raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
     value = combination(question, basis, particular, generic.values)
     is_general = bool(set(names) & set().union(*(c.free_symbols for c in generic.values)))
     value = in_book_form(value, question.x, is_general=is_general)
+    exceptions = [_said(question, basis, particular, case, value) for case in determined.particular if can_be(case)]
+    if generic.outcome is Outcome.NONE:
+        raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
     notices = _by_sign(question, found, particular, None)
     notices += check_answer(question, value, start, limits, natural=found.natural)
     notices += [f"this holds unless {said}" for said in exceptions]
@@ -421,9 +421,9 @@ def _by_sign(question: Question, found: DecidedBasis, particular: Expr, names: t
     return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
 
-def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCase) -> str:
-    """The solutions for particular values of the parameters."""
-    where = " and ".join(map(exception_of, case.zeros))
+def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCase, answer: Expr) -> str:
+    """The solutions for particular values of the parameters, of which the answer is the one for all others."""
+    where = " and ".join(exception_of(zero, answer) for zero in case.zeros)
     if case.outcome is Outcome.NONE or any(vanishing_factors(zero) == 1 for zero in case.needed):
         return f"{where}, where there is no solution"
     if case.outcome is Outcome.OPEN:
@@ -431,5 +431,5 @@ def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCas
     found = written(question, combination(question, basis, particular, case.values))
     if not case.needed:
         return f"{where}, where {found.lhs} = {found.rhs}"
-    needed = " and ".join(map(condition_of, case.needed))
+    needed = " and ".join(condition_of(zero, answer) for zero in case.needed)
     return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"

@@ -45,6 +45,11 @@ def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
     return value
 
 
+def in_hyperbolic_functions(value: Expr) -> Expr:
+    """By (1), times an exponential function; the same where it isn't of this kind."""
+    return next(_hyperbolic(value, sympy.Dummy()), value)
+
+
 def _is_small(value: Expr) -> bool:
     return expanded_size(value) <= _LARGEST and not value.has(sympy.Integral, sympy.RootSum)
 
