@@ -227,10 +227,11 @@ class ParameterRegion:
                     value + f" where {prose.text_of(places)}" * (len(values) > 1 and len(places) > 0)
                     for value, places in values.items()
                 ]
-                if not said:  # the degree isn't d
-                    continue
                 text = ", ".join(said)
-                found.append(f"Delta_{d} = {text[:_WRITTEN_OUT]}" + "..." * (len(text) > _WRITTEN_OUT))
+                if said:
+                    found.append(f"Delta_{d} = {text[:_WRITTEN_OUT]}" + "..." * (len(text) > _WRITTEN_OUT))
+                else:
+                    found.append(f"{statement.letter} is never {d}")
         return tuple(found)
 
     @property
