@@ -91,6 +91,9 @@ def test_values_on_both_sides(problem: tuple[str, int]) -> None:
         (sympy.sqrt(sympy.sin(x) ** 2) / sympy.sin(x), x, True),
         (sympy.log(sympy.I * x - 1), x, True),
         (sympy.acot(x), x, True),
+        (sympy.atan(1 / (x**2 - 2)), x, True),
+        (sympy.atan(1 / (x**2 - 2)), 1 / (x**2 - 2), False),
+        (sympy.sqrt((x - 1) ** 2) * sympy.sqrt(x), 1 / x, True),
         (sympy.polylog(2, 2 + sympy.I * x), x, True),
     ],
 )

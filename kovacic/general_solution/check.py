@@ -27,7 +27,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, is_refuted
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.continuity import jumps
+from kovacic.general_solution.continuity import cuts_of, jumps
 from kovacic.general_solution.jumps import break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
@@ -74,15 +74,20 @@ def check_answer(
         part = value.diff(question.x, condition.terms[0].order).xreplace(numbers)
         if is_refuted(condition.value, part, question.x, place):
             raise _failed(question, value, f"doesn't satisfy {condition.text}")
-    a, b, c, f = map(question.own, _coefficients(question))
-    parts = [value, b / a, c / a, f / a]
-    if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
-        parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
-    if jumps(parts[0], question.x, parts[1:]):
+    if cuts_of(value, question.x) and _jumps(question, value):
         unchecked.append(
             "the formula jumps at an ordinary point of the equation: it is a solution between such points only"
         )
     return unchecked
+
+
+def _jumps(question: Question, value: Expr) -> bool:
+    """Does the answer jump at an ordinary point of the equation?"""
+    a, b, c, f = map(question.own, _coefficients(question))
+    parts = [value, b / a, c / a, f / a]
+    if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
+        parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
+    return jumps(parts[0], question.x, parts[1:])
 
 
 def _check_equation(question: Question, value: Expr, start: Expr | None, numbers: dict[Expr, Expr]) -> list[str]:

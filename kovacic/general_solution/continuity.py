@@ -16,9 +16,10 @@ from itertools import islice, pairwise
 from typing import Any
 
 import sympy
-from flint import acb, arb, fmpq
+from flint import acb, arb, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
+from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.zero import samples
@@ -44,7 +45,8 @@ _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     **dict.fromkeys(
         (sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e: e.args[-1]
     ),
-    **dict.fromkeys((sympy.atan, sympy.acot, sympy.asinh), lambda e: 1 + e.args[-1] ** 2),
+    **dict.fromkeys((sympy.atan, sympy.asinh), lambda e: 1 + e.args[-1] ** 2),
+    sympy.acot: lambda e: 1 + e.args[-1] ** -2,
     **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh), lambda e: 1 - e.args[-1] ** 2),
     sympy.polylog: lambda e: 1 - e.args[-1],
     # zero where the argument is: what has a sign isn't analytic there
@@ -71,7 +73,7 @@ def cut_of(e: Expr) -> Expr | None:
 def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     """Is a jump of y or y' seen, for real x, where none of the coefficients b/a, c/a, f/a is singular?
 
-    Letters have values that fit their assumptions, those of either sign where it isn't known.
+    Letters have values that fit their assumptions, and in functions those of either sign where it isn't known.
 
     >>> x = sympy.Symbol("x")
     >>> jumps(sympy.atan(2 * sympy.tan(x / 2)), x, [x]), jumps(sympy.log(x), x, [1 / x])
@@ -80,10 +82,12 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     # An entire function for each opaque part: the rest jumps, or doesn't, beside any continuous functions.
     parts = sorted((e for e in y.atoms(*_OPAQUE) if e.has(x)), key=str)
     y = y.xreplace({e: sympy.cos(x * (k + 1) / 3) for k, e in enumerate(parts)})
-    if not _cuts_of(y, x):
+    if not cuts_of(y, x):
         return False
     with working_precision(_BITS):
-        for numbers in _letters(y.free_symbols - {x}):
+        # The sign of a letter outside, as a constant's, moves no jump.
+        inside = set().union(*(e.free_symbols for e in (*y.atoms(sympy.Function, sympy.Pow), *coefficients)))
+        for numbers in _letters(y.free_symbols - {x}, inside):
             here = y.xreplace(numbers)
             # The terms of each `RootSum`: those of roots to so many digits lie on the same sides of cuts.
             sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in here.atoms(sympy.RootSum)}
@@ -92,16 +96,17 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     return False
 
 
-def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Values of letters, and the opposite ones of those whose sign isn't known."""
+def _letters(symbols: set[Expr], inside: set[Expr]) -> Iterator[dict[Expr, Expr]]:
+    """Values of letters, and the opposite ones of those `inside` whose sign isn't known."""
     for numbers in islice(samples(symbols), 1):
         yield numbers
-        turned = {s: -value for s, value in numbers.items() if s.is_positive is None and s.is_negative is None}
-        if turned:
-            yield numbers | turned
+        unknown = {s for s in symbols & inside if s.is_positive is None and s.is_negative is None}
+        if unknown:
+            yield numbers | {s: -numbers[s] for s in unknown}
 
 
-def _cuts_of(y: Expr, x: Expr) -> list[Expr]:
+def cuts_of(y: Expr, x: Expr) -> list[Expr]:
+    """The expressions `cut_of` of the parts with x, each once."""
     cuts = (cut_of(e) for e in y.atoms(sympy.Function, sympy.Pow) if e.has(x))
     return [*dict.fromkeys(cut for cut in cuts if cut is not None)]
 
@@ -111,6 +116,17 @@ def _is_beside_cut(cut: Acb) -> bool:
     if not cut.is_finite() or cut.contains(0):
         return False
     return bool(cut.imag == 0 or not cut.imag.contains(0) or cut.real > 0)
+
+
+def _real_zeros(cut: Expr, x: Expr) -> list[Any] | None:
+    """The real zeros and poles, as balls, of a fraction with rational coefficients; None for anything else."""
+    if not cut.is_rational_function(x):
+        return None
+    polynomial = sympy.Poly(sympy.Mul(*cut.as_numer_denom()), x)
+    if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
+        return None
+    integers = polynomial.clear_denoms(convert=True)[1].all_coeffs()[::-1]
+    return [zero.real for zero, _ in complex_zeros(fmpz_poly([int(c) for c in integers])) if zero.imag == 0]
 
 
 @dataclass(frozen=True)
@@ -123,15 +139,25 @@ class _Course:
 
     @cached_property
     def _cuts(self) -> list[Expr]:
-        return _cuts_of(self.y, self.x)
+        return cuts_of(self.y, self.x)
 
     def jumps_somewhere(self) -> bool:
         """Between two of the points that the arguments of its functions suggest."""
+        if all(map(self._is_singular_on, self._cuts)):
+            return False
         for a, b in pairwise(self._points()):
             suspects = islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS)
             if any(self._jumps_within(*suspect) for suspect in suspects):
                 return True
         return False
+
+    def _is_singular_on(self, cut: Expr) -> bool:
+        """Is the equation singular wherever a rational argument changes its sign?  Elsewhere it stays beside or along the cut.
+
+        An analytic function that satisfies the equation on a part of an interval without singular points does so on the whole.
+        """
+        zeros = _real_zeros(cut, self.x)
+        return zeros is not None and not any(map(self._is_ordinary, zeros))
 
     def _points(self) -> list[Any]:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""
@@ -156,9 +182,12 @@ class _Course:
 
     def _jumps_within(self, a: Any, b: Any) -> bool:
         """Is the equation regular on a short interval, and do y or y' differ at its ends?"""
-        here = acb(arb(a).union(arb(b)))
-        is_ordinary = self._is_analytic(here, self.coefficients, _cuts_of(sympy.Tuple(*self.coefficients), self.x))
+        is_ordinary = self._is_ordinary(arb(a).union(arb(b)))
         return is_ordinary and any(self._differ(a, b, order) for order in (0, 1))
+
+    def _is_ordinary(self, here: Any) -> bool:
+        """Are the coefficients analytic on a real ball?"""
+        return self._is_analytic(acb(here), self.coefficients, cuts_of(sympy.Tuple(*self.coefficients), self.x))
 
     def _is_analytic(self, here: Acb, functions: Sequence[Expr], cuts: Sequence[Expr]) -> bool:
         """Are all functions finite on a real ball, with no argument on a cut; or continuous along one?"""

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator
+from itertools import chain
 from typing import Any
 
 import sympy
@@ -39,9 +40,13 @@ _LARGEST = 400
 
 def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
     """The shortest form of an answer; in a general one the functions that the free constants belong to stay."""
+    is_small = _is_small(value)
     for rule in _RULES_OF_GENERAL_SOLUTIONS if is_general else _RULES:
-        if _is_small(value):
-            value = shortest([value, *rule(value, x)])
+        if not is_small:
+            break
+        found = shortest([value, *rule(value, x)])
+        if found != value:
+            value, is_small = found, _is_small(found)
     return value
 
 
@@ -128,7 +133,8 @@ def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
 
 def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     """(1) in the numerator and in the denominator."""
-    if not value.has(exp):
+    is_in_sum = any(part.has(exp) for part in value.atoms(sympy.Add))
+    if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
     powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
     rates: dict[Expr, sympy.Integer] = {}
@@ -194,7 +200,7 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
 
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
     """tan u for sin u/cos u, tanh u for sinh u/cosh u."""
-    if value.has(cos, cosh):
+    if any(isinstance(power.base, cos | cosh) for power in value.atoms(sympy.Pow)):
         yield value.replace(lambda e: e.is_Mul, _with_tangents)
 
 
@@ -210,7 +216,7 @@ def _with_tangents(product: Expr) -> Expr:
 
 def _single_roots(value: Expr, x: Expr) -> Iterator[Expr]:
     """1/sqrt(u) for sqrt(u)/u, also where -u is written in the denominator."""
-    if any(power.exp == sympy.S.Half for power in value.atoms(sympy.Pow)):
+    if {sympy.S.Half, sympy.S.NegativeOne} <= {power.exp for power in value.atoms(sympy.Pow)}:
         yield value.replace(lambda e: e.is_Mul, _with_single_roots)
 
 
@@ -232,16 +238,27 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
     for term in sympy.Add.make_args(expanded):
         coefficient, function = term.as_independent(x, as_Add=False)
         coefficients[function].append(coefficient)
-    by_function = sympy.Add(*(sympy.factor(sympy.cancel(sympy.Add(*parts))) * f for f, parts in coefficients.items()))
+    totals = {f: sympy.Add(*parts) for f, parts in coefficients.items()}
+    by_function = sympy.Add(*(c * f if c.is_Rational else sympy.factor(sympy.cancel(c)) * f for f, c in totals.items()))
     yield from (value, expanded, by_function, _factored(by_function))
     if value.is_rational_function(x):
         yield sympy.cancel(value)
 
 
 def over_one_denominator(value: Expr, x: Expr) -> Iterator[Expr]:
-    """A quotient in lowest terms, unless it is too large to be multiplied out."""
-    if _is_small(value):
+    """A quotient in lowest terms, unless it is one already, or too large to be multiplied out."""
+    if value.has(sympy.Add) and not _is_multiplied_out(value) and _is_small(value):
         yield sympy.cancel(sympy.together(value))
+
+
+def _is_multiplied_out(value: Expr) -> bool:
+    """Is it a sum of products of rational numbers, symbols, functions and their powers, without a denominator?"""
+    factors = chain.from_iterable(map(sympy.Mul.make_args, sympy.Add.make_args(value)))
+    powers = (factor.as_base_exp() if factor.is_Pow else (factor, sympy.S.One) for factor in factors)
+    return all(
+        n.is_Integer and n.is_positive and (base.is_Rational or base.is_Symbol or base.is_Function) and base.func != exp
+        for base, n in powers
+    )
 
 
 def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:

@@ -78,6 +78,9 @@ def best(forms: list[PairForm]) -> PairForm:
 
 def shortest(forms: Sequence[Any]) -> Any:
     """The preferred one of equal SymPy expressions: without an integral before those with one, then the shorter text."""
+    forms = [*dict.fromkeys(forms)]
+    if len(forms) == 1:
+        return forms[0]
     kinds = [FormKind.INTEGRAL if form.has(Integral) else FormKind.ELEMENTARY for form in forms]
     given = [PairForm(kind, len(as_text(form)), lambda: None) for kind, form in zip(kinds, forms, strict=True)]
     return forms[given.index(best(given))]
