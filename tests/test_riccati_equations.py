@@ -77,7 +77,7 @@ def test_known_forms() -> None:
         ("w' = -w^2 + (2*x + 1/x)*w - x^2", "x + 2*x/(C1 + x**2)"),
         (
             "w' = -w^2*(x+1) + x^2*(x+1) + 1",
-            "x + exp(-2*x**3/3 - x**2)/(C1 + Integral((x + 1)*exp(-x**2*(2*x/3 + 1)), x))",
+            "x + exp(-2*x**3/3 - x**2)/(C1 + Integral((x + 1)*exp(-2*x**3/3 - x**2), x))",
         ),
         ("w' = -w^2 - 2/(x^3-x^2)", "-x**2/((x - 1)**2*(-C1 - x - 2*log(x - 1) + 1/(x - 1))) + 1/(x**2 - x)"),
         ("w' = 2*I*(w^2+1)/x", "I + 2*I/(4*C1*x**4 - 1)"),
@@ -218,3 +218,14 @@ def test_polynomials_of_case_3_have_no_common_factor(third: str) -> None:
     assert reduce(sympy.gcd, (c for a in coefficients for c in a.coeffs())) == 1
     total = (M.diff(w) * (S - w**2) + M.diff(x)).subs(x, 3)
     assert sympy.rem(sympy.Poly(total, w), sympy.Poly(M.subs(x, 3), w)) == 0
+
+
+@parametrize("particular", [x, x**2, x**3], ordinary=2)
+@pytest.mark.parametrize("r", [-(x + 1), x**2 + 1, x**2 - x, -(x**3) - 2])
+def test_an_integral_that_stays_has_the_exponential_beside_it(particular: Any, r: Any) -> None:
+    """For w0' = p + r w0^2 the others are w0 - E/(r (C1 + int E dx)) with one E, whose exponent has one form."""
+    p = sympy.expand(particular.diff(x) - r * particular**2)
+    found = kovacic.dsolve(sympy.Eq(w(x).diff(x), p + r * w(x) ** 2), w(x)).rhs
+    (integral,) = found.atoms(sympy.Integral)
+    assert found.atoms(exp) == integral.function.atoms(exp)
+    assert found.xreplace({integral: C1}).atoms(exp) == integral.function.atoms(exp)

@@ -182,10 +182,9 @@ def _forms(found: _LinearSolution, equation: FirstOrderEquation) -> Iterator[Exp
         V = None
         if sum(abs(float(power.rational_exponent or 0)) * power.base.degree for power in powers.powers) <= _HIGHEST:
             V = antiderivative(E, x)
-        if V is None:
-            V = sympy.Integral(E, x)
+        # E is written before the quotient, too: an integral that stays has it in the same form
+        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_sum(sympy.Add.make_args(V), x))
         rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
-        V = sympy.factor_terms(_sum(sympy.Add.make_args(V), x))
         yield _sum([rational, -E / (equation.r * (found.constants[0] + V))], x)
 
 
