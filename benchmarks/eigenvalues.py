@@ -167,7 +167,7 @@ PROBLEMS = (
 
 def compute(problem: Benchmark, digits: int = 15) -> tuple[list[kovacic.Ball], list[int], list[float]]:
     """The balls, the numbers of zeros, and the seconds until each was known."""
-    from kovacic.boundary_problems import read_eigenproblem
+    from kovacic.general_solution.boundary_problems import read_eigenproblem
 
     read = read_eigenproblem(problem.equation, problem.conditions, parameter="E", domain=problem.domain)
     values, zeros, seconds = [], [], []

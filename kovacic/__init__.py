@@ -18,7 +18,7 @@ _NAMES = {
     "api": ("Verdict", "decide"),
     "batch": ("solve_many",),
     "bound_states.api": ("spectrum",),
-    "boundary_problems": ("eigenvalues",),
+    "general_solution.boundary_problems": ("eigenvalues",),
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
     "enclosure.ball": ("Ball",),

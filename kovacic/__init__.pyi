@@ -3,7 +3,6 @@ from kovacic.api import Verdict as Verdict
 from kovacic.api import decide as decide
 from kovacic.batch import solve_many as solve_many
 from kovacic.bound_states.api import spectrum as spectrum
-from kovacic.boundary_problems import eigenvalues as eigenvalues
 from kovacic.decision import Status as Status
 from kovacic.decision import Structure as Structure
 from kovacic.doubles.tabulate import tabulate as tabulate
@@ -29,6 +28,7 @@ from kovacic.general_solution import register as register
 from kovacic.general_solution import solve_riccati as solve_riccati
 from kovacic.general_solution import unregister as unregister
 from kovacic.general_solution import validity as validity
+from kovacic.general_solution.boundary_problems import eigenvalues as eigenvalues
 from kovacic.limits import Limits as Limits
 from kovacic.parameters import conditions as conditions
 from kovacic.solution import Solution as Solution

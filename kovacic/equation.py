@@ -21,7 +21,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.text import joined_terms
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 
 DEFAULT_VARIABLE = "x"
 

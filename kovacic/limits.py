@@ -12,8 +12,8 @@ from math import inf, isinf
 from typing import Any, ParamSpec, TypeVar
 
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.exact import exact_real, whole
-from kovacic.numerals import in_a_message, plain_text
+from kovacic.numbers.exact import exact_real, whole
+from kovacic.numbers.numerals import in_a_message, plain_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

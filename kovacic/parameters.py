@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
-from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
+from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
 from kovacic.parametric.check import CheckReport, compare
 from kovacic.parametric.parametric_answer import ParametricAnswer, Values

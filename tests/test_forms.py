@@ -14,7 +14,7 @@ from build import run
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.numerals import as_latex, as_text
+from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss

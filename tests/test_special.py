@@ -18,7 +18,7 @@ from build import QQ, Budget, RatFunc, bounded_work, parametrize, read_input, ru
 import kovacic
 import kovacic.errors
 from kovacic import Limits
-from kovacic.numerals import as_latex
+from kovacic.numbers.numerals import as_latex
 from kovacic.special.airy import Airy
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback

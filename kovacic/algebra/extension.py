@@ -22,8 +22,8 @@ from kovacic.algebra.lifting import Lifter, inverse_by_primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import characteristic_polynomial, coefficients_from_traces, power_sums
-from kovacic.exact import radical
 from kovacic.limits import check_time
+from kovacic.numbers.exact import radical
 
 #: Up to this degree of the modulus, Euclid's algorithm is as fast as lifting.
 _EUCLID_IN_TOWERS = 2

@@ -20,8 +20,8 @@ from typing import TypeAlias
 import sympy as sp
 
 from kovacic.errors import InputError, LimitExceeded, NotRational
-from kovacic.exact import exact_real, is_rational
 from kovacic.limits import Limits
+from kovacic.numbers.exact import exact_real, is_rational
 from kovacic.reading import symbolic
 from kovacic.reading.read import read_input
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
-from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of, seconds_of
+from kovacic.numbers.exact import whole
 from kovacic.shown import json_line
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict

@@ -15,7 +15,7 @@ from typing import Any
 
 from kovacic.batch.records import Item, Record
 from kovacic.errors import InputError, LimitExceeded, needs
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
 from kovacic.writing.maps import CellKind, draw_cells, new_axes

@@ -34,9 +34,9 @@ from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.repulsive import REASON, is_repulsive
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
-from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
-from kovacic.numerals import as_text
+from kovacic.numbers.exact import whole
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
 from kovacic.reading.read import declared

@@ -35,7 +35,7 @@ from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Limits
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer

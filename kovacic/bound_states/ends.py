@@ -18,7 +18,7 @@ from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.writing.formula import caret
 
 _DECAYS = "V -> oo, one solution decays"

@@ -38,7 +38,7 @@ from kovacic.bound_states.energies import Root, conjugate, solved
 from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered, end_with_role
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.sturm_liouville.families import family
 from kovacic.sturm_liouville.problem import Robin
 from kovacic.writing.formula import caret

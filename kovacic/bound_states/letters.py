@@ -18,7 +18,7 @@ from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic, Levels, Spectrum
 from kovacic.errors import InputError
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.symbolic import names_of, read_expression
 from kovacic.writing.formula import caret
 

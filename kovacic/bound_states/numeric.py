@@ -11,8 +11,8 @@ import sympy
 from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.question import read_boundary, read_end
 from kovacic.errors import InputError, LimitExceeded, NotRational
-from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
+from kovacic.numbers.exact import whole
 from kovacic.reading.symbolic import read_expression
 from kovacic.sturm_liouville.ends import is_regular
 from kovacic.sturm_liouville.levels import Eigenvalues

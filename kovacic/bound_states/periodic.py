@@ -17,7 +17,7 @@ from kovacic.bound_states.ends import domain_as_given, real_zeros
 from kovacic.bound_states.frame import Original, RealPotential, Uncovered
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.writing.formula import caret
 
 NO_LEVELS = "a periodic potential: what decays at one end grows at the other (Floquet), the spectrum consists of bands"

@@ -13,10 +13,10 @@ from kovacic.bound_states.letters import assumed_of_letters
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
-from kovacic.exact import exact_text
 from kovacic.general_solution.conditions import ConditionReader, as_mapping
 from kovacic.limits import Limits
-from kovacic.numerals import as_text
+from kovacic.numbers.exact import exact_text
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
 from kovacic.reading.read import read_input

@@ -41,7 +41,7 @@ def eigenvalues(
     kovacic eigenvalues "y'' + lambda*y = 0" --conditions "y(0)=0, y(1)=0"
     kovacic eigenvalues "-y'' + x^4*y = E*y" --parameter E --digits 30
     """
-    from kovacic.boundary_problems import read_eigenproblem
+    from kovacic.general_solution.boundary_problems import read_eigenproblem
     from kovacic.limits import Budget
 
     options.say_reading(equation, given["var"], (given["parameter"], *(given["params"] or ())))

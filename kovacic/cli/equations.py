@@ -194,7 +194,7 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
 def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
     """What `dsolve` finds, and where it is real."""
     from kovacic.general_solution import dsolve, validity
-    from kovacic.numerals import as_latex, as_text
+    from kovacic.numbers.numerals import as_latex, as_text
     from kovacic.writing.formula import caret
 
     found = dsolve(equation, **given)
@@ -214,7 +214,7 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
     """The solution that `dsolve` finds, with its notices, as a line of JSON."""
     from kovacic.general_solution import dsolve, in_special_functions, validity
-    from kovacic.numerals import as_latex, as_text
+    from kovacic.numbers.numerals import as_latex, as_text
 
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
         found = dsolve(equation, ics=ics, **given)

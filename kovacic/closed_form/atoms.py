@@ -18,8 +18,8 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.product import Factor, Product, grouped, merged
-from kovacic.exact import radical
 from kovacic.limits import check_time
+from kovacic.numbers.exact import radical
 from kovacic.reading.linear import chosen_root
 
 Expr = Any  # SymPy publishes no types

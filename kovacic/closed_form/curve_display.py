@@ -19,7 +19,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, ration
 from kovacic.closed_form.curve import CurveIntegral, Unit, unit
 from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import OnCurve
-from kovacic.exact import radical as sqrt
+from kovacic.numbers.exact import radical as sqrt
 
 
 @dataclass

@@ -40,7 +40,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.exact import radical as sqrt
+from kovacic.numbers.exact import radical as sqrt
 
 
 def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:

@@ -18,7 +18,7 @@ from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pa
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 from kovacic.errors import VerificationFailed
 from kovacic.limits import check_time
-from kovacic.numerals import as_latex
+from kovacic.numbers.numerals import as_latex
 
 EXACT = "exact"
 

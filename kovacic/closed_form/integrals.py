@@ -24,7 +24,7 @@ from kovacic.closed_form.primitive import (
 )
 from kovacic.closed_form.product import Power, Product, gathered
 from kovacic.closed_form.structure import Triangular
-from kovacic.exact import radical as sqrt
+from kovacic.numbers.exact import radical as sqrt
 
 Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
 Factors = tuple[Expr, list[Expr]]  # a constant and factors: y1 as `Atoms.factors` gives it

@@ -29,7 +29,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, rational
 from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import Conjugate
 from kovacic.engine.places import rational_square_root
-from kovacic.exact import radical as sqrt
+from kovacic.numbers.exact import radical as sqrt
 
 
 @dataclass(frozen=True)

@@ -38,8 +38,8 @@ from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import Path
 from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords, warn_user
-from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
+from kovacic.numbers.exact import whole
 
 TINY = 2.0**-960
 HUGE = 2.0**1020

@@ -28,7 +28,7 @@ from kovacic.algebra.rationals import to_fmpq
 from kovacic.enclosure.constants import as_number, to_ball
 from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.exact import whole
+from kovacic.numbers.exact import whole
 
 Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero
 _DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals

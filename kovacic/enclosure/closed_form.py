@@ -38,7 +38,7 @@ from kovacic.enclosure.system import check_segment
 from kovacic.engine.decide import decide_reducible
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import Budget, Limits, bounded_work, check_time
-from kovacic.numerals import in_a_message
+from kovacic.numbers.numerals import in_a_message
 from kovacic.special import prices
 from kovacic.verify import verify
 

@@ -14,7 +14,7 @@ from flint import acb, arb
 
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, to_acb
 from kovacic.errors import InputError
-from kovacic.numerals import plain_text
+from kovacic.numbers.numerals import plain_text
 
 
 @dataclass(frozen=True)

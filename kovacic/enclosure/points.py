@@ -13,7 +13,7 @@ from typing import Any, ParamSpec, TypeVar
 from flint import acb, arb, ctx, fmpq
 
 from kovacic.algebra.rationals import to_fmpq, to_fraction
-from kovacic.exact import exact
+from kovacic.numbers.exact import exact
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -135,7 +135,7 @@ def _short(value: Fraction) -> str:
 
 
 def as_point(value: Any, name: str) -> ExactPoint:
-    """The exact point that `value` stands for: an `ExactPoint`, or whatever `kovacic.exact.exact` takes; raises as that.
+    """The exact point that `value` stands for: an `ExactPoint`, or whatever `numbers.exact` takes; raises as that.
 
     >>> as_point("0.1", "x"), as_point(1 + 2j, "x")
     (ExactPoint(1/10), ExactPoint(1 + 2i))

@@ -21,9 +21,9 @@ from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.matrices import State
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.exact import whole
 from kovacic.limits import Limits
-from kovacic.numerals import in_a_message
+from kovacic.numbers.exact import whole
+from kovacic.numbers.numerals import in_a_message
 
 _LOG = logging.getLogger(__name__)
 _BITS_PER_DIGIT = 3.3219280948873626  # log2(10)

@@ -24,7 +24,7 @@ from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.system import System, Zeros, check_segment
 from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotRational
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 
 _BITS = 40  # to which constants are known where nothing was asked for
 

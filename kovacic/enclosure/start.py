@@ -31,7 +31,7 @@ from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.enclosure.way import Way
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.numerals import plain_text
+from kovacic.numbers.numerals import plain_text
 
 _LARGEST_STEP = 1 << 200  # to the right of the zeros and poles of S, in search of a start for the decaying solution
 _STARTS = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"

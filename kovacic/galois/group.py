@@ -10,7 +10,7 @@ from enum import Enum
 from typing import Any, NamedTuple
 
 from kovacic.decision import CurveFunction, GroupClaim, SemiInvariant
-from kovacic.numerals import digits
+from kovacic.numbers.numerals import digits
 
 
 class GroupKind(Enum):

@@ -15,8 +15,8 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
-from kovacic.exact import exact_real, exact_text, is_complex
-from kovacic.numerals import plain_text
+from kovacic.numbers.exact import exact_real, exact_text, is_complex
+from kovacic.numbers.numerals import plain_text
 from kovacic.reading.pieces import conditions_in
 from kovacic.reading.symbolic import read_expression
 

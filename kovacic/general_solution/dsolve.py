@@ -55,7 +55,7 @@ from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import read_assumptions
 from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import declared

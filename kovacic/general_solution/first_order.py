@@ -38,7 +38,7 @@ from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, is_zero, samples
 from kovacic.limits import Limits
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.pieces import Paste
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import expression_of, function_of

@@ -17,7 +17,7 @@ from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.first_order import read_first_order
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, limited
-from kovacic.numerals import as_latex, plain_text
+from kovacic.numbers.numerals import as_latex, plain_text
 from kovacic.solution import Solution, solve
 
 

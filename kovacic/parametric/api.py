@@ -12,8 +12,8 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.decision import Decision, Status
 from kovacic.equation import PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
+from kovacic.numbers.exact import whole
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.check import check_each_region
 from kovacic.parametric.derivation import derived

@@ -18,7 +18,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
-from kovacic.numerals import digits
+from kovacic.numbers.numerals import digits
 from kovacic.parametric.functions import over_parameters
 from kovacic.writing.formula import caret
 

@@ -16,7 +16,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import Parsed
 from kovacic.errors import InputError
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric.functions import over_parameters
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.formula import caret

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from kovacic.errors import InputError
-from kovacic.exact import exact_real, whole
-from kovacic.numerals import in_a_message, plain_text
+from kovacic.numbers.exact import exact_real, whole
+from kovacic.numbers.numerals import in_a_message, plain_text
 from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
 #: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].

@@ -17,8 +17,8 @@ from kovacic.derived import verification
 from kovacic.engine.decide import decide
 from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.cases import in_lines

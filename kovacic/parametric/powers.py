@@ -15,7 +15,7 @@ import sympy
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters, powers_of, union
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.natural import Natural

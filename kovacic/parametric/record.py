@@ -21,7 +21,7 @@ from kovacic.decision import Structure
 from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
-from kovacic.numerals import as_text, for_json, fraction
+from kovacic.numbers.numerals import as_text, for_json, fraction
 from kovacic.parametric import prose
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, in_field, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter

@@ -27,9 +27,9 @@ from kovacic.closed_form.structure import Diagonal, build
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem
 from kovacic.equation import Equation
-from kovacic.exact import has_long_numbers
 from kovacic.limits import Budget
-from kovacic.numerals import as_text
+from kovacic.numbers.exact import has_long_numbers
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose
 from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters

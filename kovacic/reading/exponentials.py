@@ -33,7 +33,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.parts import parts_of, source_of_parts
 from kovacic.reading.source import Source, read_source, source_of
 

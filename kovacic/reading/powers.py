@@ -20,7 +20,7 @@ import sympy
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.exponentials import common_power, in_exponentials, new_variable
 from kovacic.reading.parts import parts_of, source_of_parts

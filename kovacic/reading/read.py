@@ -13,8 +13,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, Equation, Parsed
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
-from kovacic.exact import exact_real, exact_text, is_rational
 from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.numbers.exact import exact_real, exact_text, is_rational
 from kovacic.reading.parser import shown
 from kovacic.reading.pieces import Paste
 from kovacic.reading.source import Source, as_equation, read_source, source_of

@@ -14,9 +14,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import Change, Parsed, parameters_of
 from kovacic.errors import InputError
-from kovacic.exact import exact_text
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.numerals import plain_text
+from kovacic.numbers.exact import exact_text
+from kovacic.numbers.numerals import plain_text
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.lexer import Tokens
 from kovacic.reading.names import words_among

@@ -23,7 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.dialects import tokens_of
 from kovacic.reading.expression import OperationPlace, RationalReader

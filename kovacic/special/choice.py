@@ -36,7 +36,7 @@ from kovacic.closed_form.structure import ClosedStructure, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.special.gauge import GaugeTransform
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import Pullback

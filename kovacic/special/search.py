@@ -10,7 +10,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work
-from kovacic.numerals import as_latex, as_text
+from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.special.gauge import EQUATIONS, GaugeTransform, transforms
 from kovacic.special.polar_parts import irregular_places
 from kovacic.special.pullback import Pullback, StandardEquation

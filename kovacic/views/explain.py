@@ -17,7 +17,7 @@ from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.limits import bounded_work
-from kovacic.numerals import digits
+from kovacic.numbers.numerals import digits
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
     equation_of,

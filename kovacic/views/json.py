@@ -44,7 +44,7 @@ from kovacic.decision import (
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
-from kovacic.numerals import as_text, for_json
+from kovacic.numbers.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input

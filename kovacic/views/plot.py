@@ -36,9 +36,9 @@ from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.variable import with_variable
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
-from kovacic.exact import has_long_numbers, whole
 from kovacic.limits import limited, limits_of
-from kovacic.numerals import as_text, plain_text
+from kovacic.numbers.exact import has_long_numbers, whole
+from kovacic.numbers.numerals import as_text, plain_text
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression

@@ -17,7 +17,7 @@ from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_nat
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget, check_time
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.views.sentences import formulas_of
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
 from kovacic.writing.formula import Math, latex_text, of_sympy

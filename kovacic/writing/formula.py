@@ -16,7 +16,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.equation import parameters_of
-from kovacic.numerals import as_latex, as_text
+from kovacic.numbers.numerals import as_latex, as_text
 
 _GREEK_LETTERS = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon "

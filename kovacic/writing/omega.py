@@ -5,7 +5,7 @@ from __future__ import annotations
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.decision import RiccatiPolynomial
-from kovacic.numerals import as_text
+from kovacic.numbers.numerals import as_text
 from kovacic.writing.formula import Formulas, Math, caret, latex_text
 
 

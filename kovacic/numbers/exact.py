@@ -16,7 +16,7 @@ from typing import Any
 from flint import acb, arb, fmpq, fmpz
 
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.numerals import as_text, in_a_message, plain_text
+from kovacic.numbers.numerals import as_text, in_a_message, plain_text
 
 _DECIMAL_OR_FRACTION = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 _MAX_EXPONENT = 100_000

@@ -10,9 +10,9 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
-from kovacic.exact import exact_text, whole
 from kovacic.general_solution.conditions import Condition, ConditionReader, Term, as_mapping
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import expression_of, is_sympy_equation, read_expression
