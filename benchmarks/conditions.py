@@ -22,9 +22,9 @@ import frame
 import kovacic
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parent / "tests")]
-from tests.parametric_cases import BALL, FAMILIES, hypergeometric  # noqa: E402
-from tests.test_algebraic_constants import ENTRIES  # noqa: E402
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "tests" / "shared"), str(HERE.parent / "tests" / "algebra")]
+from parametric_cases import BALL, FAMILIES, hypergeometric  # noqa: E402
+from test_algebraic_constants import ENTRIES  # noqa: E402
 
 RUNS = 5
 

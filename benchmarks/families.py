@@ -1,7 +1,7 @@
 """Equations of every kind and size, the same on every run: what `benchmarks/engine.py` measures.
 
 Each family is a function of the number n of finite poles of S, and its answer is known by construction (the reasons are
-those of `tests/strategies.py`); the random numbers are seeded by family and size.
+those of `tests/shared/strategies.py`); the random numbers are seeded by family and size.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from fractions import Fraction
 from pathlib import Path
 from random import Random
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "shared"))
 
 import transform
 

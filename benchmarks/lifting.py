@@ -34,7 +34,7 @@ from kovacic.engine.places import analyse
 from kovacic.limits import Budget
 from kovacic.verify import verify
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "shared"))
 import transform
 
 X = RatFunc(QQ.poly([0, 1]))

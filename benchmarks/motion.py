@@ -3,11 +3,12 @@
     python benchmarks/motion.py      writes benchmarks/results/motion.json, .md and .png; about two minutes of processor time
 
 `kovacic.ball.motion` integrates one oscillation and carries it on by rotations; its rivals are SciPy's DOP853 and Radau on
-Newton and Euler's equations with multipliers (`tests/newton_euler.py`), with rtol = tolerance and atol = tolerance/100, stopped
+Newton and Euler's equations with multipliers (`tests/shared/newton_euler.py`), with
+rtol = tolerance and atol = tolerance/100, stopped
 after PATIENCE seconds.  All give u, the contact point on the ball, omega_3 and n at the same times, spread over the last
 oscillation.  Times are processor time from the initial state on.
 
-The reference: the period T and the gain of v by quadratures in 30 digits (`tests/ball_quadratures.py`), and the first
+The reference: the period T and the gain of v by quadratures in 30 digits (`tests/shared/ball_quadratures.py`), and the first
 oscillation by the same equations at rtol = 3e-14; its error is about 1e-13, a rounding of the times (3e4) costs 1e-11.
 """
 
@@ -22,7 +23,7 @@ import frame
 import mpmath
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "shared"))
 import newton_euler
 from ball_quadratures import quadratures
 

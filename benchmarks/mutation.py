@@ -49,49 +49,64 @@ ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 EXPLAINED: dict[str, str] = json.loads((ROOT / "benchmarks" / "mutation_explained.json").read_text(encoding="utf-8"))
 
-ENGINE_TESTS = ("tests/test_cases.py", "tests/test_engine_properties.py", "tests/test_verify.py", "tests/test_invariants.py",
-                "tests/test_bad_primes.py", "tests/test_parameters.py", "tests/test_algebraic_constants.py",
-                "tests/test_textbook_equations.py", "tests/test_operation_counts.py", "tests/test_search_and_kernel.py",
-                "tests/test_jacobian.py")  # fmt: skip
+ENGINE_TESTS = (
+    "tests/engine/test_cases.py",
+    "tests/engine/test_engine_properties.py",
+    "tests/verify/test_verify.py",
+    "tests/engine/test_invariants.py",
+    "tests/algebra/test_bad_primes.py",
+    "tests/parametric/test_parameters.py",
+    "tests/algebra/test_algebraic_constants.py",
+    "tests/closed_form/test_textbook_equations.py",
+    "tests/engine/test_operation_counts.py",
+    "tests/engine/test_search_and_kernel.py",
+    "tests/galois/test_jacobian.py",
+)
 #: The files of a part of the package, and the tests that should notice a fault there.
 PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "verify": (("kovacic/verify/*.py",), (*ENGINE_TESTS, "tests/test_galois.py")),
-    "engine": (("kovacic/engine/*.py",), (*ENGINE_TESTS, "tests/test_paper_steps.py")),
-    "galois": (("kovacic/galois/*.py",), ("tests/test_galois.py", "tests/test_jacobian.py", "tests/test_verify.py")),
-    "algebra": (("kovacic/algebra/*.py",), ("tests/test_algebra.py", *ENGINE_TESTS)),
-    "checker": (("kovacic/checker.py",), ("tests/test_checker.py", "tests/test_json.py")),
+    "verify": (("kovacic/verify/*.py",), (*ENGINE_TESTS, "tests/galois/test_galois.py")),
+    "engine": (("kovacic/engine/*.py",), (*ENGINE_TESTS, "tests/engine/test_paper_steps.py")),
+    "galois": (
+        ("kovacic/galois/*.py",),
+        ("tests/galois/test_galois.py", "tests/galois/test_jacobian.py", "tests/verify/test_verify.py"),
+    ),
+    "algebra": (("kovacic/algebra/*.py",), ("tests/algebra/test_algebra.py", *ENGINE_TESTS)),
+    "checker": (("kovacic/checker.py",), ("tests/checker/test_checker.py", "tests/views/test_json.py")),
     "check": (
         ("kovacic/closed_form/check.py", "kovacic/closed_form/real_pair.py"),
-        ("tests/test_closed_form*.py",),
+        ("tests/closed_form/test_closed_form*.py",),
     ),
-    "answers": (("kovacic/general_solution/check.py",), ("tests/test_forged_answers.py", "tests/test_continuity.py")),
-    "batch": (("kovacic/batch/*.py",), ("tests/test_batch.py", "tests/test_scan.py")),
+    "answers": (
+        ("kovacic/general_solution/check.py",),
+        ("tests/general_solution/test_forged_answers.py", "tests/general_solution/test_continuity.py"),
+    ),
+    "batch": (("kovacic/batch/*.py",), ("tests/batch/test_batch.py", "tests/batch/test_scan.py")),
     "cli": (
         ("kovacic/cli/*.py",),
         (
-            "tests/test_cli.py",
-            "tests/test_help.py",
-            "tests/test_ball_command.py",
-            "tests/test_eigenvalues.py",
-            "tests/test_batch.py",
-            "tests/test_scan.py",
+            "tests/cli/test_cli.py",
+            "tests/cli/test_help.py",
+            "tests/ball/test_ball_command.py",
+            "tests/sturm_liouville/test_eigenvalues.py",
+            "tests/batch/test_batch.py",
+            "tests/batch/test_scan.py",
         ),
     ),
     "views": (
         ("kovacic/views/*.py", "kovacic/writing/*.py"),
         (
-            "tests/test_cli.py",
-            "tests/test_explain.py",
-            "tests/test_formulas.py",
-            "tests/test_json.py",
-            "tests/test_result_methods.py",
-            "tests/test_theorem.py",
-            "tests/test_enclosure_plot.py",
+            "tests/cli/test_cli.py",
+            "tests/views/test_explain.py",
+            "tests/views/test_formulas.py",
+            "tests/views/test_json.py",
+            "tests/views/test_result_methods.py",
+            "tests/views/test_theorem.py",
+            "tests/enclosure/test_enclosure_plot.py",
         ),
     ),
     "bounds": (
         tuple(f"kovacic/enclosure/{name}.py" for name in ("t*", "fr*", "exponential", "s*")),
-        ("tests/test_enclosure*.py",),
+        ("tests/enclosure/test_*.py",),
     ),
 }
 #: Tests that take longer (in seconds, with the lines recorded) aren't run.

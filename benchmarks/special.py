@@ -15,10 +15,11 @@ from statistics import median
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from special_cases import KINDS, pull_backs
+
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
 from kovacic.special.search import find, special_functions
-from tests.special_cases import KINDS, pull_backs
 
 
 def main(count: int, largest: int) -> None:

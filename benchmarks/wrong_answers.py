@@ -29,7 +29,12 @@ from random import Random
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "benchmarks")]
+sys.path[:0] = [
+    str(ROOT),
+    str(ROOT / "tests" / "shared"),
+    str(ROOT / "tests" / "closed_form"),
+    str(ROOT / "benchmarks"),
+]
 
 import families  # noqa: E402
 import mutation  # noqa: E402

@@ -2,7 +2,7 @@
 
 Formulas become MathML, pictures are drawn by `pictures.py`, tables of results are filled in by `tables.py`, all at build: the
 pages load nothing from anywhere.  The
-examples are run by `tests/test_documentation.py`.
+examples are run by `tests/package/test_documentation.py`.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from typing import Any
 import kovacic
 
 RESULTS = Path(__file__).parent.parent / "benchmarks" / "results"
-POTENTIALS = Path(__file__).parent.parent / "tests" / "potentials.py"
+POTENTIALS = Path(__file__).parent.parent / "tests" / "shared" / "potentials.py"
 SYSTEMS = ("kovacic.dsolve", "sympy.dsolve")
 
 

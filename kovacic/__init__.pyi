@@ -1,4 +1,4 @@
-# Written by tests/test_public_names.py.
+# Written by tests/package/test_public_names.py.
 from kovacic.api import Verdict as Verdict
 from kovacic.api import decide as decide
 from kovacic.batch import solve_many as solve_many

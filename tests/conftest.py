@@ -52,7 +52,9 @@ QUICK = {
 
 # These are about shells, terminals and signals as POSIX has them.
 collect_ignore = (
-    ["test_batch.py", "test_batch_dask.py", "test_batch_mixes.py", "test_cli.py"] if sys.platform == "win32" else []
+    ["batch/test_batch.py", "batch/test_batch_dask.py", "batch/test_batch_mixes.py", "cli/test_cli.py"]
+    if sys.platform == "win32"
+    else []
 )
 
 

@@ -1,0 +1,347 @@
+"""The form in which solutions are written: as short at every door, whatever the equation was made from."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from random import Random
+
+import pytest
+import sympy
+from build import run
+from transform import gauge
+
+import kovacic
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.numbers.numerals import as_latex, as_text
+from kovacic.special.airy import Airy
+from kovacic.special.bessel import Bessel
+from kovacic.special.gauss import Gauss
+from kovacic.special.pullback import Pullback
+from kovacic.special.whittaker import Whittaker
+from kovacic.views.text import solution_lines
+from kovacic.writing.formula import caret
+
+X = RatFunc(QQ.poly([0, 1]))
+x = sympy.Symbol("x")
+
+
+def pulled_back(differences: tuple[Fraction | int, ...], f: RatFunc) -> RatFunc:
+    """S of Gauss' equation with these exponent differences at f = 0, 1, infinity."""
+    return Pullback(Gauss(*(QQ.poly([Fraction(d) ** 2]) for d in differences)), f).S
+
+
+#: s^2 = f (f - 1) in x is a curve of genus 1 for each of these.
+GENUS_ONE = ((X**2 + 3 * X + 5) / (X + 1), (X**2 + 3 * X + 1) / (X + 1), (X**2 + X + 3) / (X + 2), (X**2 - 3) / (X + 4))
+
+
+def check_dihedral(n: int, f: RatFunc) -> None:
+    """Elementary and short, with the group of the same answer."""
+    answer = kovacic.solve(str(pulled_back((Fraction(3, 2), Fraction(1, 2), Fraction(1, n)), f)))
+    form = answer.closed_form
+    assert form is not None
+    assert answer.group is not None
+    assert answer.group.finite
+    assert form.notes == ()
+    assert not form.y1.has(sympy.Integral)
+    assert len(str(form.y1)) + len(str(form.y2)) < 2500
+
+
+@pytest.mark.parametrize("n", [90, 110, 301])
+def test_functions_on_a_curve_stay_products(n: int) -> None:
+    check_dihedral(n, GENUS_ONE[0])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("f", GENUS_ONE, ids=str)
+def test_long_functions_on_a_curve_stay_products(f: RatFunc) -> None:
+    for n in (7, *range(60, 200, 5), 200, 250, 301, 1000, 4001):
+        check_dihedral(n, f)
+
+
+def test_a_ball_with_zero_in_a_denominator_asks_for_more_digits() -> None:
+    """Two square roots agree in a hundred digits at the point of the check: 1/(r - s), and cot, sec, ... of the same kind."""
+    close = sympy.sqrt(x**2 + sympy.Rational(1, 10**80)) - sympy.sqrt(x**2)
+    from kovacic.closed_form.check import is_numerical_solution
+
+    for y in (1 / close, close ** sympy.Rational(-1, 2), sympy.cot(close), sympy.csch(close)):
+        omega = (sympy.diff(y, x, 2) / y).subs(x, 3)
+        assert omega.is_number
+        assert not is_numerical_solution(y, x, X, X * 0)
+
+
+@pytest.mark.parametrize(
+    "given", [sympy.pi**2 * x**2 + 3 * sympy.pi, "pi^2*x^2 + 3*pi", "pi*x + 1", "y'' + pi*y' + x*y = 0"]
+)
+def test_pi_is_a_number_in_what_is_written(given: object) -> None:
+    answer = kovacic.solve(given)
+    written = (*answer.solutions, *answer.special)
+    assert written
+    assert all(y.free_symbols == {x} for y in written)
+
+
+def test_code_of_other_systems() -> None:
+    """The arguments as each system defines its functions: a modulus k or its square m, n before phi or behind, lists."""
+    m, n, t = sympy.symbols("m n t")
+    expected = {
+        sympy.elliptic_f(t, m): ("EllipticF[t, m]", "EllipticF(sin(t), sqrt(m))", "Elliptic.F(t, m)"),
+        sympy.elliptic_k(m): ("EllipticK[m]", "EllipticK(sqrt(m))", "ellipk(m)"),
+        sympy.elliptic_e(m): ("EllipticE[m]", "EllipticE(sqrt(m))", "ellipe(m)"),
+        sympy.elliptic_e(t, m): ("EllipticE[t, m]", "EllipticE(sin(t), sqrt(m))", "Elliptic.E(t, m)"),
+        sympy.elliptic_pi(n, t, m): ("EllipticPi[n, t, m]", "EllipticPi(sin(t), n, sqrt(m))", "Elliptic.Pi(n, t, m)"),
+        sympy.lowergamma(n, t): ("Gamma[n, 0, t]", "(GAMMA(n) - GAMMA(n, t))", "(gamma(n) - gamma(n, t))"),
+        sympy.hyper((n,), (), t): ("HypergeometricPFQ[{n}, {}, t]", "hypergeom([n], [], t)", "pFq((n,), (), t)"),
+        sympy.airyaiprime(t): ("AiryAiPrime[t]", "AiryAi(1, t)", "airyaiprime(t)"),
+        sympy.Ei(sympy.pi * t): ("ExpIntegralEi[Pi*t]", "Ei(Pi*t)", "expinti(pi * t)"),
+        sympy.E * t + sympy.I * sympy.pi: ("E*t + I*Pi", "exp(1)*t + I*Pi", "exp(1) * t + (pi) * im"),
+        sympy.Integral(sympy.exp(t**2), (t, 0, n)): (
+            "Integrate[Exp[t^2], {t, 0, n}]",
+            "Int(exp(t^2), t = 0 .. n)",
+            "Julia has no Integral, or one with another meaning",
+        ),
+        sympy.Integral(t * n, (t, 0, 1), (n, 0, 1)): tuple(
+            f"{name} has no Integral, or one with another meaning" for name in ("Mathematica", "Maple", "Julia")
+        ),
+        sympy.assoc_legendre(n, m, t): (
+            "LegendreP[n, m, t]",
+            *(f"{name} has no assoc_legendre, or one with another meaning" for name in ("Maple", "Julia")),
+        ),
+        sympy.Symbol("D") * t: (
+            "D can't be the name of a letter in Mathematica\n  hint: rename it with subs",
+            "D can't be the name of a letter in Maple\n  hint: rename it with subs",
+            "D .* t",
+        ),
+    }
+    for expression, codes in expected.items():
+        for language, code in zip(("mathematica", "maple", "julia"), codes, strict=True):
+            try:
+                found = kovacic.as_code(expression, language)
+            except kovacic.InputError as refused:
+                found = str(refused)
+            assert found == code
+
+
+def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["solve", "--as", "maple", "x^2 + 3", "x"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "# y'' = (x^2 + 3) y: case 1, omega = (x^2 + 1)/x",
+        "y1 := x*exp((1/2)*x^2);",
+        "y2 := sqrt(Pi)*x*exp((1/2)*x^2)*erf(x) + exp(-1/2*x^2);",
+        "# y'' = x y: no Liouvillian solution",
+        "y1 := AiryAi(x);",
+        "y2 := AiryBi(x);",
+    ]
+
+
+THIRD, FIFTH, SEVENTH = (Fraction(1, n) for n in (3, 5, 7))
+TARGETS: dict[str, RatFunc] = {
+    "Airy": X,
+    "Airy in x^2 + 1/x": Pullback(Airy(QQ.poly([1])), X**2 + 1 / X).S,
+    "Airy in 2/x": Pullback(Airy(QQ.poly([1])), 2 / X).S,
+    "Bessel of order 1/3": -1 + (4 * THIRD**2 - 1) / (4 * X**2),
+    "Bessel of order 2": -1 + Fraction(15, 4) / X**2,
+    "Bessel modified, in x - 1/x": Pullback(Whittaker(*map(QQ.poly, ([1], [], [-THIRD / 4]))), X - 1 / X).S,
+    "Bessel in sqrt(x)": Pullback(Bessel(*map(QQ.poly, ([1], [(FIFTH**2 - 1) / 4]))), X).S,
+    "Weber": X**2 / 4 + THIRD,
+    "Whittaker": Fraction(1, 4) - THIRD / X + (Fraction(1, 4) - 1) / (4 * X**2),
+    "Gauss": pulled_back((THIRD, FIFTH, SEVENTH), X),
+    "Gauss with logarithms": pulled_back((0, FIFTH, SEVENTH), X),
+    "Gauss in x^2/(x + 1)": pulled_back((THIRD, FIFTH, SEVENTH), X**2 / (X + 1)),
+    "tetrahedral": pulled_back((Fraction(1, 2), THIRD, THIRD), X),
+    "octahedral": pulled_back((Fraction(1, 2), THIRD, Fraction(1, 4)), X),
+    "icosahedral": pulled_back((Fraction(1, 2), THIRD, FIFTH), X),
+    "icosahedral with shifted differences": pulled_back((Fraction(1, 2), THIRD, Fraction(6, 5)), 1 / X),
+}
+ONE = X * 0 + 1
+#: a and b; the first four are short, so the answer is too.
+PAIRS = (
+    (ONE, X),
+    (X, ONE),
+    (X * 0, ONE),
+    (ONE, X * 0 + 2),
+    (1 / X, X + 1),
+    (1 / (X + 2), X**2 + 1),
+    (X + 1, X * 0 - 3),
+    (X**2 + 1, X - 2),
+    (ONE, 1 / X),
+    (X - 3, X**2),
+    (2 / (X - 2), ONE),
+    (X / (X + 5), X),
+    (3 * ONE, X**2 + X + 1),
+)
+
+
+def check_transform(name: str, a: RatFunc, b: RatFunc) -> None:
+    """The solutions of the transform are found, and short."""
+    S = gauge(TARGETS[name], a, b)
+    answer = kovacic.solve(str(S))
+    pair = answer.solutions or answer.special.solutions
+    assert pair, (name, a, b)
+    assert sum(len(str(y)) for y in pair) < max(1000, 4 * len(str(S))), (name, a, b)
+    assert not any(y.has(sympy.Integral) for y in pair)
+
+
+@pytest.mark.parametrize(
+    "name", ["Airy in x^2 + 1/x", "Bessel of order 2", "Weber", "Gauss in x^2/(x + 1)", "icosahedral"]
+)
+def test_gauge_transforms_are_found(name: str) -> None:
+    check_transform(name, *PAIRS[0])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", TARGETS)
+def test_gauge_transforms_of_all_kinds_are_found(name: str) -> None:
+    check_transform(name, *PAIRS[4])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TARGETS)
+def test_all_gauge_transforms_are_found(name: str) -> None:
+    """208 of them."""
+    for a, b in PAIRS:
+        check_transform(name, a, b)
+
+
+def test_the_derivatives_of_bessel_functions() -> None:
+    """J_2'(x) and Y_2'(x), in functions of order 0 and 1; by `dsolve` too."""
+    equation = "(x^4 - 4*x^2)*y'' + (x^3 - 12*x)*y' + (x^4 - 9*x^2 + 12)*y = 0"
+    special = kovacic.solve(equation).special
+    assert special.transform is not None
+    for y, order_two in zip(special, (sympy.besselj(2, x), sympy.bessely(2, x)), strict=True):
+        ratio = (y / order_two.diff(x)).subs(x, sympy.Rational(7, 3)).evalf(30)
+        assert abs(ratio - (y / order_two.diff(x)).subs(x, sympy.Rational(9, 7)).evalf(30)) < 1e-25
+    assert kovacic.dsolve(equation).rhs.has(sympy.besselj(1, x))
+
+
+# ------------------------------------------------------------------------------------------ lengths
+
+
+@pytest.mark.parametrize("k", [15, 35, -41])
+def test_short_pairs_in_error_functions_stay(k: int) -> None:
+    """y'' = (x^2 + k) y: polynomials times exp(+-x^2/2), and erf or erfi, in fewer than 1,000 characters."""
+    pair = kovacic.solve(f"x^2 + {k}").solutions
+    assert pair[1].has(sympy.erf, sympy.erfi)
+    assert not any(y.has(sympy.hyper) for y in pair)
+
+
+def test_legendre_functions_stay_logarithms() -> None:
+    """Of degree 20, in fewer than 1,000 characters."""
+    assert kovacic.solve("(1-x^2)*y'' - 2*x*y' + 420*y = 0").solutions[1].has(sympy.log)
+
+
+def test_a_short_pair_is_independent_where_both_solutions_grow() -> None:
+    """y z' and y' z agree in more than 30 digits at the point where the Wronskian is shown not to be zero."""
+    pair = kovacic.solve("(11445*x^2 - 34326*x + 22877)/(4*(x-1)*(x-2))^2").solutions
+    assert sum(len(str(y)) for y in pair) < 200
+
+
+@pytest.mark.parametrize("k", [2 * 10**9 + 1, -2 * 10**9 - 1, 10**6 + 1, -(10**6) - 3])
+def test_polynomials_of_huge_degree_have_names(k: int) -> None:
+    """y'' = (x^2 + k) y has exp(+-x^2/2) times Hermite's polynomial of degree (|k| - 1)/2, which is right near 0."""
+    pair = kovacic.solve(f"x^2 + {k}").special.solutions
+    assert sum(len(str(y)) for y in pair) < 150
+    for y, start in zip(pair, ([1, 0], [0, 1]), strict=True):
+        series = [Fraction(c) for c in start]
+        for n in range(30):
+            series.append((k * series[n] + (series[n - 2] if n > 1 else 0)) / ((n + 1) * (n + 2)))
+        expected = sum(sympy.Rational(c) * sympy.Rational(1, 10**5) ** n for n, c in enumerate(series))
+        assert abs(y.subs(x, sympy.Rational(1, 10**5)).evalf(30) / expected.evalf(30) - 1) < 1e-20
+
+
+# ------------------------------------------------------------------------------------------ all doors
+
+
+def made_up(count: int) -> Iterator[tuple[str, RatFunc]]:
+    """Equations with known kinds of solutions, of each case and of genus 0, 1 and 2, pulled back and gauge transformed."""
+    random = Random(43)
+
+    def constant() -> RatFunc:
+        return X * 0 + Fraction(random.randint(-4, 4), random.choice((1, 1, 2, 3)))
+
+    def function(degree: int) -> RatFunc:
+        while True:
+            f = sum((constant() * X**k for k in range(degree)), X**degree)
+            g = X + constant() if random.random() < 0.4 else X * 0 + 1
+            if (f / g).derivative() and (f / g).degree <= degree:
+                return f / g
+
+    def reducible() -> RatFunc:
+        a, b = random.sample(range(-3, 4), 2)
+        omega = Fraction(random.randint(-6, 30), random.choice((1, 1, 2))) / (X - a) + Fraction(
+            random.randint(1, 3)
+        ) / (X - b)
+        omega = omega + random.choice((0, 1, 1)) * function(1) * (X * 0 + 1)
+        return omega.derivative() + omega * omega
+
+    def conjugate() -> RatFunc:
+        n = random.randint(0, 12)
+        return Pullback(Whittaker(*map(QQ.poly, ([random.choice((1, -1))], [], [n * (n + 1)]))), function(1)).S
+
+    def finite(third: Fraction | int, shift: int, degree: int) -> RatFunc:
+        return pulled_back((Fraction(1, 2) + shift, THIRD, third), function(degree))
+
+    def dihedral(degree: int) -> RatFunc:
+        n = random.randint(3, 400)
+        return pulled_back(
+            (Fraction(2 * random.randint(0, 1) + 1, 2), Fraction(1, 2), Fraction(1, n)), function(degree)
+        )
+
+    kinds: dict[str, Callable[[], RatFunc]] = {
+        "reducible": reducible,
+        "conjugate": conjugate,
+        "dihedral": lambda: dihedral(random.choice((1, 2, 2))),
+        "tetrahedral": lambda: finite(THIRD, 0, 1),
+        "octahedral": lambda: finite(Fraction(1, 4), 0, random.choice((1, 2))),
+        "icosahedral": lambda: finite(Fraction(random.choice((1, 4, 6)), 5), 0, random.choice((1, 1, 2))),
+    }
+    for k in range(count):
+        name = list(kinds)[k % len(kinds)]
+        S = kinds[name]()
+        if k % 5 == 4:
+            S = gauge(S, *random.choice(PAIRS[:4]))
+        yield name, S
+
+
+def check_doors(S: RatFunc) -> None:
+    """The same expressions in Python, JSON, LaTeX, HTML's formulas, the command, the explanation and dsolve; short ones."""
+    answer = kovacic.solve(str(S))
+    form = answer.closed_form
+    if form is None:  # a letter of the family made it irreducible
+        return
+    pair = answer.solutions
+    texts = [as_text(y) for y in pair]
+    assert texts == [as_text(y) for y in form]
+    assert json.loads(answer.to_json(full=True))["solutions"] == texts
+    latex = answer._repr_latex_()
+    assert all(as_latex(y) in latex for y in pair)
+    printed = [line.partition(" = ")[2] for line in solution_lines(answer) if line.startswith("y")]
+    assert printed == [caret(text) for text in texts]
+    explained = answer.explain()
+    assert all(caret(text) in explained or len(text) > 3000 for text in texts)
+    general = kovacic.dsolve(f"y'' = ({S})*y").rhs
+    for constants, y in zip(((1, 0), (0, 1)), pair, strict=True):
+        found = general.subs(dict(zip(sympy.symbols("C1 C2"), constants, strict=True)))
+        assert found == y or sympy.expand(found - y) == 0
+    length = sum(map(len, texts))
+    others = [sum(len(as_text(y)) for y in answer.special)] if answer.special else []
+    is_elementary = not any(y.has(sympy.Integral, sympy.hyper) for y in pair)
+    assert length <= max([1000, *([4 * n for n in others] if is_elementary else [2 * n for n in others])]) or not others
+
+
+def test_every_door_shows_the_same_form() -> None:
+    for _, S in made_up(6):
+        check_doors(S)
+
+
+@pytest.mark.long
+def test_every_door_shows_the_same_form_of_some() -> None:
+    for _, S in made_up(24):
+        check_doors(S)
+
+
+@pytest.mark.slow
+def test_every_door_shows_the_same_form_of_many() -> None:
+    for _, S in made_up(500):
+        check_doors(S)

@@ -1,0 +1,650 @@
+"""What people paste from other systems, and as they write it by hand, is read, and means what it means there.
+
+Each equation is written in every notation from its coefficients, by SymPy's printers or by hand, and is read back.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import re
+import warnings
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy
+from build import parametrize, read_input
+
+import kovacic
+from kovacic.cli.main import run
+from kovacic.doubles.lambdify import lambdify
+from kovacic.general_solution.question import apart, read_question
+from kovacic.reading.dialects import tokenize
+from kovacic.reading.source import source_of
+
+x, t, k, n, a, omega_0, alpha = sympy.symbols("x t k n a omega_0 alpha")
+#: a, b, c, f of a y'' + b y' + c y = f in the variable x.
+EQUATIONS: list[tuple[Any, Any, Any, Any]] = [
+    (1, 0, -x, 0),
+    (1, 0, 1, 0),
+    (1, 0, k**2, 0),
+    (1, 0, -(x**2) + 3, 0),
+    (x**2, x, x**2 - sympy.Rational(1, 4), 0),
+    (x**2, x, x**2 - n**2, 0),
+    (1 - x**2, -2 * x, n * (n + 1), 0),
+    (x, 1 - x, a, 0),
+    (1, -2 * x, 2 * n, 0),
+    (1, 3, 2, 0),
+    (1, 2 * a, omega_0**2, 0),
+    (1, 0, 4, x),
+    (1, 1 / x, 1 - n**2 / x**2, 0),
+    (x * (1 - x), sympy.Rational(1, 2) - 3 * x, -1, 0),
+    (1, 0, alpha * x**2, 0),
+    (1, -1, 0, x**2 + 1),
+    (x**2, 4 * x, 2, 0),
+    (1, 0, sympy.Rational(3, 16) / x**2 + sympy.Rational(2, 9) / (x - 1) ** 2, 0),
+    (x**3, 0, 1, 0),
+    (1, 0, x**4 + a * x**2, 0),
+    (1, 0, 9, sympy.sin(2 * x)),
+    (1, 2, 1, sympy.exp(-x)),
+    (2, 0, k, 0),
+    (1, 0, -(k**2), 0),
+    (x, 2, x, 0),
+]
+
+
+def summed(terms: list[tuple[Any, str]], write: Callable[[Any], str], times: str) -> str:
+    """The sum of coefficients and what they multiply, in a notation's signs."""
+    written = []
+    for coefficient, factor in terms:
+        value = sympy.sympify(coefficient)
+        if value == 0:
+            continue
+        written.append(factor if value == 1 else f"({write(value)}){times}{factor}")
+    return " + ".join(written)
+
+
+def notation(
+    derivatives: tuple[str, str, str], write: Callable[[Any], str], times: str, equal: str = "="
+) -> Callable[[Any], str]:
+    """The writer of a whole equation from how y'', y' and y are written."""
+
+    def text(parts: tuple[Any, Any, Any, Any]) -> str:
+        *coefficients, f = parts
+        left = summed(list(zip(coefficients, derivatives, strict=True)), write, times)
+        return f"{left} {equal} {write(sympy.sympify(f))}"
+
+    return text
+
+
+def by_hand(value: Any) -> str:
+    return sympy.sstr(value).replace("**", "^").replace("omega_0", "ω₀").replace("alpha", "α")
+
+
+def latex(value: Any) -> str:
+    return sympy.latex(value)
+
+
+def mathematica(value: Any) -> str:
+    return sympy.mathematica_code(value).replace("omega_0", "omega0")
+
+
+def eq(value: Any) -> str:
+    return sympy.sstr(value)
+
+
+def in_eq(parts: tuple[Any, Any, Any, Any]) -> str:
+    y = sympy.Function("y")(x)
+    *coefficients, f = parts
+    left = sum(sympy.sympify(c) * d for c, d in zip(coefficients, (y.diff(x, 2), y.diff(x), y), strict=True))
+    return str(sympy.srepr(sympy.Integer(0)) and sympy.Eq(left, sympy.sympify(f), evaluate=False))
+
+
+NOTATIONS: dict[str, Callable[[Any], str]] = {
+    "primes": notation(("y''", "y'", "y"), by_hand, "*"),
+    "a double quotation mark": notation(('y"', "y'", "y"), by_hand, " "),
+    "Leibniz": notation(("d^2y/dx^2", "dy/dx", "y"), by_hand, " "),
+    "Leibniz with superscripts": notation(("d²y/dx²", "dy/dx", "y"), by_hand, "·"),
+    "LaTeX, fractions": notation((r"\frac{d^2y}{dx^2}", r"\frac{dy}{dx}", "y"), latex, " "),
+    "LaTeX, braces": notation((r"\frac{d^{2} y}{d x^{2}}", r"\frac{d y}{d x}", "y"), latex, r" \cdot "),
+    "LaTeX, primes": notation((r"y^{\prime\prime}", r"y^{\prime}", "y"), latex, r" \, "),
+    "Mathematica": notation(("y''[x]", "y'[x]", "y[x]"), mathematica, " ", "=="),
+    "Mathematica, D": notation(("D[y[x], {x, 2}]", "D[y[x], x]", "y[x]"), mathematica, "*", "=="),
+    "Maple": notation(("diff(y(x), x$2)", "diff(y(x), x)", "y(x)"), eq, "*"),
+    "Maple, D": notation(("(D@@2)(y)(x)", "D(y)(x)", "y(x)"), eq, "*"),
+    "Maxima": notation(("'diff(y,x,2)", "'diff(y,x)", "y"), eq, "*"),
+    "MATLAB": notation(("diff(y,2)", "diff(y,1)", "y"), eq, "*"),
+    "SymPy": in_eq,
+    "SymPy, methods": notation(("y(x).diff(x, 2)", "y(x).diff(x)", "y(x)"), eq, "*"),
+}
+
+
+def normal_form(parts: tuple[Any, Any, Any, Any]) -> Any:
+    """S of y'' = S y for the left-hand side."""
+    a2, b, c, _ = map(sympy.sympify, parts)
+    p, q = b / a2, c / a2
+    return p.diff(x) / 2 + p**2 / 4 - q
+
+
+#: How names come out of notations that don't have SymPy's.
+NAMES = {"ω_0": "omega_0", "omega0": "omega_0", "α": "alpha"}
+
+
+@parametrize("name", NOTATIONS, ordinary=0, long=8)
+def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
+    for parts in EQUATIONS:
+        text = NOTATIONS[name](parts)
+        if text.startswith("(2) "):  # a coefficient, or the number of the equation
+            with pytest.raises(kovacic.InputError, match="may be the number of the equation, or a factor"):
+                read_input(text)
+            continue
+        found = read_input(text, exponentials=True)
+        S, f = found.S.to_str(), f"{found.equation.f.to_str()} + {found.equation.h or 0}"
+        for other, usual in NAMES.items():
+            S, f = S.replace(other, usual), f.replace(other, usual)
+        assert sympy.simplify(sympy.sympify(S) - normal_form(parts)) == 0, text
+        assert sympy.simplify(sympy.sympify(f) - parts[3]) == 0, text
+        assert found.variable == "x"
+
+
+@pytest.mark.parametrize(
+    ("text", "variable", "S"),
+    [
+        ("D2y + 4*y = 0", "t", "-4"),
+        ("D2y + 3*Dy + 2*y = 0", "t", "1/4"),
+        ("D2y = x*y", "x", "x"),
+        (r"\ddot{x} + 9x = 0", "t", "-9"),
+        (r"\ddot{\theta} + 4\theta = 0", "t", "-4"),
+        ("ẍ + ẋ + x = 0", "t", "-3/4"),
+        ("ÿ + y = 0", "t", "-1"),
+        (r"x^2 y'' = \left(\frac{3}{4}+x^{2}\right) y", "x", "(4*x**2 + 3)/(4*x**2)"),
+        ("d/dx((1-x^2) dy/dx) + 6 y = 0", "x", "(6*x**2 - 7)/(x**4 - 2*x**2 + 1)"),
+        ("(d^2/dx^2) y = x y", "x", "x"),
+        ("d^2u/dz^2 = z u", "z", "x"),
+        ("y″ = x y", "x", "x"),
+        ("y’’ = x y", "x", "x"),
+        ("u'' = -k^2*u", "x", "-k**2"),
+        ("y'' = -k^2*y", "x", "-k**2"),
+        ("y'' + omega^2 y = 0", "x", "-omega**2"),
+        ("y'' = (a t + b) y", "t", "a*x + b"),
+        ("y'' + k_xx*y = 0", "x", "-k_xx"),
+        ("u_tt + 4*u = 0", "t", "-4"),
+        (r"y'' + k_{\text{eff}}^2 y = 0", "x", "-k_eff**2"),
+        ("α x^2", "x", "α*x**2"),
+        ("n(n+1)/x^2 + 1", "x", "(x**2 + n**2 + n)/x**2"),
+        ("x(x+1)", "x", "x**2 + x"),
+        ("½x", "x", "x/2"),
+        ("$x^2+3$", "x", "x**2 + 3"),
+        (r"\frac34 x^{-2}", "x", "3/(4*x**2)"),
+        (r"\hbar x", "x", "hbar*x"),
+        ("x^{2} + 1", "x", "x**2 + 1"),
+        (r"\frac{1}{x} - \frac{3}{16x^2}", "x", "(16*x - 3)/(16*x**2)"),
+    ],
+)
+def test_what_is_pasted(text: str, variable: str, S: str) -> None:
+    found = read_input(text)
+    assert (found.variable, found.S.to_str()) == (variable, S)
+
+
+@pytest.mark.parametrize(
+    ("text", "note"),
+    [
+        ("y'' = -k^2*y", "x is the variable, k a parameter"),
+        ("y'' + 2*c*y' + w0^2*y = 0", "x is the variable, c, w0 parameters"),
+        ("x^1/2", "a root is written ^(1/2)"),
+    ],
+)
+def test_what_is_guessed_is_said(text: str, note: str) -> None:
+    assert any(note in said for said in kovacic.solve(text).notices)
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [("y'' = xab", "write x*a*b"), ("y'' + axy' = 0", "write a*x*y"), (r"y'' = \foo{x} y", "write for example")],
+)
+def test_what_is_not_read_is_refused_with_a_hint_that_works(text: str, hint: str) -> None:
+    with pytest.raises(kovacic.InputError) as caught:
+        read_input(text)
+    assert hint in str(caught.value.hint)
+
+
+@parametrize(
+    "piece",
+    [
+        "d/dx(",
+        r"\frac{",
+        "d^2y/dx^2 + ",
+        "x$",
+        "y(x).diff(x)",
+        "D(",
+        "'",
+        "a",
+        " ",
+        "[",
+        "{",
+        "d",
+        "_{",
+        "|",
+        "√",
+        "½",
+        ")'",
+        "sin^2(",
+        "sin x ",
+        r"\sin k ",
+        r"\sin",
+        r"\dot",
+        "^",
+        r"\operatorname{",
+        r"y{\left(x\right)}",
+        "y_xx ",
+        "\n",
+        "dsolve(",
+    ],
+    ordinary=3,
+    long=13,
+)
+def test_rewriting_takes_linear_time(piece: str) -> None:
+    """Counted in characters of the result, and by ending at all: each piece 4,000 times in a row."""
+    try:
+        found = tokenize(piece * 4_000 + "\\,$")
+        apart(piece * 4_000, None)
+    except kovacic.InputError:
+        return
+    assert len(found.kinds) < 40 * 4_000 * len(piece) + 100
+
+
+@pytest.mark.parametrize(
+    ("text", "solution"),
+    [
+        ("y''+y=0, y(0)=1", "C2*sin(x) + cos(x)"),
+        ("y'' + y = 0, y(0) = 1, y'(0) = 2", "2*sin(x) + cos(x)"),
+        (r"\ddot{x} + 4 x = 0, x(0)=1, x'(0)=0", "cos(2*t)"),
+        ("diff(y(x), x, 2) = y(x), y(0)=1, y'(0)=1", "exp(x)"),
+    ],
+)
+def test_values_behind_the_equation_are_taken(text: str, solution: str) -> None:
+    assert str(kovacic.dsolve(text).rhs) == solution
+
+
+def test_values_in_two_places_are_refused() -> None:
+    with pytest.raises(kovacic.InputError, match="apart from it"):
+        kovacic.dsolve("y''+y=0, y(0)=1", ics={"y'(0)": 1})
+
+
+@parametrize(
+    ("text", "meant"),
+    [
+        ("y'' + aky = 0", "a*k*y"),
+        ("y'' = axy", "a*x*y"),
+        ("x'' + gkx = 0", "g*k*x"),
+        ("y'' + y = cos(akx)", "a*k*x"),
+        ("y'' + y = exp(-abt)", "a*b*t"),
+        ("y'' + 4*y = sin2x", "sin(2*x)"),
+        ("y'' + 4*y = cos3t", "cos(3*t)"),
+        ("y'' + y = x*sinx", "sin(x)"),
+        ("y'' + y = Fcoswt", "F*cos(w*t)"),
+    ],
+    ordinary=5,
+)
+def test_a_product_without_its_sign_is_refused_with_what_was_meant(text: str, meant: str) -> None:
+    var = "t" if "t" in text else None
+    with pytest.raises(kovacic.InputError) as refused:
+        kovacic.dsolve(text, var=var)
+    assert meant in str(refused.value.hint)
+    glued = meant.replace("*", "").replace("sin(2x)", "sin2x").replace("cos(3t)", "cos3t")
+    glued = {"sin(x)": "sinx", "Fcos(wt)": "Fcoswt"}.get(glued, glued)
+    kovacic.dsolve(text.replace(glued, meant), var=var)
+
+
+def test_wave_vectors_and_words_are_names() -> None:
+    for name in ("k_x", "kappa", "hbar", "omega_0", "m", "xi"):
+        assert name in str(kovacic.dsolve(f"y'' + {name}*y = 0"))
+
+
+@pytest.mark.parametrize(
+    ("text", "variable"),
+    [
+        ("y'' + y = Heaviside(t) - Heaviside(t - T)", "t"),
+        ("y'' + y = T*sin(pi*t/T)", "t"),
+        ("y'' + (1 - R/r)*y = 0", "r"),
+        ("y'' + Z/z*y = 0", "z"),
+        ("y'' + T*y = 0", "x"),
+        ("y'' + T*y = sin(T)", "T"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:. is taken for the variable")
+def test_beside_a_variable_its_capital_is_a_parameter(text: str, variable: str) -> None:
+    answer = kovacic.dsolve(text)
+    assert [str(argument) for argument in answer.lhs.args] == [variable]
+
+
+@pytest.mark.long
+def test_beside_a_frequency_zeta_is_the_damping_ratio() -> None:
+    time, zeta, omega = sympy.symbols("t zeta omega")
+    for text in (
+        "x'' + 2*zeta*omega*x' + omega^2*x = 0",
+        "\\ddot{x} + 2\\zeta\\omega\\dot{x} + \\omega^2 x = 0",
+    ):
+        found = kovacic.dsolve(text).rhs
+        residual = found.diff(time, 2) + 2 * zeta * omega * found.diff(time) + omega**2 * found
+        assert sympy.simplify(residual) == 0
+    greek = kovacic.dsolve("x'' + 2ζω x' + ω²x = 0").rhs
+    assert sympy.simplify(greek.subs({"ζ": zeta, "ω": omega}) - kovacic.dsolve(text).rhs) == 0
+    assert kovacic.dsolve("y'' + zeta*y = 0").lhs.args[0].name == "x"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"\ddot{y} + 4y = 0, y(0)=1, \dot{y}(0)=2",
+        r"y'' + 4y = 0, \quad y(0)=1, \quad y'(0) = 2",
+        r"y^{\prime\prime} + 4 y = 0, y(0) = \frac{2}{2}, y^{\prime}(0) = 2",
+        "y'' + 4y = 0; y(0) = 1; y'(0) = 2",
+        "$y'' + 4y = 0$, $y(0) = 1$, $y'(0) = 2$",
+        r"\frac{\mathrm{d}^2y}{\mathrm{d}x^2} + 4y = 0, y(0) = 1, y'(0) = 2",
+        r"y^{(2)} + 4y = 0, y(0) = 1, y^{\prime}(0) = 2",
+    ],
+)
+def test_values_in_the_notation_of_their_equation(text: str) -> None:
+    found = kovacic.dsolve(text)
+    argument = found.lhs.args[0]
+    assert found.rhs == sympy.cos(2 * argument) + sympy.sin(2 * argument)
+
+
+@pytest.mark.parametrize(
+    "text", ["x y' = y^2 + y + x^2", r"x\frac{dy}{dx} = y^2 + y + x^2", "x*diff(y, x) = y^2 + y + x^2"]
+)
+def test_riccati_equations_in_any_notation(text: str) -> None:
+    constant = sympy.Symbol("C1")
+    assert kovacic.dsolve(text).rhs == x * sympy.tan(constant + x)
+
+
+@pytest.mark.parametrize("infinity", ["oo", "inf", "infinity", "Infinity", "+oo", "∞"])
+def test_infinity_has_many_names(infinity: str) -> None:
+    assert kovacic.dsolve(f"y'' - y = 0, y(0) = 1, y({infinity}) = 0").rhs == sympy.exp(-x)
+    assert kovacic.dsolve("y'' - y = 0, y(0) = 1, y(-infinity) = 0").rhs == sympy.exp(x)
+
+
+PASTED = [
+    json.loads(line) for line in (Path(__file__).parents[1] / "data" / "pasted.jsonl").read_text("utf-8").splitlines()
+]
+#: Greek letters as they are written in texts, and by their names.
+GREEK_NAMES = {"ν": "nu", "ω": "omega", "ω_0": "omega_0", "λ": "lambda", "θ": "theta", "ψ": "psi", "γ": "gamma"}
+#: What isn't a symbol in a meaning.
+KNOWN = [
+    "Abs",
+    "DiracDelta",
+    "Heaviside",
+    "I",
+    "Max",
+    "Rational",
+    "acos",
+    "asin",
+    "atan",
+    "cos",
+    "cosh",
+    "exp",
+    "log",
+    "pi",
+    "sec",
+    "sin",
+    "sinh",
+    "sqrt",
+    "tan",
+]
+
+
+def meant(text: str) -> Any:
+    """The expression that a text of SymPy's means; all names are symbols but those of `KNOWN`."""
+    text = text.replace("lambda", "lambda_")  # a word of Python's
+    names = {
+        name: sympy.Symbol(GREEK_NAMES.get(name, name.replace("lambda_", "lambda")))
+        for name in re.findall(r"[^\W\d]\w*", text)
+    }
+    symbols = {name: symbol for name, symbol in names.items() if name not in KNOWN}
+    return sympy.sympify(text, locals=symbols)
+
+
+@parametrize("row", PASTED, ordinary=30, long=161, ids=[row["text"] for row in PASTED])
+def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
+    """The coefficients of an equation, its right-hand side, its variable and its values are those that a reader finds."""
+    question = read_question(row["text"], None, None, None, kovacic.Limits())
+    equation = question.given
+    argument = sympy.Symbol(row["variable"])
+    assert str(question.x) == row["variable"]
+    values = [condition.text.replace(" ", "").replace("π", "pi") for condition in question.conditions]
+    assert values == row["values"]
+    a, b, c, f = (meant(part) for part in row["equation"])
+    if equation.change is not None:
+        return
+    e = {sympy.Symbol("e"): sympy.E}
+    parts = (equation.a, equation.b, equation.c, equation.f)
+    A, B, C, F = (meant(part.to_str()).subs(x, argument).subs(e) for part in parts)
+    F += 0 if equation.h is None else meant(str(question.own(equation.h)))
+    for found, expected in ((A * b, a * B), (A * c, a * C), (A * f, a * F)):
+        assert sympy.simplify(found - expected) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "written", "typed"),
+    [
+        ("y'' + 2.5*y = e^2x", "e^2x", "e^(2*x)"),
+        ("y'' + y = e^at", "at", "(a*t)"),
+        ("y'' = 1,5*y", "1,5", "1.5"),
+        ("y'' + y = u(t-1)", "u(t-1)", "heaviside(t-1)"),
+        ("y'' + 3y' + 2y = δ(t)", "δ(t)", "dirac(t)"),
+        ("y'' = 3⁄4 y", "3⁄4 y", "(3/4)*y"),
+        ("solve y'' + x*y = 0", "solve ", ""),
+        ("(2) y'' + y = sec(x)", "(2)", "2*"),
+        ("y''+4y=0 (y(0)=1)", " (y(0)=1)", ", y(0)=1"),
+        ("dsolve(y(x).diff(x,2)+y(x), hint='best')", "dsolve(y(x).diff(x,2)+y(x), hint='best')", "y(x).diff(x,2)+y(x)"),
+        (r"y'' + y = \operatorname{artanh} x", r"\operatorname{artanh} x", "x"),
+        (r"y'' + \alpha y = 0 \text{whatever}", r"\text{whatever}", ""),
+        (r"y'' + a_{n+1} y = \cos x", "_{n+1}", "_{n1}"),
+    ],
+)
+def test_what_can_be_read_in_two_ways_is_refused_with_what_to_type(text: str, written: str, typed: str) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        read_question(text, None, None, None, kovacic.Limits())
+    assert refused.value.hint
+    read_question(text.replace(written, typed), None, None, None, kovacic.Limits())
+
+
+def test_the_imaginary_unit_is_a_capital_letter_which_is_said() -> None:
+    assert any("the imaginary unit is I" in said for said in read_input("y'' + (x + i)*y = 0").notices)
+
+
+def test_command_and_values_are_read_in_one_way_with_values_apart() -> None:
+    """DSolve and dsolve with values, pasted whole, give what the equation and its values give."""
+    expected = kovacic.dsolve("y'' + y = 0, y(0) = 1, y'(0) = 2")
+    for text in (
+        "DSolve[{y''[x] + y[x] == 0, y[0] == 1, y'[0] == 2}, y[x], x]",
+        "dsolve({diff(y(x), x, x) + y(x) = 0, y(0) = 1, D(y)(0) = 2}, y(x));",
+        "dsolve(Eq(y(x).diff(x, 2) + y(x), 0), ics={y(0): 1, y(x).diff(x).subs(x, 0): 2})",
+        "dsolve('D2y = -y', 'y(0)=1', 'Dy(0)=2', 'x')",
+        r"y''+y=0 \text{ and } y(0)=1, \quad y'(0)=2",
+        "y''(x) + \ny(x) = 0 where y(0) = 1\ny'(0) = 2",
+        r"\begin{cases} y''+y=0 \\ y(0)=1 \\ y'(0)=2 \end{cases}",
+    ):
+        assert kovacic.dsolve(text) == expected
+    assert kovacic.dsolve("y'' + y = 0", ics="y(0) = 1, D(y)(0) = 2") == expected
+
+
+@pytest.mark.parametrize("letter", ["a", "k", "ω", "alpha"])
+@pytest.mark.parametrize("digits", ["0", "1", "12", "307", "10"])
+def test_lowered_digits_are_one_index(letter: str, digits: str) -> None:
+    lowered = "".join(chr(ord("₀") + int(digit)) for digit in digits)
+    expected = read_input(f"y'' = {letter}_{digits}*y")
+    assert read_input(f"y'' = {letter}{lowered}*y").equation == expected.equation
+    assert read_input(f"y'' + x*y' = {letter}{lowered}*x*y").S.field.names == (f"{letter}_{digits}",)
+
+
+@pytest.mark.parametrize("number", ["2", "12", "0.5"])
+def test_a_lowered_digit_behind_a_number_is_no_digit_of_it(number: str) -> None:
+    with pytest.raises(kovacic.ParseError, match="indices"):
+        read_input(f"y'' = {number}₁*y")
+
+
+@pytest.mark.parametrize(
+    ("text", "written", "typed"),
+    [
+        ("y'' + y = xsinx", "xsinx", "x*sin(x)"),
+        ("y'' + y = sinxcosx", "sinxcosx", "sin(x)*cos(x)"),
+        ("y'' + y = xlnx", "xlnx", "x*ln(x)"),
+        ("x'' + x = tsint", "tsint", "t*sin(t)"),
+        ("x'' + x = Fcoswt", "Fcoswt", "F*cos(w*t)"),
+        ("y'' = x2y", "x2y", "x*2*y"),
+        ("y'' = x2*y", "x2", "x^2"),
+        ("y'' + y = asinx", "asinx", "a*sin(x)"),
+        ("y'' + y = acosx", "acosx", "acos(x)"),
+        ("EI w'' + P w = 0", "EI", "B"),
+        ("E I w'' = -P w", "E I", "B"),
+        (r"E I \frac{d^2w}{dx^2} = -P w", "E I", "B"),
+        ("y'' = 1/2x*y", "1/2x", "(1/2)*x"),
+        ("mass*y'' + k*y = 0", "mass", "m"),
+        ("y'' + y = 0, y(0)=1 y'(0)=0", "y(0)=1 y'(0)=0", "y(0)=1, y'(0)=0"),
+        ("y'' + y = 0, k=2", ", k=2", ""),
+        ("solve y'' + x*y = 0", "solve", ""),
+    ],
+)
+def test_what_means_nothing_is_refused_with_what_to_type(text: str, written: str, typed: str) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        read_question(text, None, None, None, kovacic.Limits())
+    assert refused.value.hint
+    assert refused.value.position is not None
+    read_question(text.replace(written, typed), None, None, None, kovacic.Limits())
+
+
+def test_declared_names_are_parameters_at_every_door() -> None:
+    assert kovacic.solve("EI*y'' + P*y = 0", parameters=["EI"]).S.field.names == ("EI", "P")
+    assert "EI" in str(kovacic.dsolve("EI*y'' + P*y = 0", parameters=["EI"]))
+    assert kovacic.decide("mass*x", var="x", parameters=["mass"]).case is None
+    assert kovacic.conditions("mass*(mass+1)/x^2 - 1", parameters=["mass"]).parameters == ("mass",)
+    assert kovacic.spectrum("mass*x^2", parameters=["mass"], assume={"mass": "positive"}).complete
+    assert kovacic.solve("EI*y'' + P*y = 0", assume={"EI": 1}).S.field.names == ("P",)
+    with pytest.raises(kovacic.InputError, match="list of names"):
+        kovacic.solve("EI*y'' + P*y = 0", parameters="EI")
+    answer = kovacic.solve("EI*y'' + P*y = 0", parameters=["EI"])
+    assert kovacic.Solution.from_json(answer.to_json()) == answer
+
+
+#: What is put into texts.
+ALPHABET = [*"x|()[]{}^/=,;:%#$\\_\n", "y'", "''", "ˣ", "½", r"\frac", r"\sqrt", "sin", "dx", "d^2", "diff("]
+ALPHABET += ["D@@", "==", "and ", ":=", r"\text{", "dsolve(", "Derivative[2]", "1E2"]
+
+
+@parametrize("seed", range(12), ordinary=1, long=12)
+def test_mutated_texts_are_read_or_refused(seed: int) -> None:
+    """Nothing but `InputError` is raised, whatever is left out, put in or repeated."""
+    rng = random.Random(seed)
+    for _ in range(250):
+        text = list(rng.choice(PASTED)["text"])
+        for _ in range(rng.randint(1, 4)):
+            k = rng.randrange(len(text) + 1)
+            action = rng.randrange(3)
+            if action == 0:
+                del text[k : k + rng.randint(1, 3)]
+            elif action == 1:
+                text.insert(k, rng.choice(ALPHABET))
+            else:
+                text[k:k] = text[: rng.randint(1, 9)]
+        mutated = "".join(text)
+        with suppress(kovacic.InputError):
+            equation, _ = apart(mutated, None)
+            source_of(equation, None, kovacic.Limits(), equation=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("xy'' + 2y' + xy = 0", "xy was read as x\\*y"),
+        ("r*y'' + y' + r*y = 0", "r is taken for the variable"),
+        ("3. y'' - 4y = 0", "3. was taken for a number in a list"),
+        ("Solve the equation y'' + y = 0", "left out: Solve the equation"),
+    ],
+)
+def test_dsolve_warns_of_what_was_guessed(text: str, said: str) -> None:
+    with pytest.warns(UserWarning, match=said):
+        kovacic.dsolve(text)
+
+
+@pytest.mark.parametrize(
+    "door",
+    [
+        lambda text, values: kovacic.evaluate(text, 1, x0=0, y0=1, dy0=0, params=values),
+        lambda text, values: kovacic.tabulate(text, 0, 1, x0=0, y0=1, dy0=0, params=values)(1.0),
+        lambda text, values: lambdify(text, interval=(0, 1), x0=0, y0=1, dy0=0, params=values, check=False)(1.0),
+        lambda text, values: kovacic.connection_matrix(text, [0, 1], params=values)[0][0],
+        lambda text, values: kovacic.dsolve(text, ics="y(0)=1, y'(0)=0", assume={"mass": "positive"}).rhs.subs(x, 1),
+    ],
+)
+def test_a_name_with_a_value_is_declared(door: Callable[[str, dict[str, int]], Any]) -> None:
+    assert float(door("mass*y'' + mass*y = 0", {"mass": 2})) == pytest.approx(0.5403023058681398)
+
+
+def test_a_name_with_a_value_is_declared_in_eigenvalue_problems() -> None:
+    given = {"mass": 2, "width": 1}
+    (first,) = kovacic.eigenvalues(
+        "mass*y'' + rate*y = 0", "y(0)=0, y(width)=0", parameter="rate", params=given, count=1
+    )
+    assert float(first.value) == pytest.approx(19.739208802178716)
+
+
+def test_names_are_declared_for_a_batch_or_a_row() -> None:
+    rows = ["EI*w'' = -P*w", {"S": "rate/x^2", "names": ["rate"]}, {"S": "rate/x^2"}]
+    assert [record.label for record in kovacic.solve_many(rows, parameters=["EI"], jobs=1)] == [
+        "case 1", "case 1", "bad input",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["dsolve", "m x'' + c x' + k x = 0"], "m*x'' + c*x' + k*x = 0, x(t), parameters m, c, k"),
+        (["evaluate", "y'' + xy = 0", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], "y'' + x*y = 0, y(x)"),
+        (["evaluate", "k*x", "--param", "k=2", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], None),
+    ],
+)
+def test_the_command_says_what_was_read(
+    arguments: list[str], said: str | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        run(arguments)
+    lines = capsys.readouterr().err.splitlines()
+    assert [line for line in lines if "read as" in line and "was" not in line] == (
+        [f"kovacic: read as {said}"] if said else []
+    )
+
+
+def test_given_functions_are_read_where_the_unknown_one_is_named() -> None:
+    given, y = sympy.Function("g"), sympy.Function("y")
+    equation = sympy.Eq(y(x).diff(x, 2) + y(x), given(x))
+    assert (
+        kovacic.dsolve("y'' + y = g(x)", "y(x)") == kovacic.dsolve(equation, y(x)) == kovacic.dsolve("y''+y=g(x)", "y")
+    )
+    with pytest.raises(kovacic.InputError):
+        kovacic.dsolve("y'' + y = g(x)")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x' = y, y' = -x, x(0) = 1, y(0) = 0",
+        "dx/dt = y; dy/dt = -x; x(0) = 1; y(0) = 0",
+        r"\dot{x} = y, \dot{y} = -x, x(0) = 1, y(0) = 0",
+        "DSolve[{x'[t] == y[t], y'[t] == -x[t], x[0] == 1, y[0] == 0}, {x[t], y[t]}, t]",
+        "dsolve([diff(x(t),t) = y(t), diff(y(t),t) = -x(t), x(0) = 1, y(0) = 0], [x(t), y(t)])",
+    ],
+)
+def test_systems_are_read_in_their_notations(text: str) -> None:
+    first, second = kovacic.dsolve(text)
+    assert (str(first), str(second)) == ("Eq(x(t), cos(t))", "Eq(y(t), -sin(t))")
+
+
+def test_a_value_declares_its_name() -> None:
+    expected = kovacic.evaluate("y'' + 2*y = 0", 1, x0=0, y0=1, dy0=0)
+    assert kovacic.evaluate("mass*y'' + k*y = 0", 1, x0=0, y0=1, dy0=0, params={"mass": 1, "k": 2}) == expected
