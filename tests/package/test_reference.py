@@ -33,6 +33,7 @@ INTERNAL = {
     "NumericProblem",
     "Math",
     "Signed",
+    "Theory",
     "ParameterPoint",
     "Product",
     "Pullback",
