@@ -52,8 +52,8 @@ _NUMBERED = "a level with k zeros is number k (Sturm)"
 class ClosedForms:
     """The levels with a closed form; `complete`: it is proven that these are all.
 
-    `excluded` are polynomials in E at whose zeros there is a closed form and no level, and `higher` is a degree that P may
-    have and that wasn't tried.  `conditions` is None where it isn't known when there are closed forms.
+    `excluded` are polynomials in E at whose zeros there is a closed form but no level; `higher` is a possible degree of P
+    that wasn't tried.  `conditions` is None if it is unknown when closed forms exist.
     """
 
     conditions: ParametricAnswer | None
@@ -63,7 +63,7 @@ class ClosedForms:
     higher: int | None = None
 
     def reason(self, energy: str, max_degree: int) -> str:
-        """What is proven of the levels, and why; or why it is undecided."""
+        """The proven statement about the levels with its reason, or the reason why it is undecided."""
         if self.conditions is None:
             return NO_FORMULA
         theory = self.conditions.theory
@@ -101,7 +101,7 @@ def closed_forms(
 
 
 def _conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
-    """For which E and parameters is there a Liouvillian solution?  None where that isn't proven, or holds in general.
+    """The E and parameters with a Liouvillian solution; None if the list isn't proven, or if there always is one.
 
     The equation is that in t, so that solutions are functions of t.  With several conjugate pairs of poles it may take minutes.
     """
@@ -118,7 +118,7 @@ def _conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer |
 
 
 class _Window(NamedTuple):
-    """Each level is above the first and at most the second number, which are rational; None where no such number is known."""
+    """Rational bounds: each level is above the first number and at most the second; None for an unknown bound."""
 
     low: Any = None
     high: Any = None
@@ -142,7 +142,7 @@ class _Window(NamedTuple):
         return any(root == self.high or _is_between(root, self.low, self.high) for root in roots)
 
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
-        """A d from which on no E with `function`(E, d) = 0 is in the window; None where that isn't known."""
+        """A degree from which on no E with `function`(E, d) = 0 lies in the window, or None if none is known."""
         polynomial = sympy.Poly(function, E)
         if polynomial.degree() != 1 or self.low is None or self.high is None:
             return None
@@ -155,7 +155,7 @@ class _Window(NamedTuple):
 
 
 def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
-    """A rational number below all values of a rational function over Q between two bounds; None where none is found."""
+    """A rational lower bound of a rational function over Q on an interval, or None if none is found."""
     num, den = (sympy.Poly(part, t) for part in sympy.fraction(sympy.cancel(V)))
     if not all(c.is_Rational for c in (*num.all_coeffs(), *den.all_coeffs())):
         return None
@@ -182,14 +182,14 @@ def _is_between(value: Any, low: Any, high: Any) -> bool:
 
 
 class _Numbers(NamedTuple):
-    """Degrees that are tried, None where there is none to choose; and are these all?"""
+    """Degrees to be tried (None if there is none to choose), and whether these are all."""
 
     some: tuple[int | None, ...]
     are_all: bool
 
 
 class _Listed(NamedTuple):
-    """Degrees, or None where there is none to choose, with irreducible polynomials in E; and are these all?"""
+    """Degrees (None if there is none to choose) with irreducible polynomials in E, and whether these are all."""
 
     pairs: tuple[tuple[int | None, Any], ...]
     are_all: bool
@@ -268,13 +268,13 @@ class _ClosedFormSearch:
 
     @property
     def _are_examined(self) -> bool:
-        """Can it be told what is square integrable at the ends?  At an ordinary point that is a condition on E."""
+        """True if exponents decide what is square integrable at the ends; at an ordinary point that is a condition on E."""
         return bool(self.ends) and not any(end.is_ordinary for end in self.ends)
 
     def _fits(self, solution: PolynomialSolution, polynomial: Any) -> list[bool | None]:
-        """Is it the square integrable solution at the left and the right end, for all real zeros of the polynomial?
+        """Whether it is the square integrable solution at the left and at the right end, for all real zeros of the polynomial.
 
-        False where it isn't for any of them, None where that differs.
+        False if it isn't for any of them, None if that differs among them.
         """
         E = self.question.E
         roots = sympy.Poly(polynomial, self.E).real_roots()
@@ -286,12 +286,12 @@ class _ClosedFormSearch:
         return found
 
     def _excludes(self, fit: list[bool | None]) -> bool:
-        """Is a solution the only square integrable one at one end, and not square integrable at the other?"""
+        """True if a solution is the only square integrable one at one end, and isn't square integrable at the other."""
         first, last = self.ends
         return (fit == [True, False] and first.circle is False) or (fit == [False, True] and last.circle is False)
 
     def _is_without_closed_form(self, polynomial: Any) -> bool:
-        """Is there no Liouvillian solution where it vanishes?"""
+        """True if there is no Liouvillian solution at its zero."""
         if sympy.degree(polynomial, self.E) > 1:
             return False
         return self.conditions.case_at({self.question.energy: -polynomial.subs(self.E, 0)}) is None
@@ -397,7 +397,7 @@ def demands_at(end: End, v: Any, question: SpectralProblem) -> list[Any]:
 
 
 def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any] | None:
-    """What is known of the parameter that the constraint gives, said of its value; None where it can't have that value."""
+    """The bounds of the parameter that the constraint determines, for its value; None if they exclude that value."""
     if constraint == 0:
         return []
     used = signs.real(solution.y).free_symbols

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import sympy
@@ -35,7 +36,7 @@ _INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo,
 
 @dataclass(frozen=True)
 class Boundary:
-    """Conditions alpha y + beta y' = 0 at the left and the right end, None where none was given, and their text."""
+    """Conditions alpha y + beta y' = 0 at the left and the right end (None if not given), and their text."""
 
     wishes: tuple[Robin | None, Robin | None] = (None, None)
     text: str = ""
@@ -145,22 +146,13 @@ def read_question(
     if var is None:
         variable = _variable_of(given.expression)
     given = _in_one_piece(given, variable.name, energy, ends)
-    with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True, names=names)
-    shifts = _shifts(given, with_parameters, variable=variable.name, energy=energy)
-    of_shifts = {name: said for name, said in (assume or {}).items() if str(name) in shifts}
-    values = {
-        sympy.Symbol(str(name)): value for name, said in of_shifts.items() if (value := _number(said)) is not None
-    }
-    if values:
-        given = _Potential(given.expression.xreplace(values), given.S.xreplace(values), given.guesses)
-        with_parameters = read_input(given.S, var=variable.name, limits=limits, exponentials=True, names=names)
-        shifts = [name for name in shifts if sympy.Symbol(name) not in values]
-    others = {name: said for name, said in (assume or {}).items() if name not in of_shifts}
-    S, parsed, of_parameters = with_values(given.S, with_parameters, others or None, limits)
-    of_shifts = {name: said for name, said in of_shifts.items() if str(name) in shifts}
-    assumed = assumed_of_letters({**(of_parameters or {}), **of_shifts} or None, parsed.letters)
+    read = partial(read_input, var=variable.name, limits=limits, exponentials=True, names=names)
+    shifts = _with_shifts(given, assume or {}, read, variable=variable.name, energy=energy)
+    given = shifts.potential
+    S, parsed, of_parameters = with_values(given.S, shifts.parsed, shifts.others or None, limits)
+    assumed = assumed_of_letters({**(of_parameters or {}), **shifts.assumed} or None, parsed.letters)
     names = _names(parsed, ends, variable=variable.name, energy=energy)
-    names = (*names, *(name for name in shifts if name not in names))
+    names = (*names, *(name for name in shifts.names if name not in names))
     known = read_assumptions(assumed, V, names)
     for constant in _constants(given.expression, names):
         known = known.also(constant, ("irrational", "positive"))
@@ -186,6 +178,35 @@ def read_question(
     )
 
 
+class _Shifts(NamedTuple):
+    """The parameters that only shift the variable, once those with a value have it: what is assumed of them, and of others."""
+
+    potential: _Potential
+    parsed: Parsed
+    names: list[str]
+    assumed: dict[Any, Any]
+    others: dict[Any, Any]
+
+
+def _with_shifts(
+    given: _Potential, assume: Mapping[Any, Any], read: Callable[..., Parsed], *, variable: str, energy: str
+) -> _Shifts:
+    """Puts values into the potential before it is read: afterwards a shift no longer occurs in the equation in t."""
+    parsed = read(given.S)
+    names = _shifts(given, parsed, variable=variable, energy=energy)
+    of_shifts = {name: said for name, said in assume.items() if str(name) in names}
+    values = {
+        sympy.Symbol(str(name)): value for name, said in of_shifts.items() if (value := _number(said)) is not None
+    }
+    if values:
+        given = _Potential(given.expression.xreplace(values), given.S.xreplace(values), given.guesses)
+        parsed = read(given.S)
+        names = [name for name in names if sympy.Symbol(name) not in values]
+    assumed = {name: said for name, said in of_shifts.items() if str(name) in names}
+    others = {name: said for name, said in assume.items() if name not in of_shifts}
+    return _Shifts(given, parsed, names, assumed, others)
+
+
 def _shifts(given: _Potential, parsed: Parsed, *, variable: str, energy: str) -> list[str]:
     """The parameters that shift the variable alone, as b in 1/cosh(x - b)^2, and so don't occur in the equation in t."""
     meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
@@ -194,7 +215,7 @@ def _shifts(given: _Potential, parsed: Parsed, *, variable: str, energy: str) ->
 
 
 def _number(said: Any) -> Any:
-    """The value in an assumption; None where it says something else."""
+    """The value that an assumption gives, or None if it states something else."""
     text = exact_text(said, "a value") if not isinstance(said, str) else said
     try:
         value = read_expression(text)

@@ -146,6 +146,18 @@ def sentences_with_figures() -> Iterator[tuple[str, str]]:
         "SymPy `solve_riccati`": "SymPy solve_riccati: the verdict",
     }.items():
         yield "comparison.md", "| " + " | ".join([name, *cells("peers.md", row)[1:4]]) + " |"
+    rows = json.loads((ROOT / "benchmarks" / "results" / "peers.json").read_text(encoding="utf-8"))["rows"]
+    names = [(r["corpus"], r["name"]) for r in rows if r["system"] == "kovacic" and r["outcome"] == "solved"]
+    rest = [r for r in rows if (r["corpus"], r["name"]) not in names]
+    nones = Counter(r["system"] for r in rest if r["outcome"] == "none")
+    maxima, fricas, giac = (nones[name] for name in ("Maxima kovacicODE", "FriCAS solve", "giac kovacicsols"))
+    said = f"Maxima says it for {maxima}, FriCAS for {fricas}, giac for {giac}"
+    yield "comparison.md", f'kovacic proves "none" for all, {said}'
+    special = sum(r["system"] == "SymPy dsolve" and r["check"] == "right" for r in rest)
+    yield "comparison.md", f"SymPy's `dsolve` solves {special} of them by special functions"
+    yield "coming-from-dsolve.md", f"SymPy also solves {special} of {nones['kovacic']} equations without"
+    right = sum(r["system"] == "SymPy dsolve" and r["check"] == "right" for r in rows) - special
+    yield "coming-from-dsolve.md", f"`sympy.dsolve` 1.14 solves {right} and gives no wrong answer"
     poles = (ROOT / "benchmarks" / "results" / "engine.md").read_text("utf-8").partition("## By poles (")[2]
     rows = [line.split(" | ") for line in poles.partition("\n## ")[0].splitlines()[4:] if line.startswith("|")]
     hundred, two_hundred = ([float(row[place].split()[0]) for row in rows] for place in (6, 7))
