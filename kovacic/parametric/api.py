@@ -10,7 +10,7 @@ from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.decision import Decision, Status
-from kovacic.equation import PI, Parsed, parameters_of
+from kovacic.equation import PI, Parsed, over, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
@@ -74,6 +74,8 @@ def conditions_of(
 ) -> ParametricAnswer:
     """The conditions for an input that was read; `max_degree` None: by theorems only."""
     budget = Budget(limits)
+    if parsed.equation is not None:  # an algebraic constant of the gauge is one of the answer
+        parsed = replace(parsed, S=over(parsed.S, parsed.equation.a.field))
     _, shown, constant = with_free_constant(parsed.S)
     found = derived(parsed.S, parsed.variable, parsed.equation, known, budget, max_degree, letters)
     answer = ParametricAnswer(

@@ -441,7 +441,7 @@ class ParametricAnswer:
                 S=reader.function(data["S"], variable),
                 notices=tuple(data["notices"]),
                 constant=constant,
-                equation=equation_from(data.get("equation"), variable, names),
+                equation=equation_from(data.get("equation"), variable, names, constant),
                 given=str(data.get("given", "")),
             )
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:

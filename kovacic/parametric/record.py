@@ -23,18 +23,16 @@ from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json, fraction
 from kovacic.parametric import prose
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, in_field, over_parameters
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
-from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
+from kovacic.reading.constants import Constants
 from kovacic.reading.expression import parse_with
-from kovacic.reading.names import words_among
-from kovacic.reading.read import read_input
-from kovacic.reading.written import WrittenReader
+from kovacic.reading.written import WrittenReader, written_equation
 
 #: What was written by the package was within its limits.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
@@ -131,46 +129,14 @@ def equation_data(equation: Equation | None) -> dict[str, Any] | None:
     return {"text": equation.text(caret=False), "unknown": equation.unknown, "change": shown}
 
 
-def equation_from(data: Mapping[str, Any] | None, variable: str, names: tuple[str, ...]) -> Equation | None:
-    """What `equation_data` wrote, over the field of parameters with these names."""
+def equation_from(
+    data: Mapping[str, Any] | None, variable: str, names: tuple[str, ...], constant: ParameterPoint
+) -> Equation | None:
+    """What `equation_data` wrote, over the field of these parameters and the constant."""
     if data is None:
         return None
-    has_letters = not all(name.isidentifier() for name in names)
-    declared = words_among(name for name in names if name.isidentifier())
-    parsed = read_input(
-        data["text"],
-        var=variable,
-        unknown=data["unknown"],
-        limits=_LIMITS,
-        equation=True,
-        exponentials=has_letters,
-        names=declared,
-    )
-    found, _ = spelled(parsed)
-    read = found.equation
-    if read is None:
-        raise InputError(f"{data['text']!r} isn't an equation")
-    change = data["change"] and Change.from_dict(data["change"])
-    return replace(
-        read,
-        a=_in_order(read.a, names),
-        b=_in_order(read.b, names),
-        c=_in_order(read.c, names),
-        f=_in_order(read.f, names),
-        change=change,
-    )
-
-
-def _in_order(function: RatFunc, names: tuple[str, ...]) -> RatFunc:
-    """The same function with the parameters in this order."""
-    field = function.field
-    base = field.base if isinstance(field, AlgebraicField) else field
-    if not isinstance(base, FunctionField) or base.names == names:
-        return function
-    if base is not field:
-        raise InputError("the parameters of an equation with an algebraic constant are in another order")
-    ordered = FunctionField(names)
-    return RatFunc(*(in_field(over_parameters(part), ordered) for part in (function.num, function.den)))
+    read = written_equation(data["text"], variable, data["unknown"], Constants(_LIMITS, constant.field, (), names))
+    return replace(read, change=data["change"] and Change.from_dict(data["change"]))
 
 
 def constant_data(constant: ParameterPoint) -> dict[str, Any]:

@@ -160,6 +160,8 @@ class EquationReader(RationalReader):
             return _derivative_of_unknown(0)
         if name == OPERATOR and self.has_operator:
             return DerivativeOperator({1: Monomial(1, 0)})
+        if name in self.names:
+            return self.names[name]
         if name in self.declared:
             return self.constants.parameter(name)
         if name != self.variable and name in ("e", "pi", "π"):

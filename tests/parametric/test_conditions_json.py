@@ -28,7 +28,17 @@ EQUATIONS = {
 }
 
 
-@parametrize("name", EQUATIONS, ordinary=2, long=11)
+#: Families with an algebraic constant, in x and in functions of x; parameters come in the order in which they occur.
+CONSTANTS = ("sqrt(2)", "2^(1/3)", "I", "(sqrt(2) + sqrt(3))")
+FUNCTIONS = ("x", "exp(x)", "cosh(2*x)", "sin(x)", "tan(x)")
+SHAPES = ("(a*{f} - {c})^2 - E", "y'' + a*{c}*y' + b*{f}*y = 0", "b*{c}*{f} + a")
+EQUATIONS |= {(text := shape.format(f=f, c=c)): text for f in FUNCTIONS for c in CONSTANTS for shape in SHAPES}
+EQUATIONS |= {(text := f"{c}*x^(2*n) + b/x^2"): text for c in CONSTANTS}
+
+
+@parametrize(
+    "name", EQUATIONS, ordinary=4, long=14, always=["(a*cosh(2*x) - sqrt(2))^2 - E", "b*(sqrt(2) + sqrt(3))*exp(x) + a"]
+)
 def test_conditions_are_read_back(name: str) -> None:
     answer = kovacic.conditions(EQUATIONS[name], var="x", max_degree=0)
     again = Conditions.from_json(answer.to_json())
