@@ -38,8 +38,8 @@ _NAMES = {
     ),
     "general_solution": ("dsolve", "explain", "register", "solve_riccati", "unregister", "validity"),
     "limits": ("Limits",),
-    "parameters": ("conditions",),
     "solution": ("Solution", "solve"),
+    "solution.conditions": ("conditions",),
     "writing.code": ("as_code",),
 }
 _MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}

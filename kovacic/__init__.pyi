@@ -30,9 +30,9 @@ from kovacic.general_solution import unregister as unregister
 from kovacic.general_solution import validity as validity
 from kovacic.general_solution.boundary_problems import eigenvalues as eigenvalues
 from kovacic.limits import Limits as Limits
-from kovacic.parameters import conditions as conditions
 from kovacic.solution import Solution as Solution
 from kovacic.solution import solve as solve
+from kovacic.solution.conditions import conditions as conditions
 from kovacic.writing.code import as_code as as_code
 
 __version__: str

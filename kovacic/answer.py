@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from functools import wraps
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
@@ -18,10 +18,19 @@ from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvaria
 from kovacic.equation import Change, Equation
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
-if TYPE_CHECKING:
-    from kovacic.parametric.assumptions import Assumptions
-
 _T = TypeVar("_T")
+
+
+class KnownParameters(Protocol):
+    """What was assumed about the parameters, as far as an answer needs it; `kovacic.parametric` has the class."""
+
+    def __bool__(self) -> bool:
+        """True if anything was assumed."""
+        ...
+
+    def symbols(self) -> dict[str, Any]:
+        """The parameters as SymPy symbols with the assumptions, by their names."""
+        ...
 
 
 @dataclass(frozen=True, repr=False)
@@ -38,7 +47,7 @@ class Answer:
     equation: Equation | None = None
     assumed: bool = False
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
-    known: Assumptions | None = field(default=None, compare=False)
+    known: KnownParameters | None = field(default=None, compare=False)
 
     @property
     def gauge(self) -> RatFunc:

@@ -13,7 +13,18 @@ from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import partial
 
-from kovacic.shown import visible
+
+def visible(text: str) -> str:
+    r"""The text for a terminal: unprintable characters, except line ends, become a backslash and a code.
+
+    >>> visible("x\x1b[31m + \u202e1")
+    'x\\x1b[31m + \\u202e1'
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        char if char.isprintable() or char == "\n" else char.encode("unicode_escape").decode("ascii") for char in text
+    )
 
 
 class KovacicError(Exception):

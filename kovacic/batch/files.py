@@ -27,7 +27,7 @@ from typing import Any, BinaryIO, TextIO
 from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.shown import strict_json
+from kovacic.writing.escaped import strict_json
 
 #: Names of the key or column with the expression; and all names that mean something.
 _EXPRESSION_KEYS = ("S", "input", "expression")

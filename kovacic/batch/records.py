@@ -16,10 +16,10 @@ from typing import Any
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of, seconds_of
 from kovacic.numbers.exact import whole
-from kovacic.shown import json_line
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict
 from kovacic.writing.document import FORMATS, Table
+from kovacic.writing.escaped import json_line
 
 # What a record says about its equation in one word; the degree of omega is added in case 3.
 NONE = "none"

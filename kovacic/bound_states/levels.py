@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, cast
 import sympy
 
 from kovacic.bound_states.zeros import levels_of, zeros_inside
-from kovacic.errors import InputError, needs
+from kovacic.errors import InputError, needs, visible
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
 from kovacic.reading.symbolic import read_expression
-from kovacic.shown import json_line, latex, visible
+from kovacic.writing.escaped import json_line, latex
 from kovacic.writing.formula import caret
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from kovacic.cli.options import PICTURE, Command, formats, is_given, refuse
-from kovacic.shown import json_line
+from kovacic.writing.escaped import json_line
 
 if TYPE_CHECKING:
     from kovacic.ball.body import Rolling
@@ -151,7 +151,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
     from kovacic.ball import BallOnSphere, closed_form
     from kovacic.ball.paper import equations_of
     from kovacic.ball.theorems import theorem
-    from kovacic.parameters import conditions
+    from kovacic.solution.conditions import conditions
     from kovacic.writing.breaking import breakable
 
     # In the roots, the case and the group don't change when x1 and x2 are carried to 1 and -1.

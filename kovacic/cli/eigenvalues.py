@@ -11,7 +11,7 @@ import click
 
 from kovacic.cli import options
 from kovacic.cli.main import DECIDED, UNDECIDED
-from kovacic.shown import json_line
+from kovacic.writing.escaped import json_line
 
 
 @options.equation_command()

@@ -13,7 +13,7 @@ from kovacic.cli import options
 from kovacic.cli.main import DECIDED, UNDECIDED
 from kovacic.cli.options import fitted
 from kovacic.errors import KovacicError
-from kovacic.shown import json_line
+from kovacic.writing.escaped import json_line
 
 if TYPE_CHECKING:
     from pathlib import Path

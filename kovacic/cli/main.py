@@ -17,7 +17,7 @@ from io import StringIO, TextIOWrapper
 import click
 
 import kovacic
-from kovacic.shown import visible
+from kovacic.errors import visible
 
 DECIDED = 0
 BAD_INPUT = 2

@@ -11,7 +11,7 @@ import click
 
 from kovacic.cli import options
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.shown import json_line
+from kovacic.writing.escaped import json_line
 
 
 @options.equation_command()
@@ -128,7 +128,7 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
     kovacic conditions --check 200 "x^4 + mu*x"
     kovacic conditions --format latex "x^4 + a*x^2 + b*x + c"
     """
-    from kovacic.parameters import conditions
+    from kovacic.solution.conditions import conditions
 
     if form != "summary":
         options.refuse({"everything", "explained"}, "with --json, --latex or --format")

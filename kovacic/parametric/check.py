@@ -61,7 +61,7 @@ from kovacic.reading.change_of_variable import function_of_x, user_variable
 
 @dataclass(frozen=True)
 class CheckReport:
-    """The outcome of `kovacic.parameters.Conditions.check`: true when every sample agrees.
+    """The outcome of `kovacic.solution.conditions.Conditions.check`: true when every sample agrees.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ from kovacic.decision import Status
 from kovacic.derived import verification
 from kovacic.engine.decide import decide
 from kovacic.equation import Equation, parameters_of
-from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed, visible
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
@@ -43,7 +43,7 @@ from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
-from kovacic.shown import json_line, visible
+from kovacic.writing.escaped import json_line
 from kovacic.writing.formula import Formulas, Math
 
 #: A number for each parameter by name or symbol, or the point that they make up.

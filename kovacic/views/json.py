@@ -49,10 +49,10 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.written import WrittenReader
-from kovacic.shown import json_line, strict_json
 from kovacic.verify import verify
 from kovacic.verify.factors import is_a_field
 from kovacic.verify.identity import form_numerators
+from kovacic.writing.escaped import json_line, strict_json
 from kovacic.writing.formula import Formulas
 
 SCHEMA = 1

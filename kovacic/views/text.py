@@ -9,9 +9,8 @@ from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
-from kovacic.errors import LimitExceeded
+from kovacic.errors import LimitExceeded, visible
 from kovacic.reading.pieces import is_equation
-from kovacic.shown import in_one_line, visible
 from kovacic.views.sentences import (
     SOLVABLE,
     UNDECIDED,
@@ -25,6 +24,7 @@ from kovacic.views.sentences import (
     solutions_of,
     verdict_of,
 )
+from kovacic.writing.escaped import in_one_line
 from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.writing.omega import omega_lines
 

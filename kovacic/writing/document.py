@@ -13,9 +13,9 @@ from html import unescape
 from pkgutil import get_data
 from string import Template
 
-from kovacic import shown
-from kovacic.errors import LimitExceeded
+from kovacic.errors import LimitExceeded, visible
 from kovacic.limits import check_time
+from kovacic.writing import escaped
 from kovacic.writing.breaking import LINE, breakable, pieces, width
 from kovacic.writing.formula import Math
 
@@ -181,7 +181,7 @@ def _mathml(math: Math, display: str = "inline") -> str:
 
 def _code(math: Math) -> str:
     """A formula as text: it can't be typeset, or there is no time for it."""
-    return f"<code>{shown.html(math.text)}</code>"
+    return f"<code>{escaped.html(math.text)}</code>"
 
 
 def _html_math(math: Math) -> str:
@@ -217,28 +217,28 @@ FORMATS = {
         math=lambda math: math.text,
         formula=lambda math: "    " + math.text.replace("\n", "\n    "),
         table=_text_table,
-        plain=shown.visible,
+        plain=visible,
     ),
     "markdown": Format(
         heading=lambda text, level: f"{'#' * level} {text}",
         math=lambda math: f"${math.latex}$",
         formula=lambda math: f"$$\n{math.latex}\n$$",
         table=_markdown_table,
-        plain=shown.markdown,
+        plain=escaped.markdown,
     ),
     "latex": Format(  # the body of a document with amsmath, amssymb and graphicx
         heading=_latex_heading,
         math=lambda math: f"${breakable(math.latex)}$",
         formula=_latex_formula,
         table=_latex_table,
-        plain=shown.latex,
+        plain=escaped.latex,
     ),
     "html": Format(
         heading=lambda text, level: f'<h{level} id="{anchor(unescape(text))}">{text}</h{level}>',
         math=_html_math,
         formula=_html_formula,
         table=_html_table,
-        plain=shown.html,
+        plain=escaped.html,
         paragraph=lambda text: f"<p>{text}</p>",
     ),
 }
@@ -247,7 +247,7 @@ FORMATS = {
 def page(title: str, body: str) -> str:
     """A page of HTML in ASCII that needs nothing from elsewhere; its styles are for itself, where it stands in a notebook."""
     font = b64encode(get_data("kovacic.writing", "math.woff2") or b"").decode("ascii")
-    written = _HTML.substitute(title=shown.html(title), font=font, body=body)
+    written = _HTML.substitute(title=escaped.html(title), font=font, body=body)
     return written.encode("ascii", "xmlcharrefreplace").decode()
 
 

@@ -274,4 +274,4 @@ def test_degrees_that_only_an_algebraic_constant_makes_natural(S: str, degree: i
     for solution in region.solution(degree):
         assert all(condition.free_symbols == {sympy.Symbol("E")} for condition in solution.conditions)
     assert found.check(8)
-    assert str(kovacic.parameters.Conditions.from_json(found.to_json())) == str(found)
+    assert str(kovacic.solution.conditions.Conditions.from_json(found.to_json())) == str(found)

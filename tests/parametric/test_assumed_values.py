@@ -87,7 +87,7 @@ def test_bounds_admit_the_numbers_between(what: str) -> None:
 def test_inequalities_leave_out_only_what_cannot_happen(S: str, what: str) -> None:
     general, answer = kovacic.conditions(S, var="x"), kovacic.conditions(S, assume={"n": what}, var="x")
     assert len(answer.regions) <= len(general.regions)
-    assert kovacic.parameters.Conditions.from_json(answer.to_json()) == answer
+    assert kovacic.solution.conditions.Conditions.from_json(answer.to_json()) == answer
     for value in (Fraction(k, 2) for k in range(-14, 15)):
         if answer.assumptions.admits([("n", QQ.poly([value]))]):
             assert answer.case_at({"n": value}) == general.case_at({"n": value})

@@ -123,7 +123,7 @@ def test_bounds_that_are_no_rational_numbers_and_two_ends(words: str, inside: li
     for value in outside:
         with pytest.raises(kovacic.InputError, match="contradicts the assumption"):
             answer.case_at({"E": value})
-    assert kovacic.parameters.Conditions.from_json(answer.to_json()) == answer
+    assert kovacic.solution.conditions.Conditions.from_json(answer.to_json()) == answer
 
 
 def test_a_bound_between_two_squares_excludes_them() -> None:

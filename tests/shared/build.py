@@ -38,9 +38,9 @@ from kovacic.enclosure.system import System
 from kovacic.engine.places import analyse
 from kovacic.galois import Ground
 from kovacic.limits import Budget, bounded_work
-from kovacic.parameters import Conditions
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
+from kovacic.solution.conditions import Conditions
 from kovacic.verify import verify
 from kovacic.views.plot import sample
 

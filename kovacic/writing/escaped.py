@@ -1,11 +1,8 @@
-r"""Escapes untrusted text, one function per output format.
+r"""Escapes untrusted text, one function per output format; `kovacic.errors.visible` is that for a terminal.
 
 Equations, names and messages may come from anybody: a file, a message, an answer in JSON that was changed by hand.  A terminal
-would obey escape sequences in them, and a reader would be misled by marks that turn the direction of writing round; LaTeX
-would obey \input, and browsers <script> and links.
-
->>> visible("x\x1b[31m + \u202e1")
-'x\\x1b[31m + \\u202e1'
+would obey escape sequences in them, and a reader would be misled by marks that reverse the direction of writing; LaTeX would
+obey \input, and browsers <script> and links.
 """
 
 from __future__ import annotations
@@ -14,6 +11,8 @@ import json
 import re
 from collections.abc import Callable
 from typing import Any
+
+from kovacic.errors import visible
 
 _DELETE = "\x7f"
 _LATEX = {
@@ -30,15 +29,6 @@ _LATEX = {
 }
 _LATEX_PATTERN = re.compile("|".join(map(re.escape, _LATEX)))
 _MARKDOWN_PATTERN = re.compile(r"[\\`*_\[\]<>$|#]")
-
-
-def visible(text: str) -> str:
-    """The text for a terminal: unprintable characters, except the ends of lines, become a backslash and a code."""
-    if text.isprintable():
-        return text
-    return "".join(
-        char if char.isprintable() or char == "\n" else char.encode("unicode_escape").decode("ascii") for char in text
-    )
 
 
 def in_one_line(text: str) -> str:
