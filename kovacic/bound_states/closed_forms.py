@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from typing import Any, NamedTuple
 
 import sympy
@@ -143,6 +143,8 @@ class _Window(NamedTuple):
 
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
         """A degree from which on no E with `function`(E, d) = 0 lies in the window, or None if none is known."""
+        if function.free_symbols == {d}:
+            return max([0, *(int(sympy.floor(root)) + 1 for root in sympy.Poly(function, d).real_roots())])
         polynomial = sympy.Poly(function, E)
         if polynomial.degree() != 1 or self.low is None or self.high is None:
             return None
@@ -189,9 +191,10 @@ class _Numbers(NamedTuple):
 
 
 class _Listed(NamedTuple):
-    """Degrees (None if there is none to choose) with irreducible polynomials in E, and whether these are all."""
+    """Degrees (None if there is none to choose) with irreducible polynomials in E; whether all degrees are there, and all E."""
 
     pairs: tuple[tuple[int | None, Any], ...]
+    has_all_degrees: bool
     are_all: bool
 
 
@@ -209,6 +212,12 @@ class _ClosedFormSearch:
     def E(self) -> Any:
         return sympy.Symbol(self.question.energy)
 
+    @property
+    def constants(self) -> dict[Any, Any]:
+        """The value of the algebraic constant that is a parameter of the conditions, sqrt(2) for instance."""
+        point = self.conditions.constant
+        return {sympy.Symbol(name): c.to_sympy(_NUMBER) for name, c in zip(point.names, point.values, strict=True)}
+
     def of_numbers(self) -> ClosedForms:
         """All E at which a potential without parameters has a closed form, one after the other."""
         levels: list[Algebraic] = []
@@ -218,7 +227,7 @@ class _ClosedFormSearch:
         for region in self.conditions.regions:
             listed = self._listed(region.statement)
             complete = complete and listed.are_all
-            if not listed.are_all and region.case == 1 and self._are_examined:
+            if not listed.has_all_degrees and region.case == 1 and self._are_examined:
                 higher = self.max_degree + 1
             for number, polynomial in listed.pairs:
                 if not self.window.has_zero_of(polynomial, self.E):
@@ -226,6 +235,8 @@ class _ClosedFormSearch:
                 solutions = [one for one in region.solution(number) if _vanish(one.conditions, polynomial, self.E)]
                 fits = [self._fits(one, polynomial) for one in solutions if self._are_examined]
                 here = [one for one, fit in zip(solutions, fits, strict=False) if fit == [True, True]]
+                if sympy.degree(polynomial, self.E) == 1:
+                    here = [replace(one, y=one.y.subs(self.E, -polynomial.subs(self.E, 0))) for one in here]
                 levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
                 if here:
                     continue
@@ -238,24 +249,25 @@ class _ClosedFormSearch:
     def _listed(self, statement: Statement) -> _Listed:
         """The E for which the statement may hold, and that are possible for a level."""
         pairs: list[tuple[int | None, Any]] = []
-        are_all = True
+        has_all_degrees = are_all = True
         for alternative in alternatives_of(statement):
             parts = both(alternative).parts
-            functions = [_zero_where(part) for part in parts]
-            if None in functions:
+            if None in map(_zero_where, parts):
                 are_all = False
                 continue
             numbers = self._numbers(parts)
-            are_all = are_all and numbers.are_all
+            has_all_degrees = has_all_degrees and numbers.are_all
             for number in numbers.some:
-                together = reduce(sympy.gcd, (function.subs(_NUMBER, number or 0) for function in functions))
-                polynomials = [
-                    sympy.Poly(f, self.E).monic() for f, _ in sympy.factor_list(together)[1] if f.has(self.E)
-                ]
+                functions = [_function_for(part, number, self.constants) for part in parts]
+                if None in functions:
+                    are_all = False
+                    continue
+                together = reduce(sympy.gcd, (sympy.Poly(f, self.E, extension=True) for f in functions))
+                polynomials = [factor.monic() for factor, _ in together.factor_list()[1]]
                 are_rational = all(polynomial.domain.is_QQ or polynomial.domain.is_ZZ for polynomial in polynomials)
                 are_all = are_all and are_rational
                 pairs += [(number, polynomial.as_expr()) for polynomial in polynomials if are_rational]
-        return _Listed(tuple(pairs), are_all)
+        return _Listed(tuple(pairs), has_all_degrees, are_all and has_all_degrees)
 
     def _numbers(self, parts: Sequence[Statement]) -> _Numbers:
         """The degrees that are to be tried: all for which E may be in the window, where they are finitely many."""
@@ -372,6 +384,27 @@ def _zero_where(statement: Statement) -> Any:
     if isinstance(statement, Natural) and statement.factors:
         return sympy.Mul(*_factors_of(statement))
     return statement.function.to_sympy(_NUMBER) if isinstance(statement, Vanishes) else None
+
+
+def _function_for(statement: Statement, number: int | None, constants: dict[Any, Any]) -> Any:
+    """A function of E that vanishes where the statement holds for a number: Delta_d where the exponents give d for all E.
+
+    None where Delta_d isn't known.
+    """
+    if not isinstance(statement, Natural) or number is None:
+        return _zero_where(statement).subs(constants)
+    values = [factor.subs(_NUMBER, number) for factor in _factors_of(statement)]
+    found = sympy.Mul(*filter(None, values))
+    for determinant in statement.determinants(number) if 0 in values else ():
+        if determinant.exponents:  # it vanishes for single E, and is among the values
+            continue
+        if determinant.factors is None:
+            return None
+        found *= sympy.Mul(*(factor.to_sympy(_NUMBER) for factor in determinant.factors))
+        if determinant.system:
+            system = (function.to_sympy(_NUMBER).subs(constants) for function in determinant.system)
+            found *= reduce(partial(sympy.gcd, extension=True), system)
+    return found.subs(constants)
 
 
 def _vanish(functions: Sequence[Any], polynomial: Any, E: Any) -> bool:

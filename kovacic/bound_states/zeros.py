@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import sympy
-from flint import acb, acb_poly, arb, fmpq, fmpz_poly
+from flint import acb, acb_poly, arb, fmpz_poly
 
 from kovacic.algebra.isolation import complex_zeros
+from kovacic.closed_form.balls import BallEvaluator
 
 #: The distance of a zero from an end that is at infinity.
 _INSIDE = arb(1)
@@ -40,7 +41,8 @@ def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | No
 
     None where the balls are too large.
     """
-    coefficients = [_value(c, E, ball) for c in reversed(P.all_coeffs())]
+    value = BallEvaluator({E: acb(ball)})
+    coefficients = [value(c) for c in reversed(P.all_coeffs())]
     if len(coefficients) < 2:
         return 0
     count = 0
@@ -63,22 +65,5 @@ def _is_inside(x: arb, bounds: tuple[Any, Any]) -> bool | None:
     return bool(above > 0 and below > 0)
 
 
-def _as_ball(bound: Any) -> arb:
-    return arb(str(sympy.N(bound, 30)))
-
-
-def _value(coefficient: Any, E: Any, ball: arb) -> acb:
-    """A rational function of E over Q at a ball."""
-    num, den = sympy.fraction(sympy.together(coefficient))
-    above = _horner(sympy.Poly(num, E), ball)
-    below = _horner(sympy.Poly(den, E), ball)
-    return above / below
-
-
-def _horner(polynomial: Any, ball: arb) -> acb:
-    total = acb(0)
-    for c in polynomial.all_coeffs():
-        if not c.is_Rational:
-            raise ValueError(f"{c} isn't rational")
-        total = total * ball + acb(arb(fmpq(int(c.p), int(c.q))))
-    return total
+def _as_ball(number: Any) -> arb:
+    return BallEvaluator({})(number).real

@@ -294,6 +294,7 @@ QUASI = [
     ("x^6 - 11*x^2", LINE, 4, "E^3 - 64*E", "A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467"),
     ("x^6 + 2*x^4 - 6*x^2", LINE, 2, "E^2 - 6*E - 3", "A. G. Ushveridze, Quasi-exactly Solvable Models (1994)"),
     ("(cosh(2*x) - 3)^2", LINE, 2, "(E - 6)*(E^2 - 16*E + 44)", "M. Razavy, Amer. J. Phys. 48 (1980) 285"),
+    ("(sqrt(2)*cosh(2*x) - 3)^2", LINE, 2, "(E - 3)*(E - 7)*(E - 15)", "M. Razavy, Amer. J. Phys. 48 (1980) 285"),
     ("(2*cosh(2*x) - 2)^2", LINE, 1, "(E - 3)*(E - 11)", "M. Razavy, Amer. J. Phys. 48 (1980) 285"),
     ("x^6 + 6/x^2 - 13*x^2", HALF, 2, "E^2 - 56", "A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467"),
 ]
