@@ -22,7 +22,6 @@ import scipy.special as special
 import sympy
 
 import kovacic
-from kovacic.doubles.combination import Combination
 from kovacic.doubles.lambdify import lambdify, measure
 
 POINTS = 100_000
@@ -117,7 +116,7 @@ def compare(row: Row) -> dict[str, Any]:
     begin = time.process_time()
     ours = lambdify(solution, interval=row.interval, **options)
     result: dict[str, Any] = {"name": row.name, "build": time.process_time() - begin, "careful": ours.careful}
-    base = None if isinstance(ours, Combination) else ours.base
+    base = ours.base
     functions = {"kovacic": ours, "scipy": row.scipy}
     functions["double-doubles"] = lambdify(solution, interval=row.interval, careful=True, check=False, **options)
     if row.sympy is not None:

@@ -143,7 +143,7 @@ class RationalChart:
     @property
     def irregular(self) -> list[ExactPoint]:
         """Those singular points near which solutions may be as large as exp(1/distance)."""
-        return [midpoint(root) for root, order in self.problem.system.roots("den", 128) if order > 2]
+        return [midpoint(root) for root, order in self.problem.poles(128) if order > 2]
 
     def is_regular(self, centre: ExactPoint, e: int) -> bool:
         """Is the disc with the scale 2^e, and twice as much, free of singular points?  `steepness` knows."""

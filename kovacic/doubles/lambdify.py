@@ -28,7 +28,6 @@ from kovacic.algebra.precision import working_precision
 from kovacic.api import find_answer
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import PieceChart, RationalChart, chart_of
-from kovacic.doubles.combination import Combination, combination
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
@@ -63,7 +62,7 @@ _EACH = 8
 _BESIDE = 0.01
 """Parts of a region, points of each that suspects are chosen from, and the distance from a zero over that to the next one."""
 
-Function = ProductForm | TabulatedFunction | Combination
+Function = ProductForm | TabulatedFunction
 
 
 class LambdifyStart(InitialValues, total=False):
@@ -127,14 +126,13 @@ def lambdify(
     var : str
         The name of the variable, where an equation is given as text; by default as for `kovacic.solve`.
     x0, y0, dy0, frobenius, path
-        The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table, or,
-        where two solutions of case 1 are known, a sum of these two, however many oscillations there are.
+        The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table.
     limits : Limits
         What the work may cost; by default those of `kovacic.Limits()`.
 
     Returns
     -------
-    ProductForm, TabulatedFunction or Combination
+    ProductForm or TabulatedFunction
         Called with a number or an array.  `measured` has the error in units in the last place of |y|: at 24 points, which are
         the ends of the interval (if they are singular, a thousandth of its length beside them), a point on either side of up to
         three zeros of a real solution, at a hundredth of the distance to the next zero, and others in between; and at four of
@@ -185,7 +183,7 @@ def lambdify(
     if not start:
         base = chart.base(number, candidates)
         chart = chart.beginning(number, base)
-    job = _Job(chart, interval, region, number, base, start, candidates, limits)
+    job = _Job(chart, region, number, base, limits)
     function = job.function(careful=bool(careful))
     if not check:
         return function
@@ -193,7 +191,14 @@ def lambdify(
     if careful is None and isinstance(found, Measured) and not found.keeps_the_promise:
         function = job.function(careful=True, plain=function)
         found = job.measured(function)
-    _warn_of(found)
+    if isinstance(found, Measured) and found.keeps_the_promise:
+        return replace(function, measured=found)
+    if isinstance(found, Measured) and found.points:
+        text = f"measured error of this function in units in the last place: {found}"
+    else:
+        reason = found if isinstance(found, str) else "all samples are beyond the range of doubles"
+        text = f"the error of this function couldn't be measured: {reason}"
+    warn_user(text, AccuracyWarning)
     return replace(function, measured=found) if isinstance(found, Measured) else function
 
 
@@ -236,27 +241,18 @@ def _chart(
 
 @dataclass(frozen=True)
 class _Job:
-    """What is asked for: the solution with the initial values `start`, or solution `number`, which is finite at the `base`."""
+    """The solution that the chart is given; without initial values solution `number`, which is finite at the `base`."""
 
     chart: PieceChart
-    interval: tuple[object, object]
     region: Region
     number: int
     base: ExactPoint | None
-    start: Mapping[str, Any]
-    candidates: list[ExactPoint]
     limits: Limits | None
 
     def function(self, *, careful: bool, plain: Function | None = None) -> Function:
         """The solution in double-doubles or plain doubles, `plain` if that is known."""
         if isinstance(plain, ProductForm) and plain.polynomial is None:
             return replace(plain, careful=careful)  # the factors are the same
-        if isinstance(plain, Combination):
-            return replace(plain, careful=careful)
-        if self.start and isinstance(self.chart, RationalChart):
-            found = combination(self.chart, self.region, self.candidates, self.limits)
-            if found is not None:
-                return replace(found, careful=careful)
         if self.base is not None and isinstance(self.chart, RationalChart):
             with working_precision(_PREC):
                 form = product_form(self.chart.problem, self.number, self.region, self.base, careful)
@@ -264,27 +260,16 @@ class _Job:
                 return replace(form, careful=careful)
         if not self.region.is_real:
             raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
-        return table_of(self.chart, self.interval, careful, self.limits)
+        return table_of(self.chart, self.region, careful, self.limits)
 
     def measured(self, function: Function) -> Measured | str:
         """The error of the function, or why it isn't known."""
         try:
             with bounded_work(_MOST_WORK):
-                return measure(function, self.chart, start=self.start, limits=self.limits)
+                start = self.chart.given if self.base is None else None
+                return measure(function, self.chart, start=start, limits=self.limits)
         except LimitExceeded as limit:
             return str(limit)
-
-
-def _warn_of(found: Measured | str) -> None:
-    """An AccuracyWarning at the line that called `lambdify`, where the error isn't known or too large."""
-    if isinstance(found, Measured) and found.keeps_the_promise:
-        return
-    if isinstance(found, Measured) and found.points:
-        text = f"measured error of this function in units in the last place: {found}"
-    else:
-        reason = found if isinstance(found, str) else "all samples are beyond the range of doubles"
-        text = f"the error of this function couldn't be measured: {reason}"
-    warn_user(text, AccuracyWarning)
 
 
 def measure(
@@ -303,7 +288,6 @@ def measure(
     """
     chart = equation if isinstance(equation, PieceChart) else chart_of(equation, dict(start or {}), None)
     if not chart.given:
-        assert not isinstance(function, Combination)
         assert function.base is not None
         chart = chart.beginning(which, function.base)
     extra = np.empty(0)
@@ -324,9 +308,7 @@ def measure(
 def _reference(function: Function, chart: PieceChart, points: Any, limits: Limits | None) -> list[acb]:
     """The values at these points in balls.  Raises LimitExceeded where they aren't found."""
     exact = [as_point(complex(x), "x") for x in points]
-    # far ways of thousands of oscillations have the closed form in balls alone
-    method = None if isinstance(function, Combination) else "taylor"
-    values = [y for y, _ in chart.states(exact, _DIGITS, limits, method=method)]
+    values = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
     if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in values):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     return values

@@ -348,14 +348,11 @@ def tabulate(
     """
     check_keywords("tabulate", given, StartOptions.__annotations__)
     chart = chart_of(with_variable(equation, var, limits, params), {"x0": x0, **given}, params)
-    return table_of(chart, (start, stop), careful, limits)
+    return table_of(chart, chart.region((start, stop))[0], careful, limits)
 
 
-def table_of(
-    chart: PieceChart, interval: tuple[object, object], careful: bool, limits: Limits | None
-) -> TabulatedFunction:
+def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | None) -> TabulatedFunction:
     """As `tabulate`, within a budget that is watched."""
-    region, _ = chart.region(interval)
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
     if any(region.singular):

@@ -109,9 +109,8 @@ def agrees_with_group(
 
 def is_fuchsian(problem: NumericProblem) -> bool:
     """Are all singular points, with infinity, regular?"""
-    num = problem.system.num
-    den = problem.system.den
-    is_infinity_regular = not num or len(num) - len(den) <= -2
+    num, den = problem.polynomials()
+    is_infinity_regular = num.degree() < 0 or num.degree() - den.degree() <= -2
     return is_infinity_regular and all(multiplicity <= 2 for _, multiplicity in problem.poles(64))
 
 

@@ -22,9 +22,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, fmpq
 
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.embedded import check_apart
 from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, State, apply, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb
@@ -151,32 +149,21 @@ class AnalyticWay(Way):
         return self.functions.coefficients.is_exact
 
     def at(self, prec: int) -> AnalyticWay:
-        return replace(self, problem=self.problem and self.problem.at(prec), prec=prec)
+        return replace(self, prec=prec)
 
     @property
     def _steepest(self) -> float:
         return max(_STEEPEST, _SHARE * self.prec)
 
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
+        if self.problem is not None:
+            self.problem.check_segment(a, b)
         for name, end in (("start", a), ("end", b)):
             if not all(value.is_finite() for value in self.functions.values(to_acb(end))):
                 said = f"the coefficients have no value at the {name} {end} of the path"
                 if self.problem is not None:
                     said = f"the right-hand side has no value at {end}, an end of the path"
                 raise InputError(said, hint="choose a point beside it")
-        if self.problem is not None:
-            self.problem.check_segment(a, b)
-        if self.problem is not None and self.problem.embedded is not None:
-            known = self.problem.embedded
-            for function in (known.S, known.gauge, self._rational_right):
-                if function is not None:
-                    check_apart((root for root, _ in known.poles(function)), to_acb(a), to_acb(b))
-
-    @cached_property
-    def _rational_right(self) -> RatFunc | None:
-        """The right-hand side, if it is rational."""
-        right = None if self.problem is None else self.problem.right
-        return right.f / right.a if right is not None and right.h is None else None
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
         found = Forecast(a, b, lambda: _growth(self.functions, a, b), 2 * self._steepest)

@@ -125,19 +125,28 @@ def _terms(f: Any, x: Any) -> tuple[Term, ...] | None:
 
 @lru_cache(maxsize=32)
 def way_of(problem: NumericProblem) -> AnalyticWay:
-    """An equation with rational coefficients and a right-hand side, as b/a, c/a and (f + h)/a."""
+    """b/a, c/a and (f + h)/a, for a right-hand side beside rational coefficients, or constants that are known by balls."""
     equation = problem.right
-    assert equation is not None
-    x = sympy.Symbol(equation.variable)
-    atoms = _Letters(x)
-    over = 1 / equation.a
-    b, c, f, inverse = (atoms.ratio(part) for part in (equation.b * over, equation.c * over, equation.f * over, over))
-    if equation.h is not None:
-        f += equation.h.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in equation.h.free_symbols}) * inverse
+    if equation is None:
+        assert problem.embedded is not None
+        b, c = problem.embedded.quotients()
+        atoms = _Letters(sympy.Symbol("the variable"))  # no parameter has this name
+        coefficients = atoms.ratio(b), atoms.ratio(c), sympy.Integer(0)
+    else:
+        atoms = _Letters(sympy.Symbol(equation.variable))
+        over = 1 / equation.a
+        b, c, f, inverse = (
+            atoms.ratio(part) for part in (equation.b * over, equation.c * over, equation.f * over, over)
+        )
+        if equation.h is not None:
+            f += (
+                equation.h.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in equation.h.free_symbols}) * inverse
+            )
+        coefficients = b, c, f
     values = dict(atoms.constants)
     if problem.embedded is not None:
         values |= problem.embedded.values
-    return constant_way(Coefficients(x, b, c, f, tuple(sorted(values.items()))), problem)
+    return constant_way(Coefficients(atoms.x, *coefficients, tuple(sorted(values.items()))), problem)
 
 
 class _Letters(Atoms):

@@ -23,7 +23,6 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq_poly
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
 from kovacic.enclosure.system import System, distance_lower, offsets
-from kovacic.errors import InputError
 from kovacic.limits import check_duration, check_time
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
@@ -57,8 +56,7 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Gaussi
     whole = [(part * common).numer() for part in parts]
     content = math.gcd(*(int(part.content()) for part in whole))
     p_re, p_im, q_re, q_im = ([int(c) for c in (part // content).coeffs()] for part in whole)
-    real = system.imaginary is None
-    return _paired(p_re, p_im, real), _paired(q_re, q_im, real)
+    return _paired(p_re, p_im), _paired(q_re, q_im)
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
@@ -67,12 +65,11 @@ def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 
-def _paired(re: list[int], im: list[int], real: bool) -> GaussianParts:
-    size = max(len(re), len(im))
-    re = re + [0] * (size - len(re))
-    if real and not im:
+def _paired(re: list[int], im: list[int]) -> GaussianParts:
+    if not im:
         return re, None
-    return re, im + [0] * (size - len(im))
+    size = max(len(re), len(im))
+    return re + [0] * (size - len(re)), im + [0] * (size - len(im))
 
 
 def norm(parts: GaussianParts) -> int:
@@ -97,17 +94,13 @@ class DefectBound:
 
 @dataclass(frozen=True)
 class Frame:
-    """The equation q y'' = p y in u, x = c + H u, H = 2^e, and the bounds for |u| <= 1.
-
-    `blur` is a bound of |H^2 (S - S~)| there, where S~ is p/q and the coefficients of S are known by balls.
-    """
+    """The equation q y'' = p y in u, x = c + H u, H = 2^e, and the bounds for |u| <= 1."""
 
     centre: ExactPoint
     e: int
     p: GaussianParts
     q: GaussianParts
     bound: DefectBound
-    blur: arb | None = None
 
     @property
     def scale(self) -> Any:
@@ -130,12 +123,11 @@ def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
         if any(not size > 1 for size, _ in poles):
             return None
         p, q = shift(system, centre, ExactPoint(power_of_two(e)))
-        blur = _blur(system, centre, e, poles) if system.radius else None
-        bound = _bound(p, q[0][0], poles, blur)
-        return None if bound is None else Frame(centre, e, p, q, bound, blur)
+        bound = _bound(p, q[0][0], poles)
+        return None if bound is None else Frame(centre, e, p, q, bound)
 
 
-def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -> DefectBound | None:
+def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBound | None:
     """The bounds, for the sizes of the poles; None where they would be too large."""
     sizes = [arb(a * a + b * b).sqrt().upper() for a, b in zip(p[0], p[1] or [0] * len(p[0]), strict=True)]
     majorant = arb_poly(sizes) * (1 / arb(q_0))
@@ -144,10 +136,7 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]], blur: arb |
         least = arb(1)
         for size, k in poles:
             least *= (1 - r / size) ** k
-        largest = majorant(r) / least
-        if blur is not None:
-            largest += blur
-        return least, largest.upper()
+        return least, (majorant(r) / least).upper()
 
     least, sigma = bounds(arb(REACH))
     if not (least > 0 and sigma < _STEEPEST**2):
@@ -193,33 +182,6 @@ class _Ring:
         """The same for z'' = sigma z + 1."""
         value, slope = self.carried(z)
         return value + self.push, slope + self.rise
-
-
-def _blur(system: System, centre: ExactPoint, e: int, poles: list[tuple[arb, int]]) -> arb:
-    """The bound `Frame.blur`: with |N - N~| <= n, |D - D~| <= d and |D~| >= m > d on the disc,
-
-    |S - S~| <= (|N~| d/m + n)/(m - d).
-
-    Raises InputError where D may vanish there.
-    """
-    unit = arb((1, e))
-    here = ExactPoint(
-        *(part[0] for part in system.along("den", centre, ExactPoint(0)))
-    )  # exact: balls would cancel near poles
-    reach = abs(to_acb(centre)).upper() + unit
-    least = to_acb(here).abs_lower()
-    for size, k in poles:
-        least *= (1 - 1 / size) ** k
-    numerator = system.polynomial("num").coeffs()
-    size = sum((abs(c) * reach**k for k, c in enumerate(numerator)), arb(0))
-    n, d = (system.radius * sum((reach**k for k in range(len(c))), arb(0)) for c in (system.num, system.den))
-    if not least > d:
-        raise InputError(
-            f"the path runs through a singular point near {centre}, or so near to one that the constants don't tell",
-            hint="go around it through the complex plane: path='above', or path=[...] with a vertex off the axis",
-            shell="go around it through the complex plane: --path above, or --path below",
-        )
-    return ((size * d / least + n) / (least - d) * unit * unit).upper()
 
 
 def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: float) -> Frame | None:

@@ -102,7 +102,7 @@ class Journey:
         found: dict[ExactPoint, State] = {}
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
-            for detour in _detours(one.here, waiting[-1], self.problem.at(256).singular_points(256)):
+            for detour in _detours(one.here, waiting[-1], self.problem.singular_points(256)):
                 for stage in detour.stages(side):
                     nearer = [stop for stop in waiting if detour.sign * (stop.x - stage.reach) <= 0]
                     found |= one.fan(nearer)

@@ -26,7 +26,7 @@ from kovacic.enclosure.matrices import Matrix, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import number_of_digits, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
-from kovacic.enclosure.rational import RationalWay
+from kovacic.enclosure.rational import way_for
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.enclosure.variable import with_variable
@@ -198,7 +198,7 @@ def connection_matrix(
     prec = start_bits(digits)
     while True:
         with working_precision(prec + 40), budget.watched():
-            entries = _connection(problem.at(prec), way, prec)
+            entries = _connection(problem, way, prec)
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
@@ -244,7 +244,7 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
 
 def _connection(problem: NumericProblem, way: _Way, prec: int) -> Matrix:
     """The matrix at about so many bits."""
-    traveller = Traveller(RationalWay(problem.at(prec), prec), way.first, (acb(1), acb(1)))
+    traveller = Traveller(way_for(problem).at(prec), way.first, (acb(1), acb(1)))
     for vertex in way.middle:
         traveller = traveller.moved(vertex)
     there = None

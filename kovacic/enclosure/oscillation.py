@@ -171,7 +171,7 @@ def _least(prec: int) -> float:
 def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
     """The solutions on the half line on which the end lies, where the way there may be worth while."""
     d = len(system.num) - len(system.den)
-    if d < -1 or not system.num or system.radius or system.imaginary is not None or end.x == 0:
+    if d < -1 or not system.num or end.x == 0:
         return None
     sign = 1 if end.x > 0 else -1
     c = -fmpq(system.num[-1], system.den[-1]) * sign ** abs(d)

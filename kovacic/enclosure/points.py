@@ -176,11 +176,6 @@ def around_zero(radius: arb, *, real: bool) -> acb:
     return acb(error) if real else acb(error, error)
 
 
-def floor(number: arb) -> int:
-    """The integer below a number that is known exactly."""
-    return int(_exact(number).floor())
-
-
 def _exact(number: arb) -> Any:
     mantissa, exponent = number.man_exp()
     return fmpq(mantissa) * power_of_two(int(exponent))

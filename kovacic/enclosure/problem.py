@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
-from flint import acb_poly, fmpq_poly, fmpz_poly
+from flint import acb, acb_poly, ctx, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
@@ -19,8 +19,8 @@ from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
-from kovacic.enclosure.embedded import Embedded
-from kovacic.enclosure.points import ExactPoint
+from kovacic.enclosure.embedded import Embedded, check_apart
+from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.enclosure.system import System, Zeros, check_segment
 from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotRational
@@ -72,7 +72,7 @@ class NumericProblem:
 
     `gauge` is g'/g = -b/(2a) where the user's equation is a z'' + b z' + c z = 0 with z = g y; None for a normal form.
     `right` is that equation where its right-hand side isn't zero.  `embedded` has S and the gauge where their constants are
-    known by balls only: `system` is an approximation then, S and gauge are None.
+    known by balls only: `system`, S and gauge say nothing then.
     """
 
     system: System
@@ -100,8 +100,8 @@ class NumericProblem:
         """The poles of the gauge, and of a rational right-hand side, where S is regular: singular points of the user's
         equation."""
         functions = [] if self.gauge is None else [self.gauge]
-        if self.right is not None and self.right.h is None and self.embedded is None:
-            functions.append(self.right.f / self.right.a)
+        if self._rational_right is not None and self.embedded is None:
+            functions.append(self._rational_right)
         den = fmpz_poly([1])
         own = fmpz_poly(list(self.system.den))
         for function in functions:
@@ -127,18 +127,26 @@ class NumericProblem:
             common = common * other // common.gcd(other)
         return common, -2 * p * (common // q), r * (common // s) - num * (common // den)
 
-    def at(self, prec: int) -> NumericProblem:
-        """With the constants to this precision."""
-        if self.embedded is None:
-            return self
-        return replace(self, system=self.embedded.system(prec))
+    @cached_property
+    def _rational_right(self) -> RatFunc | None:
+        """The right-hand side over the coefficient of y'', if it is rational."""
+        return None if self.right is None or self.right.h is not None else self.right.f / self.right.a
 
     def poles(self, prec: int) -> Zeros:
         """Enclosures of the poles of S at about `prec` bits, with their multiplicities."""
         if self.embedded is None:
             return self.system.roots("den", prec)
         with working_precision(2 * prec):
-            return tuple(self.embedded.poles())
+            return tuple(self.embedded.poles(self.embedded.S))
+
+    def enclosures(self, prec: int) -> list[acb]:
+        """Those of the singular points of the user's equation: the poles of S, of the gauge and of a rational right-hand side,
+        some perhaps several times."""
+        if self.embedded is None:
+            return [root for system in (self.system, self.further_poles) for root, _ in system.roots("den", prec)]
+        functions = (self.embedded.S, self.embedded.gauge, self._rational_right)
+        with working_precision(2 * prec):
+            return [root for f in functions if f is not None for root, _ in self.embedded.poles(f)]
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
         """Numerator and denominator of S, at the working precision in force."""
@@ -147,14 +155,22 @@ class NumericProblem:
         return self.system.polynomial("num"), self.system.polynomial("den")
 
     def check_segment(self, a: ExactPoint, b: ExactPoint) -> None:
-        """Raise InputError if the closed segment contains a singular point of the user's equation."""
+        """Raise InputError if the closed segment contains a singular point of the user's equation, or may contain one where
+        constants are known by balls."""
+        if self.embedded is not None:
+            check_apart(self.enclosures(ctx.prec), to_acb(a), to_acb(b))
+            return
         check_segment(self.system, a, b)
         if len(self.further_poles.den) > 1:
             check_segment(self.further_poles, a, b)
 
     def singular_points(self, prec: int) -> list[ExactPoint]:
-        """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
-        return [*self.system.singular_points(prec), *self.further_poles.singular_points(prec)]
+        """The midpoints of their enclosures, each once; on the real axis exactly where the singular point is."""
+        found: list[acb] = []
+        for root in self.enclosures(prec):
+            if not any(root.overlaps(other) for other in found):
+                found.append(root)
+        return [midpoint(root) for root in found]
 
 
 def as_problem(
@@ -231,7 +247,8 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     values = _rational_values(numbers)
     if values is None or functions.have_algebraic_constants:
         embedded = Embedded(functions.S, functions.gauge, numbers)
-        return NumericProblem(System((), (1,)), right=functions.right, embedded=embedded).at(_BITS)
+        embedded.check()
+        return NumericProblem(System((), (1,)), right=functions.right, embedded=embedded)
     decision = None
     if values:  # the decision of an answer is that for generic values
         functions = functions.at(values)

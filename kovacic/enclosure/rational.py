@@ -19,7 +19,6 @@ from flint import acb, acb_poly
 from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.embedded import check_apart
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply, real_part
@@ -43,22 +42,18 @@ class RationalWay(Way):
 
     @property
     def is_exact(self) -> bool:
-        return self.problem.is_exact
+        return True
 
     def at(self, prec: int) -> RationalWay:
-        return RationalWay(self.problem.at(prec), prec)
+        return RationalWay(self.problem, prec)
 
     @cached_property
     def gauge(self) -> LogDerivative | None:
         """gamma; None for a normal form."""
-        if self.problem.embedded is not None:
-            return self.problem.embedded.log_derivative()
         return None if self.problem.gauge is None else log_derivative(self.problem.gauge)
 
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         self.problem.check_segment(a, b)
-        if self.problem.embedded is not None and self.gauge is not None:
-            check_apart((pole.zeta for pole in self.gauge.poles), to_acb(a), to_acb(b))
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
         return forecast(self.problem.system, *self._in_discs(a, b), self.prec)
@@ -85,18 +80,14 @@ class RationalWay(Way):
         if self.gauge is None:
             return None
         E = self.gauge.growth(to_acb(a), to_acb(x))
-        if self.problem.is_real and a.is_real() and x.is_real():
+        if a.is_real() and x.is_real():
             E = acb(E.real)
         return E, acb(0), E * self.gauge.value(to_acb(x)), E
 
     def spread(self, number: Number, state: State) -> State:
         def coefficients(ball: acb) -> tuple[acb, acb, acb, bool]:
-            if self.problem.embedded is not None:
-                b, c = self.problem.embedded.coefficients(ball)
-            else:
-                top, first, last = (acb_poly(poly)(ball) for poly in self.problem.equation)
-                b, c = first / top, last / top
-            return b, c, acb(0), self.problem.is_real
+            top, first, last = (acb_poly(poly)(ball) for poly in self.problem.equation)
+            return first / top, last / top, acb(0), True
 
         return spread_by(coefficients, number, state)
 
@@ -182,6 +173,15 @@ class ClosedWay(RationalWay):
         count_work(self.prec)
         needed = not start[0].is_zero(), not start[1].is_zero()
         return stop, self.closed.frobenius(point, self.problem.gauge, needed, stop)
+
+
+def way_for(problem: NumericProblem) -> Way:
+    """The way of an equation with rational coefficients."""
+    if problem.right is None and problem.embedded is None:
+        return RationalWay(problem)
+    from kovacic.enclosure.constant import way_of  # imports SymPy
+
+    return way_of(problem)
 
 
 def sides(here: ExactPoint | Singular, stops: Sequence[ExactPoint]) -> list[list[ExactPoint]]:

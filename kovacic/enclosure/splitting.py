@@ -272,8 +272,6 @@ def is_split(system: System, prec: int) -> bool:
 
     (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
-    if system.radius:
-        return False
     order = max(2, len(system.num) + 1, len(system.den) - 1)
     factor = _ENTIRE if len(system.den) == 1 else _SINGULAR
     return prec > max(_LOWEST, factor * order**3)
@@ -286,7 +284,7 @@ def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, m
     """
     offset = target - frame.centre
     sums, errors = _sum_series(system, frame, frame.seen(target), mirror, prec)
-    real = offset.is_real() and frame.centre.is_real() and system.imaginary is None
+    real = offset.is_real() and frame.centre.is_real()
     first_rows = (0, 2) if mirror else (0,)
     with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(offset)

@@ -19,7 +19,7 @@ from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
-from kovacic.enclosure.rational import RationalWay
+from kovacic.enclosure.rational import way_for
 from kovacic.enclosure.routes import TAYLOR, route_of
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import Start, read_start
@@ -131,12 +131,7 @@ def journey_of(
     start = read_start(problem, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
     side = path if path in ("above", "below") else None
-    way: Any = RationalWay(problem)
-    if problem.right is not None:
-        from kovacic.enclosure.constant import way_of  # imports SymPy
-
-        way = way_of(problem)
-    return Journey(way, start, vertices, chain=path == "chain", side=side, problem=problem)
+    return Journey(way_for(problem), start, vertices, chain=path == "chain", side=side, problem=problem)
 
 
 @lru_cache(maxsize=32, typed=True)
@@ -197,7 +192,7 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
 def _may_be_singular(problem: NumericProblem, number: Number) -> bool:
     """Can't it be told from a singular point?  False for a rational point, unless the constants are known by balls."""
     if problem.embedded is not None:
-        return not all(value.is_finite() for value in problem.embedded.coefficients(to_ball(number)))
+        return not all(problem.embedded.value(f, to_ball(number)).is_finite() for f in problem.embedded.quotients())
     if isinstance(number, ExactPoint):
         return False
     ball = to_ball(number)

@@ -36,17 +36,12 @@ Which = Literal["num", "den"]
 class System:
     """den y'' = num y: integer coefficients, low to high, without a common factor, den not zero.
 
-    With a `radius` these are approximations, and the coefficients of the exact equation differ by at most so much from them;
-    `imaginary` are the imaginary parts of both then, where there are any.
-
     >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
-    System(num=(1,), den=(0, 0, 2), radius=0, imaginary=None)
+    System(num=(1,), den=(0, 0, 2))
     """
 
     num: tuple[int, ...]
     den: tuple[int, ...]
-    radius: int = 0
-    imaginary: tuple[tuple[int, ...], tuple[int, ...]] | None = None
 
     @classmethod
     def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
@@ -75,51 +70,33 @@ class System:
         whole = (p.numer() * q.denom(), q.numer() * p.denom())
         return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
 
-    def _parts(self, which: Which) -> tuple[tuple[int, ...], tuple[int, ...] | None]:
-        """The real and the imaginary parts of the coefficients (None: all zero)."""
-        num_im, den_im = self.imaginary or (None, None)
-        if which == "num":
-            return self.num, num_im
-        return self.den, den_im
-
     def polynomial(self, which: Which) -> acb_poly:
         """Numerator or denominator, at the working precision in force."""
-        re, im = self._parts(which)
-        if im is None:
-            return acb_poly(list(re))
-        return acb_poly(list(re)) + acb_poly(list(im)) * acb(0, 1)
+        return acb_poly(list(self.num if which == "num" else self.den))
 
     def along(self, which: Which, a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
-        """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q."""
-        re, im = self._parts(which)
-        real, imag = _along(re, a, step)
-        if im is None:
-            return real, imag
-        first, second = _along(im, a, step)  # to be multiplied by i
-        return real - second, imag + first
+        """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q, by Horner's rule."""
+        coefficients = self.num if which == "num" else self.den
+        bits = max((c.bit_length() for c in coefficients), default=0)
+        foresee_move(len(coefficients), bits, max(a.height_bits(), step.height_bits()))
+        x = fmpq_poly([a.x, step.x])
+        y = fmpq_poly([a.y, step.y])
+        if y == 0:
+            return fmpq_poly(list(coefficients))(x), fmpq_poly([])
+        real = fmpq_poly([])
+        imag = fmpq_poly([])
+        for c in reversed(coefficients):
+            check_time()
+            real, imag = real * x - imag * y + c, real * y + imag * x
+        return real, imag
 
     def roots(self, which: Which, prec: int) -> Zeros:
-        """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities.
-
-        Where coefficients aren't real, multiplicities may be too large, and zeros of the conjugate polynomial among them.
-        """
-        prec = max(64, 1 << (prec - 1).bit_length())
-        re, im = self._parts(which)
-        if im is None:
-            return _isolated(re, prec)
-        real = fmpz_poly(list(re))
-        imag = fmpz_poly(list(im))
-        found = _isolated(tuple(int(c) for c in (real * real + imag * imag).coeffs()), prec)
-        with working_precision(prec):
-            return tuple((z, k) for z, k in found if self.polynomial(which)(z).contains(0))
-
-    def singular_points(self, prec: int) -> list[ExactPoint]:
-        """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
-        return [midpoint(root) for root, _ in self.roots("den", prec)]
+        """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities."""
+        return _isolated(self.num if which == "num" else self.den, max(64, 1 << (prec - 1).bit_length()))
 
     def is_singular(self, point: ExactPoint) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""
-        if point.is_real() and self.imaginary is None:
+        if point.is_real():
             return bool(fmpz_poly(list(self.den))(point.x) == 0)
         return all(part == 0 for part in self.along("den", point, ExactPoint(0)))
 
@@ -128,22 +105,6 @@ class System:
 def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
     with working_precision(prec):
         return complex_zeros(fmpz_poly(list(coefficients)))
-
-
-def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
-    """The real and the imaginary part of the polynomial at a + t step, by Horner's rule."""
-    bits = max((c.bit_length() for c in coefficients), default=0)
-    foresee_move(len(coefficients), bits, max(a.height_bits(), step.height_bits()))
-    x = fmpq_poly([a.x, step.x])
-    y = fmpq_poly([a.y, step.y])
-    if y == 0:
-        return fmpq_poly(list(coefficients))(x), fmpq_poly([])
-    real = fmpq_poly([])
-    imag = fmpq_poly([])
-    for c in reversed(coefficients):
-        check_time()
-        real, imag = real * x - imag * y + c, real * y + imag * x
-    return real, imag
 
 
 def offsets(system: System, centre: ExactPoint) -> Zeros:
@@ -177,7 +138,7 @@ def is_apart(system: System, *points: ExactPoint) -> bool:
             along = b - a
             across = ExactPoint(a.y - b.y, along.x)
             left = _not_beyond(_not_beyond(left, points, along), points, across)
-    return not left and not system.radius
+    return not left
 
 
 def _not_beyond(zeros: list[acb], points: Sequence[ExactPoint], direction: ExactPoint) -> list[acb]:
@@ -249,15 +210,15 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> _Meeting | N
                 return None
             share = min(inside, key=lambda ball: float(ball.mid()))
             if not (share.contains(0) or share.contains(1)):  # the ends were excluded exactly: else refine
-                return _Meeting(name_of(system, to_acb(a) + to_acb(step) * share), float(share.mid()))
+                return _Meeting(name_of([system], to_acb(a) + to_acb(step) * share), float(share.mid()))
         prec *= 2
 
 
-def name_of(system: System, point: acb) -> str:
+def name_of(systems: Sequence[System], point: acb) -> str:
     """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
     middle = midpoint(point)
     guess = ExactPoint(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
-    if point.overlaps(to_acb(guess)) and system.is_singular(guess):
+    if point.overlaps(to_acb(guess)) and any(system.is_singular(guess) for system in systems):
         return str(guess)
     re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))
     return re if point.imag.contains(0) else f"{re} + {im}i"

@@ -38,7 +38,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import REACH, Frame, GaussianParts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, floor
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
@@ -78,11 +78,7 @@ def expand(frame: Frame, prec: int) -> TaylorSeries:
         re, im = _recurrence(p, q, w, start, 1 << quiet)
         imaginary = None if im is None else fmpz_poly(im)
         columns.append((fmpz_poly(re), imaginary))
-        defect = _proven_defect(p, q, (re, im), excess, 1 << quiet)
-        if frame.blur is not None:  # q Y'' - (p + q (S - S~)) Y: the ray bound holds for the defect over q
-            with working_precision(64):
-                defect += floor((frame.blur * q_0 * norm((re, im))).upper()) + 1
-        defects.append(defect)
+        defects.append(_proven_defect(p, q, (re, im), excess, 1 << quiet))
     return TaylorSeries(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
 
 

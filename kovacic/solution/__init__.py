@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from kovacic.closed_form.form import ClosedForm
-    from kovacic.doubles.combination import Combination
     from kovacic.doubles.lambdify import LambdifyOptions
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
@@ -242,7 +241,7 @@ class Solution(Answer):
         return prepared(self, x0=x0, **options)
 
     @limited
-    def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction | Combination:
+    def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction:
         """A solution as a vectorised NumPy function in double precision, its error measured.
 
         Parameters
@@ -260,7 +259,7 @@ class Solution(Answer):
 
         Returns
         -------
-        ProductForm, TabulatedFunction or Combination
+        ProductForm or TabulatedFunction
             A function of a number or an array; `measured` is its error.
 
         Notes

@@ -109,7 +109,7 @@ def test_derivatives_of_product_forms_are_those_of_evaluate(equation: str, inter
     assert (np.abs(dy - np.array([complex(b) for _, b in balls])) < 1e-12 * sizes).all()
 
 
-def test_derivatives_at_zeros_and_of_combinations() -> None:
+def test_derivatives_at_zeros_and_of_long_tables() -> None:
     """x (4 x^4 - 20 x^2 + 15), and cos on 10,000 periods."""
     hermite = kovacic.solve("y'' - 2*x*y' + 10*y = 0").lambdify(interval=(-2, 2))
     assert hermite.derivative(0.0) / hermite(1.0) == pytest.approx(15 / (4 - 20 + 15), rel=1e-14)
@@ -169,7 +169,6 @@ def test_tables_may_have_tens_of_thousands_of_pieces(equation: str, interval: tu
     ("equation", "interval", "start", "exact"),
     [
         ("-1", (0, 31415), SINE, math.sin),
-        ("-1", (-10, 3_141_592), {"x0": 0, "y0": 1, "dy0": 0}, math.cos),
         ("y'' + 2*y' + 101*y = 0", (-1, 30), SINE, lambda x: math.exp(-x) * math.sin(10 * x) / 10),
         ("4", (0, 9), {"x0": "1/3", "y0": 1, "dy0": 0}, lambda x: math.cosh(2 * x - 2 / 3)),
         (
@@ -180,20 +179,14 @@ def test_tables_may_have_tens_of_thousands_of_pieces(equation: str, interval: tu
         ),
     ],
 )
-def test_given_values_of_a_closed_form_use_it(equation: str, interval: Any, start: dict[str, Any], exact: Any) -> None:
-    """Up to a million zeros, where a table would have hundreds of thousands of pieces."""
+def test_functions_with_given_values_are_those_of_the_closed_form(
+    equation: str, interval: Any, start: dict[str, Any], exact: Any
+) -> None:
+    """Up to ten thousand zeros."""
     f: Any = kovacic.solve(equation).lambdify(interval=interval, **start)
-    assert type(f).__name__ == "Combination"
     assert f.measured is not None
     assert f.measured.worst < 1000
     assert f.interval == interval
     points = [interval[0] + (interval[1] - interval[0]) * share for share in (0.0, 0.17, 0.5, 0.83, 1.0)]
     for point in points:
         assert f(point) == pytest.approx(exact(point), rel=2e-12, abs=1e-15)
-
-
-def test_a_coefficient_that_may_be_zero_is_no_sum() -> None:
-    """exp(-x), without a share of exp(x) that would grow."""
-    f: Any = kovacic.solve("1").lambdify(interval=(0, 30), x0=0, y0=1, dy0=-1)
-    assert type(f).__name__ == "TabulatedFunction"
-    assert f(30.0) == pytest.approx(math.exp(-30), rel=1e-14)

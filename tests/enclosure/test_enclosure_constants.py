@@ -131,7 +131,7 @@ def test_solutions_and_roots_that_the_text_names() -> None:
 @pytest.mark.parametrize(
     ("equation", "options", "message"),
     [
-        ("x/(x - sqrt(2))", {}, "singular point 1.41421356237"),
+        ("x/(x - sqrt(2))", {}, "singular point near 1.4142135623"),
         ("x/(x - sqrt(2))^2", {}, "singular point"),
         ("1/(x^2 - 2*n*x + n^2)", {"x": 4, "params": {"n": "pi"}}, "singular point"),
         ("1/(x^2 - 2*n*x + n^2)", {"x": 4, "params": {"n": "1/2 + sqrt(2)"}}, "singular point"),
