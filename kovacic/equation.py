@@ -17,10 +17,9 @@ from functools import cached_property
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Field, Poly, joined_terms
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
-from kovacic.algebra.text import joined_terms
 from kovacic.numbers.numerals import as_text
 
 DEFAULT_VARIABLE = "x"

@@ -20,9 +20,12 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from typing import IO, Any, cast
+
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time, watched_seconds
 
 # The interpreter looks for modules where this one does, and not in the current directory.
 _INTERPRETER_SOURCE = (
@@ -111,38 +114,37 @@ class Process:
         return status, self._errors.read().decode("utf-8", errors="replace").strip()
 
 
-def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: float) -> Any:
-    """The last value that a generator function of a module yields within `seconds`; None without one.
+def computed_apart(what: str, function: Callable[..., Any], *arguments: Any) -> Any:
+    """The value of a function of a module, computed in a process that is killed when the watched time is over.
 
-    Arguments and values must be picklable.  An exception of the function ends it.
+    Arguments and value must be picklable.  Raises `LimitExceeded`, with `what` was computed, if there is no value: for want of
+    time, of memory or of a process.  Here, the computation might never end.
     """
-    if seconds <= 0:
-        return None
-    seconds = min(seconds, _LONGEST_SECONDS)
+    check_time()
+    seconds = watched_seconds(_LONGEST_SECONDS)
+    missing = LimitExceeded(f"a process of its own gave no {what}; with seconds=inf none is started", limit="seconds")
     try:
-        process = Process(_yield_values)
-    except OSError:  # no process can be started here
-        return None
+        process = Process(_compute)
+    except OSError:
+        raise missing from None
     timer = threading.Timer(seconds, process.kill)
     timer.daemon = True
     timer.start()
-    value = None
     try:
         process.send((function, arguments, seconds))
-        while True:
-            value = process.receive()
+        return process.receive()
     except EOFError:
-        return value
+        check_time()
+        raise missing from None
     finally:
         timer.cancel()
         process.close()
 
 
-def _yield_values(channel: Channel) -> None:
+def _compute(channel: Channel) -> None:
     function, arguments, seconds = channel.receive()
     set_alarm(seconds + 1)
-    for value in function(*arguments):
-        channel.send(value)
+    channel.send(function(*arguments))
 
 
 def echo(channel: Channel) -> None:

@@ -4,5 +4,5 @@ Nothing in here knows about differential equations.  Numbers, parameters and alg
 `Poly` or `RatFunc`; out come sums, quotients, factors, roots, values modulo primes, and the way back from these.  Read `poly`
 first: it has the abstract classes.  Above it are `rationals`, `function_field` and `extension`, one field each, with
 what each needs to come back from primes (`lifting`, `interpolation` and `splitting`), and `ratfunc`.  What is computed
-modulo a prime is in `modular`, below all of these; `apart` runs what can't be interrupted in a process that can be killed.
+modulo a prime is in `modular`, below all of these.
 """

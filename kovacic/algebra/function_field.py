@@ -18,9 +18,8 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx
 
-from kovacic.algebra.evaluation import Evaluation
 from kovacic.algebra.homomorphism import Collector, Homomorphism
-from kovacic.algebra.interpolation import Samples
+from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part

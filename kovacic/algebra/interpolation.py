@@ -9,19 +9,57 @@ Exactness comes from the verification of what is proposed; a wrong proposal is n
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations_with_replacement
+from math import prod
 from typing import Any
 
-from kovacic.algebra.evaluation import Evaluation, Exponents, power_product
-from kovacic.algebra.homomorphism import Collector, Homomorphism
+from flint import nmod_poly
+
+from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import chinese_remainders, reconstruct_vector
 from kovacic.algebra.modular import null_space
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import RationalHomomorphism, RationalPoly
 from kovacic.errors import LimitExceeded
 
 #: Samples beyond the number of unknowns.
 _MORE_SAMPLES = 4
 #: The largest linear system: beyond it the answer has too many terms in the parameters.
 _LARGEST_SYSTEM = 2400
+
+
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation(Homomorphism):
+    """The parameters take the values `point` modulo p."""
+
+    p: int
+    point: Exponents
+
+    def __call__(self, polynomial: Poly) -> Any:
+        if isinstance(polynomial, RationalPoly):
+            return RationalHomomorphism(self.p)(polynomial)
+        num = polynomial.num  # type: ignore[attr-defined]
+        den = polynomial.den  # type: ignore[attr-defined]
+        scale = sum(self._columns(den)) % self.p
+        if scale == 0:
+            raise BadPrimeError("a parameter takes a forbidden value")
+        image = nmod_poly(self._columns(num), self.p)
+        return image if scale == 1 else image * pow(scale, -1, self.p)
+
+    def _columns(self, polynomial: Any) -> list[int]:
+        """The coefficients of the powers of x, which is variable number 0."""
+        columns = [0] * (int(polynomial.degrees()[0]) + 1)
+        for exponents, coefficient in polynomial.to_dict().items():
+            columns[int(exponents[0])] += int(coefficient) * power_product(self.point, exponents[1:], self.p)
+        return [c % self.p for c in columns]
+
+
+def power_product(point: Exponents, exponents: Exponents, p: int) -> int:
+    return prod(pow(base, exponent, p) for base, exponent in zip(point, exponents, strict=True) if exponent) % p
 
 
 class Samples(Collector):

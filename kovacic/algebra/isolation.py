@@ -8,16 +8,13 @@ clusters, would take longer than the time that is left.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import lru_cache
-from math import inf
 from typing import Any
 
 from flint import acb, arb, ctx, fmpz, fmpz_poly
 
 from kovacic.algebra.precision import working_precision
-from kovacic.errors import LimitExceeded
-from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
+from kovacic.limits import check_duration, may_be_late
 
 #: Seconds that FLINT takes at least, over the square of the degree; and at most, with a part for each bit of the coefficients,
 #: unless zeros lie extremely close together: x(x-1)...(x-79) takes twenty times as long as a polynomial without clusters.
@@ -71,32 +68,26 @@ def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
 
 
 @lru_cache(maxsize=16)
-def _isolated_apart(coefficients: tuple[int, ...], prec: int) -> tuple[tuple[Any, Any, int], ...]:
-    """Midpoints and radii, found where it can be stopped."""
-    from kovacic.process import last_of
+def _isolated_apart(coefficients: tuple[int, ...], prec: int) -> list[tuple[Any, Any, int]]:
+    """Midpoints and radii, found where the computation can be stopped."""
+    from kovacic.process import computed_apart
 
-    found = last_of(_yield_zeros, coefficients, prec, seconds=watched_seconds(inf))
-    if found is None:
-        check_time()
-        reason = f"a process of its own didn't isolate the zeros of a polynomial of degree {len(coefficients) - 1}"
-        raise LimitExceeded(reason, limit="seconds")
-    return tuple(found)
+    what = f"zeros of a polynomial of degree {len(coefficients) - 1}"
+    return computed_apart(what, _dyadic_zeros, coefficients, prec)  # type: ignore[no-any-return]
 
 
-def _yield_zeros(coefficients: tuple[int, ...], prec: int) -> Iterator[list[tuple[Any, Any, int]]]:
+def _dyadic_zeros(coefficients: tuple[int, ...], prec: int) -> list[tuple[Any, Any, int]]:
+    """Real part, imaginary part and multiplicity of each zero, in a form that pickles."""
     with working_precision(prec):
         zeros = _isolated_here(fmpz_poly(list(coefficients)))
-        yield [(_dyadic(root.real), _dyadic(root.imag), k) for root, k in zeros]
+        return [(_dyadic(root.real), _dyadic(root.imag), k) for root, k in zeros]
 
 
-def _dyadic(ball: arb) -> tuple[tuple[int, int], tuple[int, int]]:
+def _dyadic(ball: arb) -> tuple[list[int], list[int]]:
     """Mantissa and exponent of the midpoint and of the radius."""
-    middle, radius = ((int(part) for part in value.man_exp()) for value in (ball.mid(), ball.rad()))
-    first = tuple(middle)
-    second = tuple(radius)
-    return (first[0], first[1]), (second[0], second[1])
+    return [int(part) for part in ball.mid().man_exp()], [int(part) for part in ball.rad().man_exp()]
 
 
-def _ball_of_dyadic(dyadic: tuple[tuple[int, int], tuple[int, int]]) -> arb:
+def _ball_of_dyadic(dyadic: tuple[list[int], list[int]]) -> arb:
     middle, radius = dyadic
     return arb((fmpz(middle[0]), fmpz(middle[1])), (fmpz(radius[0]), fmpz(radius[1])))

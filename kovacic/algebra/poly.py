@@ -17,7 +17,6 @@ from math import gcd, lcm
 from typing import Any, Self
 
 from kovacic.algebra.homomorphism import Collector, Homomorphism
-from kovacic.algebra.text import joined_terms, quotient_str
 from kovacic.limits import check_time
 
 Scalar = int | Fraction
@@ -363,3 +362,30 @@ class Field(ABC):
             return num, den
         factor = Fraction(multiple, common)
         return num * factor, den * factor
+
+
+def joined_terms(coefficients: Sequence[str], variable: str) -> str:
+    """The polynomial with these coefficients, low to high."""
+    powers = ["", variable, *(f"{variable}**{k}" for k in range(2, len(coefficients)))]
+    terms = []
+    for c, power in zip(coefficients, powers, strict=False):
+        if c in ("1", "-1") and power:
+            terms.append(c[:-1] + power)
+        elif c != "0":
+            factor = f"({c})" if " " in c and power else c  # a sum
+            terms.append(f"{factor}*{power}" if power else factor)
+    return " + ".join(reversed(terms)).replace("+ -", "- ") or "0"
+
+
+def quotient_str(num: Any, den: Any, variable: str) -> str:
+    """`num/den`, two polynomials, in lowest terms, with integer coefficients."""
+    num, den = num.field.ground.cleared(num, den)
+    above: str = num.integer_str(variable)
+    below: str = den.integer_str(variable)
+    if below == "1":
+        return above
+    is_product = "*" in below.replace("**", "^")
+    # Spaces separate the terms of a sum.
+    dividend = f"({above})" if " " in above else above
+    divisor = f"({below})" if " " in below or is_product else below
+    return f"{dividend}/{divisor}"

@@ -7,8 +7,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from kovacic.algebra.poly import Field, Immutable, Poly, Scalar
-from kovacic.algebra.text import quotient_str
+from kovacic.algebra.poly import Field, Immutable, Poly, Scalar, quotient_str
 from kovacic.limits import check_time
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import inf
-from typing import Any, cast
+from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
@@ -15,7 +15,6 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
 from kovacic.algebra.poly import Field, Poly, Scalar
-from kovacic.errors import LimitExceeded
 from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
@@ -450,18 +449,15 @@ def _factored_by_process(coefficients: tuple[int, ...]) -> list[tuple[tuple[int,
 
     The last ones are kept, since the kernel and the views ask for them again.
     """
-    from kovacic.process import last_of
+    from kovacic.process import computed_apart
 
-    found = last_of(_yield_integer_factors, coefficients, seconds=watched_seconds(inf))
-    if found is None:  # for want of time, of memory, or of a process: here it might have no end
-        check_time()
-        reason = f"a process of its own gave no factors of a polynomial of degree {len(coefficients) - 1}"
-        raise LimitExceeded(f"{reason}; with seconds=inf none is started", limit="seconds")
-    return cast("list[tuple[tuple[int, ...], int]]", found)
+    what = f"factors of a polynomial of degree {len(coefficients) - 1}"
+    return computed_apart(what, _integer_factors, coefficients)  # type: ignore[no-any-return]
 
 
-def _yield_integer_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
-    yield [(_integer_coefficients(f), k) for f, k in _factored_over_z(fmpz_poly(list(coefficients)))]
+def _integer_factors(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
+    """The factors of an integer polynomial, in a form that pickles."""
+    return [(_integer_coefficients(f), k) for f, k in _factored_over_z(fmpz_poly(list(coefficients)))]
 
 
 def _integer_coefficients(polynomial: Any) -> tuple[int, ...]:

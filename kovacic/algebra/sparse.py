@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import lru_cache
 from math import inf, lcm
-from typing import Any, cast
+from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpz_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, watched_seconds
 
 #: Above this degree in one of the variables, polynomials are factored in a process that can be stopped.
@@ -75,22 +73,17 @@ def _sparse_factors_by_process(
     names: tuple[str, ...], terms: _SparseTerms
 ) -> tuple[int, list[tuple[_SparseTerms, int]]]:
     """The factorisation by a process that can be stopped, as for long polynomials over Q."""
-    from kovacic.process import last_of
+    from kovacic.process import computed_apart
 
-    found = last_of(_yield_sparse_factors, names, terms, seconds=watched_seconds(inf))
-    if found is None:
-        check_time()
-        reason = "a process of its own gave no factors of a polynomial in the variable and the parameters"
-        raise LimitExceeded(f"{reason}; with seconds=inf none is started", limit="seconds")
-    return cast("tuple[int, list[tuple[_SparseTerms, int]]]", found)
+    what = "factors of a polynomial in the variable and the parameters"
+    return computed_apart(what, _sparse_factors, names, terms)  # type: ignore[no-any-return]
 
 
-def _yield_sparse_factors(
-    names: tuple[str, ...], terms: _SparseTerms
-) -> Iterator[tuple[int, list[tuple[_SparseTerms, int]]]]:
+def _sparse_factors(names: tuple[str, ...], terms: _SparseTerms) -> tuple[int, list[tuple[_SparseTerms, int]]]:
+    """Content and factors of a polynomial that is given, as they are, in a form that pickles."""
     context = fmpz_mpoly_ctx.get(names, Ordering.lex)
     content, factors = _factored_at_once(context.from_dict(dict(terms)))
-    yield content, [(terms_of(factor), k) for factor, k in factors]
+    return content, [(terms_of(factor), k) for factor, k in factors]
 
 
 def _factored_at_once(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:

@@ -9,25 +9,27 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from processes import talks, values
+from processes import answered, talks
 
-from kovacic.process import Process, last_of
-
-FOUND = pytest.mark.parametrize("found", [(), (1,), (1, "x^2 + 3", (None, [2**100]))])
-
-
-@FOUND
-@pytest.mark.parametrize("how", ["to the end", "an exception"])
-def test_the_last_value_before_the_end(how: str, found: tuple[Any, ...]) -> None:
-    assert last_of(values, how, *found, seconds=60) == (found[-1] if found else None)
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, Limits
+from kovacic.process import Process, computed_apart
 
 
-@FOUND
-def test_the_last_value_before_the_time_is_over(
-    found: tuple[Any, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The time is over once all values were sent, however long that takes."""
-    sent = tmp_path / "sent"
+@pytest.mark.parametrize("value", [None, 1, "x^2 + 3", (None, [2**100])])
+def test_the_value_comes_back(value: Any) -> None:
+    assert computed_apart("answer", answered, "a value", value) == value
+
+
+@pytest.mark.parametrize("how", ["an exception", "an end"])
+def test_without_a_value_there_is_a_reason(how: str) -> None:
+    with pytest.raises(LimitExceeded, match="a process of its own gave no answer"):
+        computed_apart("answer", answered, how, 1)
+
+
+def test_it_is_killed_when_the_time_is_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The time is over once the computation has begun, however long that takes."""
+    begun = tmp_path / "begun"
 
     class Timer(threading.Thread):
         def __init__(self, seconds: float, kill: Callable[[], None]) -> None:
@@ -35,7 +37,7 @@ def test_the_last_value_before_the_time_is_over(
             self.kill = kill
 
         def run(self) -> None:
-            while not sent.exists():
+            while not begun.exists():
                 time.sleep(0.01)
             self.kill()
 
@@ -43,12 +45,13 @@ def test_the_last_value_before_the_time_is_over(
             """It has run."""
 
     monkeypatch.setattr(threading, "Timer", Timer)
-    assert last_of(values, str(sent), *found, seconds=60) == (found[-1] if found else None)
+    with pytest.raises(LimitExceeded, match="a process of its own gave no answer"):
+        computed_apart("answer", answered, str(begun), 1)
 
 
-@pytest.mark.parametrize("seconds", [0, -1])
-def test_nothing_is_started_without_time(seconds: float) -> None:
-    assert last_of(values, "to the end", 1, seconds=seconds) is None
+def test_nothing_is_started_without_time() -> None:
+    with Budget(Limits(seconds=0)).watched(), pytest.raises(LimitExceeded, match="time limit"):
+        computed_apart("answer", answered, "a value", 1)
 
 
 def test_what_a_process_prints_is_no_answer_and_its_last_words_are_kept() -> None:

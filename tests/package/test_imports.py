@@ -153,7 +153,7 @@ TEXT_FACING = (
     "enclosure",
     "parametric",
     "reading",
-    "solution/__init__.py",
+    "solution",
     "views",
 )
 
