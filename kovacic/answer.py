@@ -48,6 +48,8 @@ class Answer:
     assumed: bool = False
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     known: KnownParameters | None = field(default=None, compare=False)
+    #: Parameters of S that stand for constants, as SymPy expressions: e for Euler's number.
+    letters: tuple[tuple[str, Any], ...] = ()
 
     @property
     def gauge(self) -> RatFunc:

@@ -92,6 +92,7 @@ def find_answer(
         assumed,
         limits,
         known,
+        parsed.letters,
     )
 
 

@@ -68,6 +68,13 @@ def closed_form(answer: Answer) -> ClosedForm | None:
     """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
     if answer.case is None:
         return None
+    return _in_given_symbols(answer, in_letters(answer))  # type: ignore[no-any-return]
+
+
+@computed_once
+@limited
+def in_letters(answer: Answer) -> ClosedForm:
+    """The closed form in the user's variable, and in the letters of S for constants."""
     from kovacic.special.choice import solutions
 
     found = solutions(answer.S, answer.decision, answer.gauge, answer.variable, Budget(answer.limits))
@@ -93,7 +100,17 @@ def special(answer: Answer) -> SpecialFunctions:
     if found and symbols:
         plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
         found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
-    return _in_given_variable(answer, found)  # type: ignore[no-any-return]
+    return _in_given_symbols(answer, _in_given_variable(answer, found))  # type: ignore[no-any-return]
+
+
+def _in_given_symbols(answer: Answer, found: Any) -> Any:
+    """`found` with y1 and y2 in what the letters for constants stand for."""
+    if not answer.letters or found.y1 is None:
+        return found
+    from sympy import Symbol
+
+    meanings = {Symbol(name): meaning for name, meaning in answer.letters}
+    return replace(found, y1=found.y1.xreplace(meanings), y2=found.y2.xreplace(meanings))
 
 
 def _in_given_variable(answer: Answer, found: Any) -> Any:

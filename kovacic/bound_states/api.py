@@ -40,7 +40,7 @@ from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
 from kovacic.reading.read import declared
-from kovacic.reading.symbolic import read_expression
+from kovacic.reading.symbolic import written_expression
 from kovacic.writing.formula import caret
 
 _CLASSES: tuple[tuple[Callable[[SingularFrame, Ends, Any], Iterator[LevelFamily]], str], ...] = (
@@ -411,7 +411,7 @@ def _check_branch_point(question: SpectralProblem) -> None:
     equation = question.parsed.equation
     if equation is None or equation.change is None:
         return
-    t = read_expression(equation.change.expression)
+    t = written_expression(equation.change.expression)
     is_root = t.is_Pow and t.base == sympy.Symbol(question.variable)
     start = question.domain[0]
     if is_root and (start.is_infinite or not question.signs.is_nonnegative(start)):

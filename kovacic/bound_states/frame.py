@@ -27,7 +27,7 @@ from kovacic.equation import Equation
 from kovacic.limits import Budget
 from kovacic.parametric import riemann
 from kovacic.parametric.theorems import symmetries
-from kovacic.reading.symbolic import read_expression
+from kovacic.reading.symbolic import written_expression
 from kovacic.writing.formula import caret
 
 #: (dt/dtheta)^2 as a function of t, for t a function of theta = k x + c.
@@ -60,7 +60,7 @@ class Original:
         """The one that the reader has chosen."""
         if equation is None or equation.change is None:
             return cls(x)
-        t = signs.real(read_expression(equation.change.expression)).xreplace({sympy.Symbol(x.name): x})
+        t = signs.real(written_expression(equation.change.expression)).xreplace({sympy.Symbol(x.name): x})
         kind = t.func.__name__
         if kind not in SLOPES:
             raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
@@ -283,7 +283,7 @@ def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]
         is_another = n % 2 == 0 or (n == 1 and coordinate.base != variable)
         if not is_another:
             continue
-        base = signs.real(read_expression(coordinate.base))
+        base = signs.real(written_expression(coordinate.base))
         if not base.has(question.E):
             S_z = (RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2
             yield _frame(question, original, _Coordinate(base, n, t), analyse(S_z, budget))

@@ -22,7 +22,12 @@ BallValue = Any  # an acb or an acb_series
 #: Of a product or a quotient of power series, for each coefficient and bit: FLINT can't be stopped inside.
 _SERIES_SECONDS = 6e-8
 
-_CONSTANTS = {sympy.pi: arb.pi, sympy.E: arb.const_e, sympy.EulerGamma: arb.const_euler}
+_CONSTANTS = {
+    sympy.pi: arb.pi,
+    sympy.E: arb.const_e,
+    sympy.EulerGamma: arb.const_euler,
+    sympy.Catalan: arb.const_catalan,
+}
 #: Flint's methods of the same names; none of these has a branch cut.
 _MEROMORPHIC = """
     exp sin cos tan cot sec csc sinh cosh tanh coth sech csch gamma erf erfc erfi zeta

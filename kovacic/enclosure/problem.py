@@ -22,7 +22,7 @@ from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded, check_apart
 from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.enclosure.system import System, Zeros, check_segment
-from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
+from kovacic.equation import Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotRational
 from kovacic.numbers.numerals import as_text
 
@@ -243,7 +243,9 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     names = _parameters(found, functions.right)
     numbers = {}
     if params is not None or names:
-        numbers = values_of_parameters(names, params or {})
+        letters = getattr(found, "letters", ())
+        constants = {name: meaning for name, meaning in letters if meaning.is_number}
+        numbers = values_of_parameters(names, params or {}, constants)
     values = _rational_values(numbers)
     if values is None or functions.have_algebraic_constants:
         embedded = Embedded(functions.S, functions.gauge, numbers)
@@ -327,13 +329,15 @@ def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:
     return replace(right, a=a, b=b, c=c, f=f, h=h)
 
 
-def values_of_parameters(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
-    """The values of the parameters; raises InputError unless there is one for each.  pi and e have theirs."""
-    constants = {name: text for name, text in ((PI, "pi"), (EULER, "exp(1)")) if name in names}
-    values = constants | dict(params)
-    given = {str(name): as_number(value, f"the parameter {name}") for name, value in values.items()}
+def values_of_parameters(
+    names: tuple[str, ...], params: Mapping[str, object], constants: Mapping[str, object] | None = None
+) -> dict[str, Number]:
+    """The values of the parameters, those of `constants` included; raises InputError unless there is one for each other."""
+    known = {name: as_number(value, name) for name, value in (constants or {}).items()}
+    given = {str(name): as_number(value, f"the parameter {name}") for name, value in params.items()}
+    names = tuple(name for name in names if name not in known)
     if set(given) == set(names):
-        return given
+        return known | given
     wanted = ", ".join(names) or "no parameter"
     hint = "leave params out"
     shell = "leave --param out"

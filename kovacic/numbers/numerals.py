@@ -168,6 +168,9 @@ def _printers() -> tuple[type[Any], type[Any]]:
         def _print_Rational(self, number: Any) -> str:
             return as_text(Fraction(int(number.p), int(number.q)))
 
+        def _print_Exp1(self, _: Any) -> str:
+            return "exp(1)"  # E is an energy in texts, and e may be a letter
+
     class Latex(_LongIntegers, LatexPrinter):  # type: ignore[misc]
         def _print_Rational(self, number: Any) -> str:
             sign = "- " if number < 0 else ""

@@ -5,7 +5,7 @@ The engine computes with a letter for each; in all that is printed, in values an
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -31,7 +31,9 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     Beside an algebraic constant the letters stay.
     """
     field = parsed.S.field
-    if not parsed.letters or not isinstance(field, FunctionField):
+    if not isinstance(field, FunctionField):
+        return parsed, parsed.letters
+    if not parsed.letters:
         return parsed, ()
     meanings = dict(parsed.letters)
     letters = tuple((_spelling(meanings[name]), meanings[name]) for name in field.names if name in meanings)
@@ -72,9 +74,9 @@ def own_parameters(names: Sequence[str], letters: Letters) -> tuple[str, ...]:
     return tuple(found)
 
 
-def letters_from(names: Sequence[str]) -> Letters:
-    """Those among names that are formulas."""
-    return tuple((name, read_expression(name)) for name in names if not name.isidentifier())
+def letters_from(names: Sequence[str], parameters: Collection[str]) -> Letters:
+    """Those among names that are no parameters of the user's: formulas, and numbers."""
+    return tuple((name, read_expression(name)) for name in names if name not in parameters)
 
 
 def nonzero(letters: Letters) -> list[str]:

@@ -422,7 +422,7 @@ class ParametricAnswer:
             variable = data["variable"]
             theorem = data.get("theorem", {"said": data["theory"], "sources": ()})
             constant = constant_from(data)
-            letters = letters_from(names)
+            letters = letters_from(names, parameters)
             if not all(name.isidentifier() for name in (*parameters, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
             field = FunctionField((*names, *constant.names))

@@ -69,7 +69,7 @@ from kovacic.parametric.prose import ABELIAN, phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import NEVER, Statement, both
-from kovacic.reading.symbolic import read_expression
+from kovacic.reading.symbolic import written_expression
 
 
 @dataclass(frozen=True)
@@ -201,8 +201,8 @@ def _smaller_in_x(problem: Problem, structure: Structure, n: int) -> Iterator[Pa
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
     """Equation (1) for signs f, g, h; None where three singular points are conjugate."""
     n = coordinate.n
-    base = read_expression(coordinate.base)
-    weight = read_expression(coordinate.weight)
+    base = written_expression(coordinate.base)
+    weight = written_expression(coordinate.weight)
     points = _three_points(problem, sympy.Symbol(variable))
     if points is None:
         return None
@@ -315,8 +315,8 @@ def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
     if not form.q:
         return None
     x = sympy.Symbol(variable)
-    s = read_expression(form.coordinate.base)
-    weight = read_expression(form.coordinate.weight)
+    s = written_expression(form.coordinate.base)
+    weight = written_expression(form.coordinate.weight)
     rate = root(form.q)
     delta = root(1 + 4 * form.b)
     beta = form.r.to_sympy(x) / rate

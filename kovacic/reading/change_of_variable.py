@@ -14,7 +14,7 @@ import sympy
 
 from kovacic.equation import Equation
 from kovacic.errors import NotRational
-from kovacic.reading.symbolic import read_expression
+from kovacic.reading.symbolic import written_expression
 
 #: (dt/du)^2 for functions t of u = k x + c, in t.
 SQUARES: dict[Any, Any] = {
@@ -31,7 +31,7 @@ def function_of_x(equation: Equation) -> Any:
     """t, a SymPy expression in x."""
     if equation.change is None:
         return sympy.Symbol(equation.variable)
-    return read_expression(equation.change.expression)
+    return written_expression(equation.change.expression)
 
 
 def user_variable(equation: Equation) -> Any:

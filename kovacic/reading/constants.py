@@ -6,7 +6,7 @@ the input is read again; so every value lies in one field, and an input over Q c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar
@@ -18,7 +18,7 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, square_part
-from kovacic.equation import ENERGY, lowered, over
+from kovacic.equation import ENERGY, EULER, lowered, over
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
@@ -190,15 +190,18 @@ class Constants:
             return function
         return lowered(over(function, field))
 
-    def notices(self) -> list[str]:
-        """What the user should know about the field."""
+    def notices(self, letters: Collection[str] = ()) -> list[str]:
+        """What the user should know about the field; `letters` stand for numbers."""
         found = []
         if self.parameters:
             taken = "is taken as a parameter" if len(self.parameters) == 1 else "are taken as parameters"
             found.append(f"{', '.join(self.parameters)} {taken} with generic values")
-        for name, meaning in ((ENERGY, "a parameter here, an energy"), ("e", "a parameter here")):
-            if name in self.parameters:
-                found.append(f"{name} is {meaning}; Euler's number, being transcendental, is one of its generic values")
+        if ENERGY in self.parameters:
+            said = f"{ENERGY} is a parameter here, an energy; Euler's number, being transcendental, is one of its"
+            found.append(f"{said} generic values")
+        if EULER in letters:
+            found.append(f"{EULER} is Euler's number; it is a letter where it is declared, --names {EULER}")
+        found += [f"{name} is Euler's number" for name in letters if name == f"{EULER}_"]
         numbers = self.numbers
         if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
             real, imaginary = map(float, numbers.approximation or ())

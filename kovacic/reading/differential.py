@@ -18,12 +18,13 @@ from typing import Any
 from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
 from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
-from kovacic.reading.names import FUNCTION_NAMES, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
+from kovacic.reading.names import FUNCTION_NAMES, NUMBERS, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
 from kovacic.reading.naming import OPERATOR
 from kovacic.reading.parser import Site
 
@@ -40,6 +41,8 @@ class EquationReader(RationalReader):
         arithmetic = LinearArithmetic(limits, variable, unknown, self.coefficient)
         super().__init__({variable: VARIABLE}, variable, arithmetic, constants)
         self.unknown = unknown
+        #: The letters that stand for numbers which aren't algebraic.
+        self.letters: dict[str, Any] = {}
         #: D stands for the derivative.
         self.has_operator = False
         #: g(x) is a function that is given.
@@ -52,22 +55,26 @@ class EquationReader(RationalReader):
         self.has_functions = source.has_functions
 
     def coefficient(self, expression: Any) -> Any:
-        """A rational function of x and pi, or of x and e, with that number as a parameter."""
+        """A rational function of x and pi, or of x and e, with a letter for that number."""
         import sympy
 
         from kovacic.reading.symbolic import walked
 
+        euler = f"{EULER}_" if EULER in self.declared else EULER
         powers = {e for e in expression.atoms(sympy.exp) if e.args[0].is_Integer}
-        names = {sympy.pi: sympy.Symbol(PI), sympy.E: sympy.Symbol(EULER)}
-        plain = expression.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names)
-        value = walked(plain, self)
+        numbers = {PI: sympy.pi} if expression.has(sympy.pi) else {}
+        if powers or expression.has(sympy.E):
+            numbers[euler] = sympy.E
+        self.letters |= numbers
+        names = {number: sympy.Symbol(name) for name, number in numbers.items()}
+        value = walked(expression.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names), self)
         if not is_rational(value):
-            shown = expression.xreplace({sympy.E: names[sympy.E]})  # E is the energy in texts
+            shown = as_text(expression)
             if not expression.free_symbols:
                 raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
             said = f"a coefficient that isn't a rational function of {self.variable}: {shown}"
             raise NotRational(said, hint="coefficients are rational in x, or in exp(k*x), sin(k*x), ...")
-        if {PI, EULER} <= {*self.constants.parameters}:
+        if len(self.letters) > 1:
             raise NotRational("pi and e in coefficients: it isn't known whether they are algebraically independent")
         return value
 
@@ -164,10 +171,10 @@ class EquationReader(RationalReader):
             return self.names[name]
         if name in self.declared:
             return self.constants.parameter(name)
-        if name != self.variable and name in ("e", "pi", "π"):
+        if name != self.variable and name in NUMBERS and name != "I":
             import sympy
 
-            return sympy.E if name == "e" else sympy.pi
+            return getattr(sympy, NUMBERS[name]).expand(func=True)
         if name == UNKNOWN and self.unknown:  # the unknown function has another name
             return self.constants.parameter(name)
         return super().name(name)

@@ -78,7 +78,8 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
         unknown=unknown,
         change=Change(x.name, expression),
     )
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
+    said = f"in {t} = {expression}: {result}"
+    return Parsed(result.S, t.name, (said, *notices, *read.notices), result, read.letters)
 
 
 def _left_side(in_T: Sequence[Any], k: Any, T: Any, Y: Any) -> Any:
@@ -93,13 +94,14 @@ class _ReadEquation(NamedTuple):
 
     equation: Equation
     notices: tuple[str, ...]
+    letters: tuple[tuple[str, Any], ...]
 
 
 def _read_in(t: Any, expression: Any, limits: Limits) -> _ReadEquation:
     """The equation that says that an expression with an unknown function of t is zero."""
     read = read_source(source_of(expression, t.name, limits, equation=True), limits)
     assert read.equation is not None
-    return _ReadEquation(read.equation, read.notices)
+    return _ReadEquation(read.equation, read.notices, read.letters)
 
 
 def _without_denominators(monic: Monic) -> Equation:

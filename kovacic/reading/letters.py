@@ -24,7 +24,8 @@ import sympy
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from kovacic.equation import EULER, PI, UNKNOWN
+from kovacic.equation import UNKNOWN
+from kovacic.numbers.numerals import as_text
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 
 Expr = Any  # SymPy publishes no types
@@ -159,13 +160,13 @@ class _LetterTable:
     def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:
         self.x = x
         symbols = set().union(*(part.free_symbols for part in parts))
-        self.taken = {symbol.name for symbol in symbols} | {x.name, UNKNOWN, PI, EULER, *NUMBER_NAMES, *FUNCTION_NAMES}
+        self.taken = {symbol.name for symbol in symbols} | {x.name, UNKNOWN, *NUMBER_NAMES, *FUNCTION_NAMES}
         self.meanings: Meanings = {}
 
     def letter(self, meaning: Expr) -> Expr:
         """A new letter for what may contain others."""
         whole = meaning.xreplace(self.meanings)
-        name = re.sub(r"\W+", "_", str(whole)).strip("_")[:_LONGEST].rstrip("_")
+        name = re.sub(r"\W+", "_", as_text(whole)).strip("_")[:_LONGEST].rstrip("_")
         if not name.isidentifier():
             name = f"c_{name}"
         while name in self.taken:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+#: The numbers that texts have, with SymPy's names; they are declared where they are parameters.
+NUMBERS = {"e": "E", "pi": "pi", "π": "pi", "I": "I", "EulerGamma": "EulerGamma", "Catalan": "Catalan"}
+NUMBERS["GoldenRatio"] = "GoldenRatio"
 #: Names that stand for numbers unless the caller says that the variable has this name.
 NUMBER_NAMES = {
+    **{name: f"the number {name}" for name in NUMBERS},
     "I": "the imaginary unit",
-    "pi": "the number pi",
+    "e": "Euler's number",
     "π": "the number pi",
     "oo": "infinity",
     "zoo": "infinity",
@@ -78,7 +82,7 @@ def is_letter(name: str) -> bool:
 
 def words_among(names: Iterable[object]) -> tuple[str, ...]:
     """The names that have to be declared where a text with them is read again."""
-    return tuple(name for name in names if isinstance(name, str) and not is_letter(name))
+    return tuple(name for name in names if isinstance(name, str) and (name in NUMBERS or not is_letter(name)))
 
 
 def is_function(name: str) -> bool:

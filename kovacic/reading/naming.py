@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 
-from kovacic.equation import DEFAULT_VARIABLE, ENERGY, UNKNOWN
+from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
@@ -329,7 +329,8 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
 def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
-    names = [name for name in _letters(tokens, declared) if name not in no_variables and is_letter(name)]
+    letters = [name for name in _letters(tokens, declared) if is_letter(name)]
+    names = [name for name in letters if name not in no_variables] or [name for name in letters if name == EULER]
     try:
         return chosen_variable(names)
     except InputError as error:

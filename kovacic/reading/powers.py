@@ -54,7 +54,7 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     if rest != 0:
         equation = replace(equation, h=sympy.expand(-rest / a))
     said = f"in {equation.variable} = {found.change.expression}: {equation}"
-    return Parsed(equation.S, equation.variable, (said, *notices, *found.notices), equation)
+    return Parsed(equation.S, equation.variable, (said, *notices, *found.notices), equation, found.letters)
 
 
 class _ThetaForm(NamedTuple):
@@ -70,6 +70,7 @@ class _InPower(NamedTuple):
     equation: Equation
     change: Change
     notices: tuple[str, ...]
+    letters: tuple[tuple[str, Expr], ...]
 
 
 _WAVES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
@@ -115,7 +116,7 @@ def _of_waves(form: _ThetaForm, waves: Sequence[Expr], source: Source, limits: L
         return None
     change = Change(x.name, as_text(function_of_x(found.equation).subs(u, x**m)))
     equation = replace(found.equation, unknown=source.unknown or UNKNOWN, change=change)
-    return _InPower(equation, change, found.notices[1:])
+    return _InPower(equation, change, found.notices[1:], found.letters)
 
 
 def _monic_in(form: _ThetaForm, x: Expr, m: Expr, u: Expr) -> list[Expr]:
@@ -164,4 +165,4 @@ def _read_in(T: Expr, left: Sequence[Expr], value: Expr, source: Source, limits:
     if read.equation is None:
         return None
     change = Change(source.variable, as_text(value))
-    return _InPower(replace(read.equation, change=change), change, read.notices)
+    return _InPower(replace(read.equation, change=change), change, read.notices, read.letters)

@@ -11,13 +11,13 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import DEFAULT_VARIABLE, Equation, Parsed
+from kovacic.equation import DEFAULT_VARIABLE, PI, Equation, Parsed
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_rational
 from kovacic.reading.parser import shown
 from kovacic.reading.pieces import Paste
-from kovacic.reading.source import Source, as_equation, read_source, source_of
+from kovacic.reading.source import Source, read_source, read_with_numbers, source_of
 
 
 def read_input(
@@ -75,6 +75,8 @@ def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]
     for name in parameters:
         if not isinstance(name, str) or not name.isidentifier():
             raise InputError(f"{name!r} can't be the name of a parameter", hint="take letters and digits: EI, k_0")
+        if name == PI:
+            raise InputError(f"{PI} is a number, and no name of a parameter", hint="take another letter")
     return (*parameters, *map(str, assume if isinstance(assume, Mapping) else ()))
 
 
@@ -84,16 +86,13 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
     With `exponentials`, coefficients that aren't rational are tried as functions of exp(k x), and constants as letters.
     """
     try:
-        return read_source(source, limits)
+        return read_with_numbers(source, limits)
     except NotLinear:
         found = _multiplied_out(given, source, limits)
         if found is None:
             raise
         return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
     except NotRational as error:
-        if not source.unknown:
-            with suppress(InputError):  # pi and e are constants of equations
-                return read_source(as_equation(source), limits)
         if not exponentials:
             raise
         return _divided(source, limits) or _in_other_functions(source, error, limits)
@@ -200,7 +199,7 @@ def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parse
         return None
     written = source_of_parts(lettered.parts, source)
     found = None
-    for reader in (read_source, in_exponentials):
+    for reader in (read_with_numbers, in_exponentials):
         if found is None:
             with suppress(NotRational):
                 found = reader(written, limits)
@@ -209,7 +208,7 @@ def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parse
         return None
     meanings = {letter.name: meaning for letter, meaning in lettered.meanings.items()}
     said = [f"{name} is {meaning}" for name, meaning in meanings.items() if name != str(meaning)]
-    return replace(found, notices=(*said, *found.notices), letters=tuple(meanings.items()))
+    return replace(found, notices=(*said, *found.notices), letters=(*found.letters, *meanings.items()))
 
 
 def read_coefficients(

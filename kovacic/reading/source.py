@@ -6,11 +6,12 @@ given -> `Source`, which can be walked -> a reader, which calculates -> `Parsed`
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from contextlib import suppress
 from functools import partial
 from typing import Any, NamedTuple
 
-from kovacic.equation import EULER, PI, UNKNOWN, Parsed
-from kovacic.errors import InputError, NotLinear, ParseError
+from kovacic.equation import PI, UNKNOWN, Parsed
+from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial
 from kovacic.reading.constants import Constants, read_with_constants
@@ -111,23 +112,21 @@ def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool
 def _sympy_S(given: Any, variable: str | None) -> Source:
     import sympy
 
-    from kovacic.reading.symbolic import names_of, walked
+    from kovacic.reading.symbolic import walked
 
-    expression = given.as_expr() if isinstance(given, sympy.Poly) else given
+    expression = _in_roots(given.as_expr() if isinstance(given, sympy.Poly) else given)
     if not isinstance(expression, sympy.Expr):
         hint = "give S alone, from y'' = S(x) y"
         raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)
-    names = names_of(expression)
-    return Source(partial(walked, expression), variable or chosen_variable(names))
+    names = _symbols_of(expression)
+    return Source(partial(walked, expression), variable or chosen_variable(names), declared=frozenset(names))
 
 
 def _sympy_equation(given: Any, variable: str | None, unknown: Any) -> Source:
     """An `Eq`, or an expression that is zero; `unknown` is y(x), or None where it is the only function."""
-    import sympy
+    from kovacic.reading.symbolic import function_of, walked
 
-    from kovacic.reading.symbolic import function_of, names_of, walked
-
-    expression = _difference_of_sides(given)
+    expression = _in_roots(_difference_of_sides(given))
     function = unknown
     if function is None:
         function = function_of(expression)
@@ -136,11 +135,25 @@ def _sympy_equation(given: Any, variable: str | None, unknown: Any) -> Source:
     x = function.args[0].name
     if variable is not None and x != variable:
         raise InputError(f"{function} isn't a function of {variable}")
+    return Source(partial(walked, expression), x, str(function.func), declared=frozenset(_symbols_of(expression)))
+
+
+def _symbols_of(expression: Any) -> list[str]:
+    """The names of the symbols.  Raises `InputError` for one that is called pi, which is the number everywhere."""
+    from kovacic.reading.symbolic import names_of
+
     names = names_of(expression)
-    for letter, number in ((PI, sympy.pi), (EULER, sympy.E)):
-        if letter in names and expression.has(number):
-            raise InputError(f"{letter} is a symbol and a number in one equation", hint="rename the symbol")
-    return Source(partial(walked, expression), x, str(function.func))
+    if PI in names:
+        raise InputError(f"a symbol with the name {PI}, which is a number", hint="rename the symbol")
+    return names
+
+
+def _in_roots(expression: Any) -> Any:
+    """With (1 + sqrt(5))/2 for the golden ratio."""
+    from sympy import GoldenRatio, TribonacciConstant
+
+    named = {number: number.expand(func=True) for number in (GoldenRatio, TribonacciConstant)}
+    return expression.xreplace(named) if hasattr(expression, "xreplace") else expression
 
 
 def _difference_of_sides(given: Any) -> Any:
@@ -152,8 +165,18 @@ def _difference_of_sides(given: Any) -> Any:
     return given.lhs - given.rhs
 
 
-def as_equation(source: Source) -> Source:
-    """S alone as y'' = S y, in which constants such as pi may occur."""
+def read_with_numbers(source: Source, limits: Limits) -> Parsed:
+    """As `read_source`; S alone as y'' = S y, where pi or e occur in it."""
+    try:
+        return read_source(source, limits)
+    except NotRational:
+        if not source.unknown:
+            with suppress(InputError):
+                return read_source(_as_equation(source), limits)
+        raise
+
+
+def _as_equation(source: Source) -> Source:
     from kovacic.reading.linear import LinearForm
 
     def walk(reader: Any) -> Any:
@@ -184,6 +207,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
         reader = EquationReader(x, y, limits, constants)
         reader.take_names_of(source)
         equation = reader.equation_of(source.walk(reader), text)
-        return Parsed(equation.S, x, (*source.notes, *reader.notices(), *constants.notices()), equation)
+        notes = (*source.notes, *reader.notices(), *constants.notices(reader.letters))
+        return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 
     return read_with_constants(read, limits)

@@ -29,13 +29,13 @@ from kovacic.reading.dialects import tokens_of
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, SEVERAL_ARGUMENTS, is_function
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, SEVERAL_ARGUMENTS, is_function
 from kovacic.reading.parser import Site, evaluate, shown
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 #: Infinity as it is written in texts.
 _INFINITE = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
-_CONSTANTS = {"pi": sympy.pi, "π": sympy.pi, "e": sympy.E, "I": sympy.I}
+_CONSTANTS = {name: getattr(sympy, number).expand(func=True) for name, number in NUMBERS.items()}
 
 
 @dataclass(frozen=True)
@@ -189,6 +189,13 @@ def read_expression(
     return reader.arithmetic.expression(evaluate(tokens, reader))
 
 
+def written_expression(text: str) -> Any:
+    """The expression that `as_text` wrote, in which e is a letter: Euler's number is exp(1) there."""
+    reader = SymbolicReader(None, "a function", LIMITS, {})
+    reader.names = {name: value for name, value in reader.names.items() if name != "e"}
+    return reader.arithmetic.expression(evaluate(tokens_of(text, LIMITS, what="a function"), reader))
+
+
 def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
     """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
     reader = SymbolicReader.of_equations(source.variable, [source.unknown], limits, what)
@@ -231,7 +238,7 @@ class SymbolicReader(RationalReader):
             return self.unknowns[name](self.x, 0)
         if name in self.names:
             return self.names[name]
-        if not self.any_name or name in NUMBER_NAMES:
+        if not self.any_name or (name in NUMBER_NAMES and name not in NUMBERS):
             raise InputError(f"{self.what} can't contain {name}")
         return sympy.Symbol(name)
 

@@ -41,13 +41,14 @@ from kovacic.decision import (
     Status,
     Structure,
 )
-from kovacic.equation import Equation, Parsed, parameters_of
+from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
+from kovacic.reading.symbolic import written_expression
 from kovacic.reading.written import WrittenReader
 from kovacic.verify import verify
 from kovacic.verify.factors import is_a_field
@@ -127,6 +128,7 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "riccati": riccati,
         "constants": constants,
         "field": _field_dict(answer.S.field),
+        "letters": {name: as_text(meaning) for name, meaning in answer.letters},
         "generic_conditions": conditions,
         "verified": answer.verified,
         "proof": _proof(decision, names),
@@ -139,7 +141,7 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         data["group"] = group_dict(answer)
         data["solutions"] = None
         with suppress(LimitExceeded):
-            data["solutions"] = [as_text(y) for y in derived.solutions(answer)] or None
+            data["solutions"] = _solutions(answer)
     return data
 
 
@@ -164,6 +166,12 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
         ],
         "undecided": decision.undecided,
     }
+
+
+def _solutions(answer: Answer) -> list[str] | None:
+    """The closed form in the letters of S."""
+    form = None if answer.case is None else derived.in_letters(answer)
+    return None if form is None else [as_text(form.y1), as_text(form.y2)]
 
 
 def group_dict(answer: Answer) -> dict[str, Any] | None:
@@ -208,7 +216,8 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
     seconds = _typed(data, "seconds", int, float, type(None))
     verified = bool(verify(parsed.S, decision))
-    answer = Answer(text, variable, parsed.S, decision, notices, verified, seconds, parsed.equation)
+    letters = tuple((name, written_expression(said)) for name, said in (data.get("letters") or {}).items())
+    answer = Answer(text, variable, parsed.S, decision, notices, verified, seconds, parsed.equation, letters=letters)
     if verified and not _typed(data, "verified", bool):
         raise ValueError("the answer is marked as failing its check, but passes it")
     _demand_the_same(data, to_dict(answer), "")
@@ -224,7 +233,9 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
     """The input.  Raises `ValueError` where S, the equation or the gauge aren't those of the data."""
     change = (data.get("equation") or {}).get("change") or {}
     given = change.get("variable", variable)
-    names = words_among((data.get("field") or {}).get("parameters") or ())
+    parameters = (data.get("field") or {}).get("parameters") or ()
+    numbers = {PI, EULER} & {PI, *(data.get("letters") or {})}
+    names = words_among(name for name in parameters if name not in numbers)
     parsed = read_input(text, var=given, limits=_READING_LIMITS, exponentials=given != variable, names=names)
     is_over_the_same = parsed.variable == variable and _is_field(data.get("field"), parsed.S.field)
     if not is_over_the_same or _Reader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
@@ -277,7 +288,7 @@ def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
 #: Keys that are compared by value, keys that are ignored or checked elsewhere, and keys that may be absent.
 _BY_VALUE = {"S", "theta", "P", "D", "coefficients", "minimal_polynomial", "a", "b", "c", "f", "gauge", "near"}
 _ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
-_MAY_BE_ABSENT = {"field", "generic_conditions", "equation", "gauge", "change", "near"}
+_MAY_BE_ABSENT = {"field", "letters", "generic_conditions", "equation", "gauge", "change", "near"}
 #: The facts about a group, and the evidence for them, which is computed anew.
 _GROUP_FACTS = ("name", "order", "finite", "family", "n")
 _GROUP_EVIDENCE = {"form", "function", "orders"}
@@ -351,21 +362,20 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
     """Raises `ValueError` where the solutions are neither those that are computed anew nor others of the same equation."""
     if texts is None:
         return
-    found = derived.solutions(answer)
-    if not found:
+    found = _solutions(answer)
+    if found is None:
         raise ValueError("the answer has solutions, but the equation has none")
-    if texts == [as_text(y) for y in found]:
+    if texts == found:
         return
     from sympy import Symbol
 
     from kovacic.closed_form.check import are_independent, is_numerical_solution
-    from kovacic.reading.symbolic import read_expression
 
     # Another version may write them in another way, but not in another variable.
     if not isinstance(texts, list) or len(texts) != 2 or not all(isinstance(text, str) for text in texts):
         raise ValueError("two solutions are expected")
     variable = Symbol(answer.variable)
-    y1, y2 = (read_expression(text, what="a solution", limits=_READING_LIMITS) for text in texts)
+    y1, y2 = map(written_expression, texts)
     # The residual is relative to y, which the Wronskian shows not to vanish.
     if not are_independent(y1, y2, variable) or not all(
         is_numerical_solution(y, variable, answer.S, answer.gauge) for y in (y1, y2)
