@@ -9,7 +9,7 @@ numbers with N <= k and N >= k + 1; how these two were guessed needs no proof.  
 2. `bounds`: lower bounds of a function on a half-line, for ends at infinity;
 3. `ends`: with which values the solution of an end begins, or between which;
 4. `discs`: Taylor series with proven errors, along the axis;
-5. `count`: N(E) for separated conditions, `hill` for periodic ones;
+5. `count`: N(E), for separated and for periodic conditions;
 6. `search`: brackets, their refinement, and the proof; `levels` is what is returned;
 7. `families`: the eigenvalues as formulas, where the equation has constant coefficients after a change of variable.
 """

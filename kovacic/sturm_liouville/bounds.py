@@ -21,16 +21,16 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError
 
 Expr = Any
+#: Exact lower and upper bound, possibly infinite.
 Range = tuple[Any, Any]
-"""Exact lower and upper bound, possibly infinite."""
 
 _INFINITE = arb.pos_inf()
 _EVERYTHING = (-_INFINITE, _INFINITE)
+#: Derivatives that are looked at: cosh(x) - x^2 needs three.
 _DERIVATIVES = 4
-"""Derivatives that are looked at: cosh(x) - x^2 needs three."""
 _HYPERBOLIC = [sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch]
+#: Terms of a sum, up to which each is tried as the dominant one.
 _TERMS = 12
-"""Of a sum, up to which each term is tried as the dominant one."""
 
 
 def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _DERIVATIVES) -> Any:
@@ -100,7 +100,8 @@ class _Ranges:
         if not e.free_symbols:
             return _constant(e)
         if e.is_Add:
-            return reduce(_sum, map(self.of, e.args))
+            lower, upper = zip(*map(self.of, e.args), strict=True)
+            return reduce(lambda a, b: _below(a + b), lower), reduce(lambda a, b: _above(a + b), upper)
         if e.is_Mul:
             return reduce(_product, map(self.of, e.args))
         if e.is_Pow and e.base is not sympy.E:
@@ -121,7 +122,8 @@ class _Ranges:
         if exponent.free_symbols:
             raise InputError(f"the range of {e} isn't known here")
         if exponent.is_negative:
-            return _inverse(self.of(e.base ** (-exponent)))
+            low, high = self.of(e.base ** (-exponent))
+            return (_below(_reciprocal(high)), _above(_reciprocal(low))) if low > 0 or high < 0 else _EVERYTHING
         if exponent.is_Integer and exponent % 2 == 0:
             return _even(lambda b: b ** int(exponent), (low, high))
         if exponent.is_Integer:
@@ -167,21 +169,10 @@ def _even(function: Callable[[Any], Any], argument: Range) -> Range:
     return _monotone(function, (nearest, max(-low, high)))
 
 
-def _sum(a: Range, b: Range) -> Range:
-    return _below(a[0] + b[0]), _above(a[1] + b[1])
-
-
 def _product(a: Range, b: Range) -> Range:
     """Infinite bounds aren't reached, so that 0 times such a one is 0."""
     products = [arb(0) if s == 0 or t == 0 else s * t for s in a for t in b]
     return min(map(_below, products)), max(map(_above, products))
-
-
-def _inverse(a: Range) -> Range:
-    low, high = a
-    if low > 0 or high < 0:
-        return _below(_reciprocal(high)), _above(_reciprocal(low))
-    return _EVERYTHING
 
 
 def _reciprocal(bound: Any) -> Any:

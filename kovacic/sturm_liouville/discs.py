@@ -22,14 +22,16 @@ from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
-from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, key_of
+from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, kept
 
 Expr = Any
-#: The most that k R is, and R over the step.
+#: k R is at most this, so that the bound M of a solution is at most exp(24) times its size, and 8^-n outweighs it soon.
 _STEEPEST = 24
+#: The radius R of a disc over the step: r = 1/8.
 _SHARE = 8
+#: A lower bound of pi.
 _TURN = arb(157) / 50
-"""Below pi."""
+#: Columns, and rows, of boxes over half a disc.
 _COLUMNS = 4
 _WITH_POLES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cosh, sympy.sinh, sympy.tanh)
 _MAX_STEPS = 20_000
@@ -76,7 +78,7 @@ class TaylorStep:
 
 
 def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None:
-    """The solution at the end of the steps; None where the balls are too wide to tell how many zeros it has."""
+    """The solution at the end of the steps; None if the balls are too wide to count its zeros."""
     sign = _sign(u)
     if u == 0:
         sign = _sign(v) * _sign(steps[0].t)
@@ -97,7 +99,7 @@ def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None
 
 
 def _sign(value: Any) -> int:
-    """1 or -1; 0 where it isn't known."""
+    """1 or -1; 0 for a ball that contains 0."""
     return int(value > 0) - int(value < 0)
 
 
@@ -120,7 +122,7 @@ def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
 
 
 def not_analytic(x: Expr, x0: Any) -> InputError:
-    """There may be a singular point."""
+    """The error for a point near which there may be a singular point."""
     return InputError(f"the coefficients aren't known to be analytic near {x} = {x0.mid().str(10, radius=False)}")
 
 
@@ -152,23 +154,20 @@ class Road:
         self.x = problem.x
         self.pieces = problem.pieces
         self.span = span
-        self._known: dict[Any, tuple[TaylorStep, ...]] = {}
 
     def value(self, x: Any, E: Any) -> Any:
-        """Q - E W near x: only to find good points."""
+        """Q - E W near x, without a bound of the error: only to choose good points."""
         for piece in self.pieces:
             if piece.high.is_infinite or x < ball(piece.high):
                 break
         at = BallEvaluator({self.x: acb(x)})
         return (at(piece.Q) - E * at(piece.W)).real.mid()
 
+    @kept
     def steps(self, start: Any, stop: Any, prec: int) -> tuple[TaylorStep, ...]:
         """From one point to another, which may be balls around the exact ones."""
-        key = (key_of(start), key_of(stop), prec)
-        if key not in self._known:
-            with working_precision(prec):
-                self._known[key] = tuple(self._steps(start, stop, prec))
-        return self._known[key]
+        with working_precision(prec):
+            return tuple(self._steps(start, stop, prec))
 
     def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[TaylorStep]:
         here = start

@@ -22,13 +22,12 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.sturm_liouville.bounds import lower_bound
 from kovacic.sturm_liouville.discs import coefficients, size
-from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, key_of, plain
+from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, kept, plain
 
 Expr = Any
 State = tuple[Any, Any]
-_HALVINGS = 200
+#: Doublings of the distance at which the potential is looked at.
 _REACH = 60
-"""Doublings of the distance at which the potential is looked at."""
 
 
 @dataclass(frozen=True)
@@ -68,20 +67,11 @@ class SingularEnd:
         """nu^2 = 1/4 + G(0), exactly; the exponents are 1/2 +- nu."""
         return sympy.simplify(self.G.subs(self.t, 0) + sympy.Rational(1, 4))
 
-    @cached_property
-    def _radii(self) -> dict[Any, Any]:
-        return {}
-
+    @kept
     def _radius(self, top: Any) -> Any:
         """R with pi sqrt(M) <= 2, where M bounds |G - G(0)| + |E H| in the disc; the series is used at R/4."""
-        key = key_of(top)
-        if key not in self._radii:
-            self._radii[key] = self._found_radius(top)
-        return self._radii[key]
-
-    def _found_radius(self, top: Any) -> Any:
         radius = arb(1) * 2**20
-        for _ in range(_HALVINGS):
+        while radius > arb(1) / 2**180:  # below, no radius is likely to do
             M = self._variation(radius, top)
             if M.is_finite() and 5 * M <= 2 and radius < self.reach:
                 return radius
@@ -138,17 +128,11 @@ class CutEnd:
         Q, W = (e.subs(self.x, self.place) for e in (self.piece.Q, self.piece.W))
         return plain(Q, self.tau), plain(W, self.tau)
 
-    @cached_property
-    def _cuts(self) -> dict[Any, Any]:
-        return {}
-
     def position(self, span: Span, digits: int) -> Any:
         """Where the solution begins for all E <= top; beyond, half of the digits are lost twice over."""
-        key = (key_of(span.high), digits)
-        if key not in self._cuts:
-            self._cuts[key] = self._cut(span.high, digits)
-        return self._cuts[key]
+        return self._cut(span.high, digits)
 
+    @kept
     def _cut(self, top: Any, digits: int) -> Any:
         first = self._positive_from(top)
         action = arb(0)
@@ -173,21 +157,14 @@ class CutEnd:
         variation = abs(self._S(tau, ball(self.threshold)))
         return ((root * root / variation).log() / 2).max(arb(0)) if variation > 0 else 1000
 
-    @cached_property
-    def _bounds(self) -> dict[Any, tuple[Any, Any]]:
-        return {}
-
+    @kept
     def _potential_beyond(self, x: Any) -> tuple[Any, Any]:
-        """Bounds of Q from x on, where W = 1 and the potential has a limit."""
-        key = key_of(x)
-        if key not in self._bounds:
-            Q, W = self.of_tau
-            low, high = -arb.pos_inf(), arb.pos_inf()
-            if self.threshold is not None and W == 1:
-                tau = _rational((-self.inwards * x).lower())
-                low, high = lower_bound(Q, self.tau, tau), -lower_bound(-Q, self.tau, tau)
-            self._bounds[key] = low, high
-        return self._bounds[key]
+        """Bounds of Q from x on if W = 1 and the potential has a limit, else infinite ones."""
+        Q, W = self.of_tau
+        if self.threshold is None or W != 1:
+            return -arb.pos_inf(), arb.pos_inf()
+        tau = _rational((-self.inwards * x).lower())
+        return lower_bound(Q, self.tau, tau), -lower_bound(-Q, self.tau, tau)
 
     def _name(self) -> str:
         return "infinity" if self.place.is_polynomial(self.tau) else f"{self.x} = {self.place.subs(self.tau, sympy.oo)}"
@@ -220,7 +197,7 @@ class CutEnd:
 
     @cached_property
     def _rises_from(self) -> Any:
-        """From where on Q is increasing and W constant, if that was proven for a power of 2."""
+        """A number from which on Q is proven to increase while W is constant; None if none was found."""
         Q, W = self.of_tau
         if W.has(self.tau):
             return None
@@ -231,7 +208,7 @@ class CutEnd:
         return None
 
     def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
-        """The steeper one, with Y = 0 if need be, which gives the lower count, or the other, with Y' = 0 if need be."""
+        """The steeper solution, which gives the lower count, or for `high` the flatter one; without bounds Y = 0 or Y' = 0."""
         low, above = self._potential_beyond(at)
         if high:
             return arb(1), self.inwards * (low - E).sqrt() if low > E else arb(0)
@@ -263,7 +240,7 @@ End = RegularEnd | SingularEnd | CutEnd | ThresholdEnd
 
 
 def at_threshold(end: End, threshold: Expr) -> End | None:
-    """The end for the bottom of the essential spectrum; None where no such bound is proven."""
+    """The end for E at the bottom of the essential spectrum; None if the bound for it isn't proven."""
     if not isinstance(end, CutEnd) or end.threshold is None or end.threshold != threshold:
         return end
     Q, W = end.of_tau
@@ -281,7 +258,7 @@ def _rational(value: Any) -> Expr:
 
 
 def end_of(problem: SturmProblem, side: int) -> End:
-    """The left end for side 0, the right one for 1.  Raises `InputError` where it isn't known what is to be computed there."""
+    """The left end for side 0, the right one for 1.  Raises `InputError` where the solution that belongs to it isn't known."""
     piece = problem.pieces[-side]
     at = problem.ends[side]
     wish = problem.conditions[side]
@@ -299,7 +276,10 @@ def end_of(problem: SturmProblem, side: int) -> End:
         return RegularEnd(at, wish.alpha - wish.beta * slope, wish.beta, inwards)
     t = sympy.Dummy("t", positive=True)
     Q, W = (_reduced(e.subs(problem.x, at + inwards * t) * t**2, t) for e in (piece.Q, piece.W))
-    length = _length(piece)
+    length = arb(1)  # a lower bound of the piece's; 1 for an infinite one
+    if piece.low.is_finite and piece.high.is_finite:
+        with working_precision(64):
+            length = (ball(piece.high) - ball(piece.low)).lower()
     found = SingularEnd(at, t, Q, W, inwards, length)
     if _is_analytic(Q, t) and _is_analytic(W, t) and W.subs(t, 0) == 0:
         _check_exponents(found, problem.x)
@@ -309,20 +289,12 @@ def end_of(problem: SturmProblem, side: int) -> End:
     return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, (1 / length).upper())
 
 
-def _length(piece: Stretch) -> Any:
-    """A lower bound of the length of the piece, at most 1 where it is infinite."""
-    if piece.low.is_infinite or piece.high.is_infinite:
-        return arb(1)
-    with working_precision(64):
-        return (ball(piece.high) - ball(piece.low)).lower()
-
-
 def _reduced(e: Expr, t: Expr) -> Expr:
     return plain(e, t) if e.is_rational_function(t) else sympy.expand(e)
 
 
 def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
-    """Is an end a point at which the coefficients are analytic?"""
+    """True if the coefficients are analytic at this end."""
     if at.is_infinite:
         return False
     with working_precision(64):
@@ -335,7 +307,7 @@ def _is_analytic(e: Expr, t: Expr) -> bool:
 
 
 def _check_exponents(end: SingularEnd, x: Expr) -> None:
-    """Raises `InputError` where the exponents aren't real, or it isn't known."""
+    """Raise `InputError` unless the exponents are known to be real."""
     square = end.square
     if square == 0 or ball(square) > 0:
         return
@@ -344,8 +316,8 @@ def _check_exponents(end: SingularEnd, x: Expr) -> None:
 
 
 def _check_wish(end: SingularEnd, problem: SturmProblem, wish: Wish) -> None:
-    """Raises `InputError` where the condition doesn't mean the principal solution, y ~ t^(larger exponent)."""
-    if wish is None or end.square >= 1:  # the other one isn't square integrable
+    """Raise `InputError` unless the condition singles out the principal solution, y ~ t^(larger exponent)."""
+    if wish is None or end.square >= 1:  # nu >= 1: t^(1/2 - nu) isn't square integrable
         return
     rate = sympy.limit(end.inwards * end.t * problem.B.subs(problem.x, end.at + end.inwards * end.t), end.t, 0)
     nu = sympy.sqrt(end.square)
@@ -379,7 +351,7 @@ def _infinite_end(x: Expr, piece: Stretch, at: Expr, inwards: int) -> CutEnd:
 
 
 def _said_of_oscillation(Q: Expr, tau: Expr, x: Expr, at: Expr) -> str:
-    """Where Q -> -oo: the limit circle if int |Q|^(-1/2) converges."""
+    """The message for Q -> -oo: the end is a limit circle if int |Q|^(-1/2) converges, as for Q < -tau^2.1."""
     said = f"the potential tends to -oo at {x} = {at}"
     if sympy.limit(Q / tau ** sympy.Rational(21, 10), tau, sympy.oo) is -sympy.oo:
         circle = "where all solutions oscillate and are square integrable (limit circle)"

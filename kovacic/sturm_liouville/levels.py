@@ -44,7 +44,7 @@ class Eigenvalues(Sequence[Level]):
     levels : tuple of Level
         In order; none is left out between the first and the last.
     complete : bool
-        Is it proven that there are no others (below the essential spectrum)?
+        True if it is proven that there are no others (below the essential spectrum).
     parameter : str
         The name of the eigenvalue.
     notes : tuple of str

@@ -6,10 +6,11 @@ c1/a. Zeros stay where they are, and alpha y + beta y' = 0 becomes (alpha - beta
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import wraps
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 import sympy
 from flint import acb, arb, fmpq
@@ -19,10 +20,11 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError
 
 Expr = Any
+_T = TypeVar("_T")
 #: Functions in pieces.
 STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max)
-_HALVINGS = 14
-"""Of an interval, on which the weight is shown to be positive."""
+#: Bisections of an interval, before the weight counts as not shown to be positive on it: pieces of 1/16,000 of its length.
+_BISECTIONS = 14
 
 
 @dataclass(frozen=True)
@@ -31,11 +33,6 @@ class Span:
 
     high: Any
     size: Any
-
-    @property
-    def key(self) -> tuple[Any, Any]:
-        """What tells two of them apart."""
-        return key_of(self.high), key_of(self.size)
 
 
 @dataclass(frozen=True)
@@ -57,7 +54,7 @@ class Robin:
 
     @classmethod
     def of(cls, terms: Iterable[tuple[int, Expr]], text: str) -> Robin:
-        """From the orders of derivatives with their coefficients.  Raises `InputError` for those that aren't numbers."""
+        """From pairs of a derivative's order and its coefficient.  Raises `InputError` unless the coefficients are numbers."""
         parts = [sympy.Integer(0), sympy.Integer(0)]
         for order, coefficient in terms:
             parts[order] += coefficient
@@ -67,7 +64,7 @@ class Robin:
 
     @property
     def is_zero(self) -> bool:
-        """Is it y = 0?"""
+        """True for y = 0."""
         return bool(self.beta == 0)
 
 
@@ -83,7 +80,7 @@ Wish = Robin | Bounded | None
 
 @dataclass(frozen=True)
 class SturmProblem:
-    """Conditions are those on y; None where the solution is meant that is smaller than all others at that end.
+    """An equation with conditions on y at both ends; None stands for the solution that is smaller than all others there.
 
     `wrap` is 0 for separated conditions, 1 for periodic and -1 for antiperiodic ones; `sign` is -1 where the user's
     parameter is -E.
@@ -105,9 +102,19 @@ class SturmProblem:
         return (self.B / 2).subs(self.x, at)
 
 
-def key_of(number: Any) -> tuple[Any, Any]:
-    """What tells two balls apart."""
-    return number.mid().man_exp(), number.rad().man_exp()
+def kept(method: Callable[..., _T]) -> Callable[..., _T]:
+    """A decorator: results of a method are kept with its object, by the arguments; FLINT's balls aren't hashable themselves."""
+
+    @wraps(method)
+    def found(self: Any, *arguments: Any) -> _T:
+        exact = [(a.mid().man_exp(), a.rad().man_exp()) if isinstance(a, arb) else a for a in arguments]
+        key = (method.__name__, *exact)
+        known: dict[Any, _T] = self.__dict__.setdefault("_kept", {})
+        if key not in known:
+            known[key] = method(self, *arguments)
+        return known[key]
+
+    return found
 
 
 def ball(e: Expr) -> Any:
@@ -119,9 +126,9 @@ def ball(e: Expr) -> Any:
 
 
 def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Stretch, ...]:
-    """Q and W between the points at which an absolute value, a step or a case of theirs changes.
+    """Q and W between the points at which one of their absolute values, steps or cases changes.
 
-    Raises `InputError` where these points can't be found, or W is somewhere negative.
+    Raises `InputError` if these points can't be found, or if W isn't shown to be positive between them.
     """
     places = [domain[0], *_breaks(Q + x * W, x, domain), domain[1]]
     found = []
@@ -163,7 +170,7 @@ def _is_below(a: Expr, b: Expr) -> bool:
 
 
 def _inside(low: Expr, high: Expr) -> Expr:
-    """A rational number between two ends, and not at a place where something is likely to vanish."""
+    """A rational number between two ends, at 3/7 of the way, where nothing is likely to vanish."""
     if low.is_infinite and high.is_infinite:
         return sympy.Rational(3, 7)
     if low.is_infinite:
@@ -202,7 +209,7 @@ def _value_of_step(step: Expr, x: Expr, inside: Expr) -> Expr:
 
 
 def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
-    """Raises `InputError` where it isn't shown that W >= 0; its zeros are isolated, as W is analytic and not 0."""
+    """Raise `InputError` unless W >= 0 is shown; the zeros of W are isolated, since it is analytic and not 0."""
     W = piece.W
     real = sympy.Dummy(real=True)
     if not W.has(x) and ball(W) > 0:
@@ -212,7 +219,7 @@ def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
     low, high = piece.low, piece.high
     if low.is_finite and high.is_finite:
         vanishes = [sympy.simplify(W.subs(x, end)) == 0 for end in (low, high)]
-        if _is_positive(W, x, (ball(low), ball(high)), vanishes, _HALVINGS):
+        if _is_positive(W, x, (ball(low), ball(high)), vanishes, _BISECTIONS):
             return
     raise InputError(
         f"the coefficient of the parameter isn't known to be positive: {W}",
@@ -221,7 +228,7 @@ def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
 
 
 def _is_without_roots(piece: Stretch, x: Expr, inside: Expr) -> bool:
-    """W is rational, positive at a point, and has neither zeros nor poles inside."""
+    """True if W is rational, positive at a point inside, and has neither zeros nor poles inside."""
     num, den = sympy.fraction(sympy.cancel(sympy.together(piece.W)))
     polynomial = num * den
     if not polynomial.is_polynomial(x) or not all(c.is_Rational for c in sympy.Poly(polynomial, x).coeffs()):
@@ -233,7 +240,7 @@ def _is_without_roots(piece: Stretch, x: Expr, inside: Expr) -> bool:
 
 
 def _is_positive(W: Expr, x: Expr, ends: tuple[arb, arb], vanishes: Sequence[bool], halvings: int) -> bool:
-    """In balls; next to an end where W vanishes by the sign of its derivative."""
+    """True if W > 0 in balls; next to an end where W vanishes, by the sign of its derivative."""
     low, high = ends
     whole = BallEvaluator({x: acb(low.union(high))}, analytic=True)
     if whole(W).real > 0:

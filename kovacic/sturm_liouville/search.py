@@ -17,27 +17,29 @@ from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 from kovacic.sturm_liouville.levels import Level
-from kovacic.sturm_liouville.problem import Span
+from kovacic.sturm_liouville.problem import Span, kept
 
+#: Raises of the precision, by half each, until balls are narrow enough to count.
 _RAISES = 5
-"""Of the precision, by half each, until balls are narrow enough to count."""
+#: Steps of regula falsi towards a level, and balls that are tried about it.
 _REFINEMENTS = 100
 _PROOFS = 8
+#: Doublings of the digits, to tell two levels apart or to cut an end nearer to infinity.
 _SEPARATIONS = 4
-"""How often more digits are taken to tell two levels apart, or to cut an end nearer to infinity."""
+#: Digits while the range is being looked for.
 _ROUGH = 4
-"""Digits while the range is looked for."""
+#: Steps of the range's upper end, each four times as far away.
 _DOUBLINGS = 24
+#: Steps towards the essential spectrum, each to a quarter of the distance.
 _APPROACHES = 7
-"""Steps towards the essential spectrum, each to a quarter of the distance."""
+#: Radii of a ball that are free of other levels on both sides of it: balls of neighbours are disjoint, also as printed.
 _ROOM = 16
-"""So many radii of a ball are free of other levels on both sides of it: balls of neighbours are disjoint, also as printed."""
+#: Where an interval is divided; the next share is taken if a count fails, as it does at an eigenvalue.
 _SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
-"""Where an interval is divided; another one is taken where a count fails, as it does at an eigenvalue."""
 
 
 class _Near(Exception):
-    """A number is so near to an eigenvalue that it can't be told on which side it is."""
+    """A number is so near to an eigenvalue that it isn't known on which side it lies."""
 
 
 @dataclass(frozen=True)
@@ -107,12 +109,12 @@ class Searcher:
             return ((E / power).floor() * power).mid()
 
     def radius(self, a: Count, b: Count, digits: int) -> Any:
-        """Of a ball with so many digits for a level between two numbers: relative to it, or to the unit if that is larger."""
+        """The radius of a ball with this many digits, for a level between two numbers: relative to it, or to a larger unit."""
         with working_precision(64):
             return (max(abs(a.E), abs(b.E), self.unit) / (4 * arb(10) ** digits)).mid()
 
     def _radius_inside(self, E: Any, free: tuple[Any, Any], a: Count, b: Count) -> Any:
-        """Of a ball about E with all digits, far enough from the ends of an interval that is free of other levels."""
+        """The radius of a ball about E with all digits, far from the ends of an interval that is free of other levels."""
         least, most = free
         room = min(E - least, most - E) / _ROOM
         return min(self.radius(a, b, self.digits), room).mid()
@@ -132,7 +134,7 @@ class Searcher:
         return a, b
 
     def level(self, k: int, low: Count, high: Count) -> tuple[Any, Any] | None:
-        """The lower and the upper end of the ball of level k, alone in it; None: more digits are needed."""
+        """The lower and the upper end of a ball with level k alone in it; None if more digits are needed."""
         a, b = self.bracket(k, low, high)
         if (a.count, b.count) != (k, k + 1):
             return None
@@ -146,17 +148,13 @@ class Searcher:
             try:
                 below, above = self.at(lower), self.at(upper)
                 if below.count == k and above.count == k + 1:
-                    return (lower, upper) if self._is_proven(k, lower, upper) else None
+                    # The upper count has to say the same as the lower one.
+                    upper_counts = [self.at(E, high=self.counter.is_bracket).count for E in (lower, upper)]
+                    return (lower, upper) if upper_counts == [k, k + 1] else None
                 a, b = (a, below) if below.count > k else (above, b)
             except _Near:
                 return None
         return None
-
-    def _is_proven(self, k: int, lower: Any, upper: Any) -> bool:
-        """Does the upper count say the same as the lower one?"""
-        if not self.counter.is_bracket:
-            return True
-        return self.at(lower, high=True).count == k and self.at(upper, high=True).count == k + 1
 
     def _refined(self, k: int, a: Count, b: Count, free: tuple[Any, Any]) -> tuple[Any, Count, Count]:
         """A number near the zero of the mismatch in (a, b): regula falsi with the weights of Anderson and Bjorck."""
@@ -192,7 +190,7 @@ class Searcher:
 
 
 def _weighted(other: Any, new: Any, old: Any) -> Any:
-    """The value at the end that stays, made smaller."""
+    """The value at the end that stays, made smaller [Anderson and Bjorck]: else regula falsi would keep that end for long."""
     factor = 1 - new / old
     return other * (factor if factor > 0 else arb(1) / 2)
 
@@ -210,10 +208,6 @@ class Range:
     low: Any
     high: Any
     count: int
-
-    @property
-    def span(self) -> Span:
-        return Span(self.high, max(abs(self.low), abs(self.high)))
 
 
 class LevelSearch:
@@ -239,10 +233,9 @@ class LevelSearch:
         self.separations = separations
         self.complete = False
         self.exhausted = False
-        self._searchers: dict[Any, Searcher] = {}
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:
-        """At most so many levels.  Raises `InputError` and `LimitExceeded`."""
+        """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""
         found = self._range(count)
         k = 0
         while k < found.count:
@@ -253,7 +246,8 @@ class LevelSearch:
     def _next(self, k: int, found: Range, digits: int) -> list[Level]:
         """Level k, or all that share its ball."""
         for attempt in range(self.separations):
-            searcher = self._searcher(found.span, digits, digits * 2**attempt)
+            size = max(abs(found.low), abs(found.high))
+            searcher = self._searcher(found.high, size, digits, digits * 2**attempt)
             below, above = searcher.range_with(found.low, found.high)
             ends = searcher.level(k, below, above)
             if ends is not None:
@@ -263,20 +257,21 @@ class LevelSearch:
             raise LimitExceeded(f"level number {k} wasn't found to {digits} digits", limit="digits")
         return [Level(_ball(a.E, b.E), searcher.counter.zeros(n), alone=False) for n in range(k, b.count)]
 
-    def _searcher(self, span: Span, digits: int, more: int) -> Searcher:
-        key = (span.key, digits, more)
-        if key not in self._searchers:
-            self._searchers[key] = Searcher(self.counters(span, more), digits)
-        return self._searchers[key]
-
-    # ------------------------------------------------------------------------------------------------ the range
+    @kept
+    def _searcher(self, high: Any, size: Any, digits: int, more: int) -> Searcher:
+        """For |E| <= size and E <= high, balls with `digits` digits, and counts with `more`."""
+        return Searcher(self.counters(Span(high, size), more), digits)
 
     def _range(self, count: int) -> Range:
-        """A range with the lowest levels, so many or all."""
+        """A range with the `count` lowest levels, or with all."""
         low = self._free_of_levels()
         total = None
         for number in range(_DOUBLINGS if self.threshold is None else _APPROACHES):
-            E = self._candidate(number)
+            with working_precision(64):
+                if self.threshold is None:
+                    E = self._short(self.scale * arb(4) ** number * 15 / 16)
+                else:
+                    E = self._short(self.threshold - self.scale / arb(4) ** (number + 1))
             found = self._rough(E, low, high=False)
             if found >= count:
                 return Range(low, E, count)
@@ -286,7 +281,7 @@ class LevelSearch:
                 self.complete = True
                 return Range(low, E, total)
         if self.threshold is None:
-            raise LimitExceeded("so many levels weren't found", limit="unknown_degree")
+            raise LimitExceeded(f"{count} levels weren't found", limit="unknown_degree")
         self.exhausted = True
         return Range(low, E, found)
 
@@ -300,21 +295,13 @@ class LevelSearch:
                     return E
         raise LimitExceeded("no lower bound of the levels was found", limit="unknown_degree")
 
-    def _candidate(self, number: int) -> Any:
-        """An upper end of the range."""
-        with working_precision(64):
-            if self.threshold is None:
-                return self._short(self.scale * arb(4) ** number * 15 / 16)
-            return self._short(self.threshold - self.scale / arb(4) ** (number + 1))
-
     def _short(self, E: Any) -> Any:
         """A dyadic number near E, with few digits."""
         unit = arb(2) ** (_log2(abs(E) + self.scale / 2**20) - 30)
         return ((E / unit).floor() * unit).mid()
 
     def _rough(self, E: Any, low: Any, *, high: bool) -> int:
-        span = Span(E, max(abs(low), abs(E)))
-        searcher = self._searcher(span, _ROUGH, _ROUGH)
+        searcher = self._searcher(E, max(abs(low), abs(E)), _ROUGH, _ROUGH)
         for shift in range(3):
             try:
                 return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high).count

@@ -1,4 +1,4 @@
-"""The levels of a problem: which counter, which range, and what is said beside them."""
+"""The levels of a problem: its counter, its range, and the notes on it."""
 
 from __future__ import annotations
 
@@ -11,21 +11,20 @@ from flint import arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator
-from kovacic.sturm_liouville.count import SeparatedCounter
+from kovacic.sturm_liouville.count import PeriodicCounter, SeparatedCounter
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
-from kovacic.sturm_liouville.hill import PeriodicCounter
 from kovacic.sturm_liouville.levels import Eigenvalues, Level
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 from kovacic.sturm_liouville.search import LevelSearch
 
 _PREC = 128
+#: Pairs of periodic levels often coincide: twice the digits are tried, not more.
 _PERIODIC_SEPARATIONS = 2
-"""Pairs of periodic levels often coincide: twice the digits are tried, not more."""
 
 
 @dataclass(frozen=True)
 class Eigenproblem:
-    """A problem that was read; `levels` computes its lowest levels, one after the other."""
+    """A problem as read; `levels` computes its lowest levels, one after the other."""
 
     problem: SturmProblem
     parameter: str
@@ -34,7 +33,7 @@ class Eigenproblem:
 
     @cached_property
     def ends(self) -> tuple[End, End]:
-        """The ends of separated conditions.  Raises `InputError` where none can be made of what was given."""
+        """The ends of separated conditions.  Raises `InputError` for conditions that don't fit them."""
         return end_of(self.problem, 0), end_of(self.problem, 1)
 
     @cached_property
@@ -55,7 +54,7 @@ class Eigenproblem:
         return LevelSearch(counter, self._scale(), threshold=threshold, total=self._total)
 
     def _scale(self) -> Any:
-        """An exact number of the size of the lowest levels, where the interval is finite; else 1."""
+        """An exact number of the size of the lowest levels, pi^2/(length^2 W), for a finite interval; else 1."""
         low, high = self.problem.ends
         if low.is_infinite or high.is_infinite:
             return arb(1)
@@ -78,7 +77,7 @@ class Eigenproblem:
         return counter.at(bottom, _PREC, high=True).count
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:
-        """The lowest ones, at most so many.  Raises `InputError` and `LimitExceeded`."""
+        """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""
         for level in self.search.levels(count, digits):
             value = level.value if self.problem.sign == 1 else -level.value
             found = Level(value, level.zeros, level.alone)

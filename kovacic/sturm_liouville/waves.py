@@ -17,10 +17,10 @@ from kovacic.sturm_liouville.ends import CutEnd, End, end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem
 
 _BITS = 160
+#: Points of a step.
 _PARTS = 32
-"""Points that are taken in a step."""
+#: Points beyond a cut, at quarters of the length on which y decays.
 _TAIL = 40
-"""Points beyond a cut, at quarters of the length on which y decays."""
 
 
 def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float]]:
