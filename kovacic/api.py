@@ -14,7 +14,7 @@ from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.verify import Verification, verify
-from kovacic.verify.normal_form import is_normal_form
+from kovacic.verify.identity import is_normal_form
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

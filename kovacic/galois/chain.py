@@ -90,9 +90,6 @@ def logarithmic_slope(piece: Piece, h: Poly) -> RatFunc:
     return RatFunc(odd, a * a - h * b * b)
 
 
-# ------------------------------------------------------------------------------------------------ the model
-
-
 def model_of(H: RatFunc) -> Model:
     """The curve in a coordinate in which the points at infinity aren't rational, and the poles of eta."""
     field = H.field
@@ -156,9 +153,6 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
         pair = cleared(piece.a, degree), cleared(piece.b, degree - half)
         pieces.append(Piece(piece.exponent, *_without_rational_content(*pair)))
     return CurveFunction(f.multiple, cleared(f.h, 2 * half), tuple(pieces), -cleared(f.rest, half - 2))
-
-
-# ------------------------------------------------------------------------------------------------ the doubling
 
 
 def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
@@ -241,9 +235,6 @@ def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
         t0, t1 = t1, t0 - quotient * t1
     inverse = r0.lc.inverse()
     return r0 * inverse, s0 * inverse, t0 * inverse
-
-
-# ------------------------------------------------------------------------------------------------ short functions
 
 
 def _without_rational_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:

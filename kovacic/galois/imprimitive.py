@@ -176,9 +176,6 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 
-# ------------------------------------------------------------------------------------------- orders modulo primes
-
-
 class _Image(NamedTuple):
     """The places over the roots of a factor modulo p, the valuation e of g there, and the residue of eta modulo p."""
 

@@ -126,9 +126,6 @@ def verify(
     return Verification((*checks, Check(statement, holds)))
 
 
-# ------------------------------------------------------------------------------------------- exclusions
-
-
 def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]:
     """Every structure before that of the answer is excluded, each once, in this order; all are where there is no solution."""
     claimed = [exclusion.structure for exclusion in decision.exclusions]
@@ -145,9 +142,6 @@ def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]
         passed = inspector.excludes(structure, exclusion.evidence)
         checks.append(Check(f"the Galois group isn't {structure.value} (case {structure.case})", passed))
     return checks
-
-
-# ------------------------------------------------------------------------------------------- the solution
 
 
 def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:

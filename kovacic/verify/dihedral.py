@@ -30,8 +30,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction
 from kovacic.errors import LimitExceeded
 from kovacic.verify.factors import factors_of
-from kovacic.verify.primes import homomorphisms_modulo
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms_modulo
 
 #: Primes are taken upwards from here.
 _PRIMES_FROM = 1 << 40

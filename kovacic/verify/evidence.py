@@ -15,8 +15,14 @@ from kovacic.verify.conditions import condition_fails
 from kovacic.verify.forms import dimension_modulo, ordinary_point, room
 from kovacic.verify.local import Point, points
 from kovacic.verify.omega import chart, no_expansion_is_rational
-from kovacic.verify.primes import homomorphisms, homomorphisms_modulo, is_usable_prime, roots_modulo
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.primes import (
+    BadPrimeError,
+    Homomorphism,
+    homomorphisms,
+    homomorphisms_modulo,
+    is_usable_prime,
+    roots_modulo,
+)
 from kovacic.verify.zeros import ZeroCounts, zero_counts
 
 #: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.
@@ -73,8 +79,6 @@ class Inspector:
             return self._no_invariant(item)
         return self._no_rational_omega(item)
 
-    # ------------------------------------------------------------------------------------------- invariants
-
     def _no_invariant(self, item: NoInvariant) -> bool:
         """True if there is no rational form of degree m: no room for one, or dimension 0 modulo the prime that is named."""
         m = item.invariant_degree
@@ -108,8 +112,6 @@ class Inspector:
         self.budget.check()
         factors = [*zip(self.factors, valuations, strict=True)]
         return dimension_modulo(h, self.S, at, m, factors=factors, degree=degree)
-
-    # ------------------------------------------------------------------------------------------- omega
 
     def _no_rational_omega(self, item: NoRationalOmega) -> bool:
         """True if there is no unique rational omega.

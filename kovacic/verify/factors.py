@@ -1,4 +1,5 @@
-"""The irreducible factors of a polynomial: found by its field, multiplied out, and proven to be irreducible.
+"""The irreducible factors of a polynomial, quotients and inverses: found by the field and multiplied out; the irreducibility of
+factors is proven.
 
 Over Q and over Q(t) the factors are FLINT's, whose irreducibility is taken from there.  Let p be a polynomial over K(c), n the
 degree of c over K, and N an irreducible polynomial over K of the degree n deg p, a multiple of p(x - s c) for some integer s.
@@ -61,3 +62,19 @@ def is_irreducible(p: Poly) -> bool:
             is_multiple = N.degree == roots and not field.embed(N) % shifted
             return is_multiple and factors_of(N) == [(N, 1)]
     return False
+
+
+def quotient(a: Poly, b: Poly) -> Poly:
+    """a/b for constants, b not 0."""
+    found = a / b
+    if found * b != a:
+        raise VerificationFailed(f"({a})/({b}) was found as {found}")
+    return found
+
+
+def inverse(value: Poly, modulus: Poly) -> Poly:
+    """1/value modulo a polynomial, to which it is prime."""
+    found = value.inverse_modulo(modulus)
+    if (found * value - 1) % modulus:
+        raise VerificationFailed(f"the inverse of {value} modulo {modulus} was found as {found}")
+    return found

@@ -13,8 +13,7 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.verify.local import Point
-from kovacic.verify.primes import translated
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.primes import BadPrimeError, Homomorphism, translated
 from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
 
 #: Equations beyond the number of unknowns.

@@ -16,8 +16,8 @@ from math import lcm
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvariant, Structure
 from kovacic.verify.dihedral import has_holomorphic_rest, is_least_power
-from kovacic.verify.division import inverse
 from kovacic.verify.evidence import Inspector
+from kovacic.verify.factors import inverse
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
 from kovacic.verify.torsion import order_holds
@@ -59,9 +59,6 @@ def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> 
     if decision.structure is Structure.IMPRIMITIVE:
         return _imprimitive_holds(inspector, f, riccati, claim)
     return decision.structure is not None and (claim.family, claim.n) == (decision.structure.value, None)
-
-
-# ------------------------------------------------------------------------------------------- reducible groups
 
 
 def _reducible_named(
@@ -110,9 +107,6 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
             if residue(den * inverse(rest, modulus) % modulus, point.factor, order):
                 return False
     return True
-
-
-# ------------------------------------------------------------------------------------------- imprimitive groups
 
 
 @dataclass(frozen=True)

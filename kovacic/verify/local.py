@@ -18,10 +18,8 @@ from flint import nmod_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget, check_time
-from kovacic.verify.division import quotient
-from kovacic.verify.factors import factors_of, product
-from kovacic.verify.primes import homomorphisms, roots_modulo, translated
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.factors import factors_of, product, quotient
+from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms, roots_modulo, translated
 from kovacic.verify.series import solution_at_singular_point
 
 #: Up to this number of points each is expanded alone: the products for all of them cost more.

@@ -15,8 +15,7 @@ from typing import Any
 from flint import fmpz, nmod_poly
 
 from kovacic.verify.local import Point, solution_with_exponential_part
-from kovacic.verify.primes import translated
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.primes import BadPrimeError, Homomorphism, translated
 from kovacic.verify.series import rational_candidate, square_root
 from kovacic.verify.zeros import ZeroCounts
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from kovacic.algebra.poly import Poly
-from kovacic.verify.division import inverse
+from kovacic.verify.factors import inverse
 
 
 def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:

@@ -12,7 +12,7 @@ from typing import Any
 from flint import nmod_mat, nmod_poly
 
 from kovacic.limits import check_time
-from kovacic.verify.reduction import BadPrimeError
+from kovacic.verify.primes import BadPrimeError
 
 #: Terms that are computed one by one, between two looks at the clock.
 _BLOCK_OF_TERMS = 32

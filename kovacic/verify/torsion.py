@@ -28,8 +28,7 @@ from typing import Any, NamedTuple
 from flint import fmpz
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.verify.primes import homomorphisms_modulo, is_usable_prime, translated
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms_modulo, is_usable_prime, translated
 
 
 def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int) -> bool:
@@ -48,9 +47,6 @@ def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int) -> bool:
         if curve.multiple(k, D).is_zero and not any(curve.multiple(m, D).is_zero for m in smaller):
             return True
     return False
-
-
-# ------------------------------------------------------------------------------------------- the differential
 
 
 class Differential(NamedTuple):
@@ -121,9 +117,6 @@ def _pole_modulo(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> t
 def _inverse_modulo(value: Any, modulus: Any) -> Any:
     """1/value modulo an irreducible polynomial that doesn't divide it."""
     return (value % modulus).xgcd(modulus)[1]
-
-
-# ------------------------------------------------------------------------------------------- classes of divisors
 
 
 class Points(NamedTuple):

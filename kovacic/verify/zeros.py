@@ -31,10 +31,9 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.errors import VerificationFailed
-from kovacic.verify.division import inverse
+from kovacic.verify.factors import inverse
 from kovacic.verify.local import Point
-from kovacic.verify.primes import homomorphisms, roots_modulo
-from kovacic.verify.reduction import BadPrimeError, Homomorphism
+from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms, roots_modulo
 from kovacic.verify.residue import residue_over_leading_root
 
 #: Values that are tested: one that isn't a square is one modulo all of the primes with a probability of 2^-40.
@@ -79,7 +78,7 @@ class ZeroCounts:
 
 
 def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
-    """The possible numbers of zeros; None if exponents at a point aren't in K[x]/p, so that no omega is rational over K."""
+    """The possible numbers of zeros; None if exponents at a point don't lie in K[x]/p, so that no omega is rational over K."""
     twice = 2
     choices = []
     for point in all_points:
@@ -125,8 +124,12 @@ def _half_difference(point: Point) -> Fraction | None:
         scale = inverse(point.at_double_pole[1], p)
     else:
         scale = 2 * residue_over_leading_root(*point.near, p, point.order // 2)
-    difference = _proven_square_root(radicand, p) * scale % p
-    trace = _trace(difference, p)
+    # The trace over K is that of the matrix by which the difference multiplies 1, x, x^2, ...
+    column = _proven_square_root(radicand, p) * scale % p
+    trace = p.field.poly([])
+    for k in range(p.degree):
+        trace = trace + column[k]
+        column = p.field.poly([0, 1]) * column % p
     # The first coordinate over Q is a linear map that leaves rational numbers alone.  Exponents and zeros add up to 1 in K;
     # applied to all of them, it makes this a relation of rational numbers, with the same number of zeros.
     return to_fraction(trace.rational_coefficients()[0]) / 2 if trace else Fraction(0)
@@ -186,17 +189,6 @@ def _proven_square_root(element: Poly, p: Poly) -> Poly:
     if root is None or (root * root - element) % p:
         raise VerificationFailed(f"{element} is a square modulo many primes, and no square root modulo {p} was found")
     return root
-
-
-def _trace(element: Poly, p: Poly) -> Poly:
-    """The trace over K of an element of K[x]/p: that of the matrix by which it multiplies 1, x, x^2, ..."""
-    x = p.field.poly([0, 1])
-    trace = p.field.poly([])
-    column = element % p
-    for k in range(p.degree):
-        trace = trace + column[k]
-        column = x * column % p
-    return trace
 
 
 def largest_natural_sum(total: Fraction, choices: list[Fraction]) -> int:

@@ -23,14 +23,14 @@ from kovacic.views.sentences import (
     equation_of,
     formulas_of,
     normal_form,
+    omega_math,
     reason,
     solutions_of,
     verdict_of,
 )
 from kovacic.views.steps import DEGREE, Steps
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Sentence, Table, anchor, page, say
-from kovacic.writing.formula import LARGEST_DEGREE, Math, latex_text, rational_functions, shortened
-from kovacic.writing.omega import constants_math, omega_math
+from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, latex_text, rational_functions, shortened
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -56,13 +56,7 @@ _PICTURE_WORK = 400_000
 
 
 def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> str:
-    """The derivation as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
-
-    HTML is one page that needs nothing from elsewhere, in ASCII, with MathML, and with the picture of a real solution where
-    there is one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves closed forms out.  Formulas
-    that fill more than some screens aren't printed, and parts that would take longer than the limits allow are left out; both
-    are said; on a page, formulas that there is no time to typeset stand as text.  Raises `ValueError` for another format.
-    """
+    """The derivation, as `Solution.explain` describes it."""
     if format not in FORMATS:
         raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
     blocks = document(answer, solutions=solutions)
@@ -103,7 +97,7 @@ def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
 
 
 def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
-    """The blocks of a part; where a limit ends it, that is said."""
+    """The blocks of a part, with a sentence about any limit that ends it early."""
     try:
         yield from part()
     except LimitExceeded as limit:
@@ -111,10 +105,7 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
 
 
 def _picture(answer: Answer) -> str:
-    """Solutions between and beside the singular points on the axis; nothing where their values can't be had.
-
-    Without NumPy or matplotlib there is no picture either: the page is whole without it.
-    """
+    """Solutions between and beside the singular points on the axis; empty without values, NumPy or matplotlib."""
     from kovacic.enclosure.problem import as_problem
 
     try:
@@ -145,7 +136,9 @@ class ExplanationWriter:
     def equation(self) -> Iterator[Block]:
         answer = self.answer
         equation = self.answer.equation
-        yield Heading(self._title(), 1)
+        about = equation_of(answer).text if answer.change is None else answer.text
+        title = "Kovacic's algorithm"
+        yield Heading(f"{title} for {about}" if len(about) <= _LONGEST_TITLE else title, 1)
         if answer.change is not None:
             yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
         yield Formula(equation_of(answer))
@@ -161,7 +154,7 @@ class ExplanationWriter:
             yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
 
     def normal_form(self, y: str) -> Iterator[Block]:
-        """The substitution that leads to it."""
+        """The substitution that leads to it, and the normal form."""
         answer = self.answer
         v = "v" if y != "v" else "u"
         x = answer.variable
@@ -170,11 +163,6 @@ class ExplanationWriter:
         yield say("With ", substitution, ", ", gamma, f", it becomes its normal form for {v}:")
         yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
         yield Formula(normal_form(answer, v))
-
-    def _title(self) -> str:
-        """What the page is about."""
-        equation = equation_of(self.answer).text if self.answer.change is None else self.answer.text
-        return f"Kovacic's algorithm for {equation}" if len(equation) <= _LONGEST_TITLE else "Kovacic's algorithm"
 
     def verdict(self, *, solutions: bool) -> Iterator[Block]:
         """The answer in short."""
@@ -233,7 +221,6 @@ class ExplanationWriter:
         riccati = self.answer.riccati
         assert riccati is not None
         omega = omega_math(riccati, self.formulas)
-        constants = constants_math(riccati, self.formulas)
         yield Heading("omega = y'/y")
         if riccati.degree == 1:
             yield Formula(Math("omega = theta + P'/P", r"\omega = \theta + \frac{P'}{P}").equals(omega))
@@ -242,8 +229,9 @@ class ExplanationWriter:
                 f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {riccati.degree}"
             )
             yield Formula(omega)
-        if constants is not None:
-            yield say(f"where {self.formulas.symbol} is a root of ", constants, ".")
+        if self.answer.constants is not None:
+            text = self.answer.constants.to_str(self.formulas.symbol)
+            yield say(f"where {self.formulas.symbol} is a root of ", Math(caret(text), latex_text(text)), ".")
 
     def closed_form(self) -> Iterator[Block]:
         semi = self.answer.semi_invariant
@@ -254,11 +242,13 @@ class ExplanationWriter:
         if found:
             title = "Solutions" if self.answer.case else "Solutions in special functions"
             yield Heading(title)
-        yield from (Formula(name.equals(_printable(y))) for name, y in found)
+        for name, y in found:
+            text = shortened(y.text)
+            yield Formula(name.equals(y if text == y.text else Math(text, r"\text{(too long to print)}")))
         yield from (say(f"Note: {note}.") for note in notes)
 
     def _is_too_long(self) -> bool:
-        """Has P so high a degree that solutions aren't written out?"""
+        """True if the degree of P is so high that solutions aren't written out."""
         semi = self.answer.semi_invariant
         return semi is not None and semi.P.degree > LARGEST_DEGREE
 
@@ -268,7 +258,12 @@ class ExplanationWriter:
             return
         yield Heading("The Galois group")
         name = Math(group.name, group.latex)
-        about = f", {group.description}{_order(group.order, at_least=group.order_at_least)}: {group.ground.value}."
+        order = ""  # infinite, or not even bounded from below
+        if group.order is not None:
+            order = f", of order {digits(group.order)}"
+        elif group.order_at_least is not None:
+            order = f", of order at least {group.order_at_least} if it is finite"
+        about = f", {group.description}{order}: {group.ground.value}."
         yield say("The differential Galois group of the normal form is ", name, about)
         given = derived.equation_group(self.answer) if self.answer.gauge else None
         if given is not None:
@@ -288,23 +283,6 @@ class ExplanationWriter:
     def bibliography(self) -> Iterator[Block]:
         yield Heading("References")
         yield from (say(reference.text()) for reference in references(self.answer))
-
-
-def _order(order: int | None, *, at_least: int | None) -> str:
-    """`, of order 8`, or a bound where only that is known; nothing for an infinite group."""
-    if order is not None:
-        return f", of order {digits(order)}"
-    if at_least is not None:
-        return f", of order at least {at_least} if it is finite"
-    return ""
-
-
-def _printable(formula: Math) -> Math:
-    """The formula; the beginning of its text, where it fills more than some screens."""
-    text = shortened(formula.text)
-    if text == formula.text:
-        return formula
-    return Math(text, r"\text{(too long to print)}")
 
 
 def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:

@@ -6,11 +6,13 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from kovacic import derived
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import RationalPoly
 from kovacic.answer import Answer
-from kovacic.decision import Evidence, NecessaryCondition, NoInvariant
+from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, RiccatiPolynomial
 from kovacic.equation import Parsed
-from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
-from kovacic.writing.omega import omega_math
+from kovacic.numbers.numerals import as_text
+from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy
 
 #: Verdicts.
 SOLVABLE = "Liouvillian solutions exist"
@@ -21,11 +23,6 @@ UNDECIDED = "undecided"
 def formulas_of(answer: Answer | Parsed) -> Formulas:
     """The writer of functions of this answer, in its variable and with its constants."""
     return Formulas(answer.variable, answer.S.field)
-
-
-def unknown_of(answer: Answer) -> str:
-    """The name of the unknown function."""
-    return "y" if answer.equation is None else answer.equation.unknown
 
 
 def equation_of(answer: Answer) -> Math:
@@ -41,10 +38,63 @@ def normal_form(answer: Answer | Parsed, y: str = "y") -> Math:
     return Math(f"{y}''", f"{y}''").equals(formulas_of(answer).times(answer.S, y, y))
 
 
-def omega_of(answer: Answer) -> Math:
-    """omega where it is rational, else the equation of which it is a root."""
-    assert answer.riccati is not None
-    return omega_math(answer.riccati, formulas_of(answer))
+def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
+    """omega if it is rational, else the equation of which it is a root, one term a line."""
+    if riccati.degree == 1:
+        return formulas.math(-riccati.coefficients[0])
+    w = formulas.unknown
+    m = riccati.degree
+    texts = [f"{w}^{m}"]
+    latex = [f"{w}^{{{m}}}"]
+    for k in range(m - 1, -1, -1):
+        coefficient = riccati.coefficients[k]
+        if not coefficient:
+            continue
+        sign = "-" if formulas.math(coefficient).text.removeprefix("(").startswith("-") else "+"
+        positive = coefficient if sign == "+" else -coefficient
+        if k == 0:
+            value = formulas.factor(positive)
+        elif k == 1:
+            value = formulas.times(positive, w, w)
+        else:
+            value = formulas.times(positive, f"{w}^{k}", f"{w}^{{{k}}}")
+        texts.append(f"{sign} {value.text}")
+        latex.append(f"{sign} {value.latex}")
+    lines = r" \\ \displaystyle ".join(latex)
+    return Math("\n".join(texts) + " = 0", rf"\begin{{array}}{{l}} \displaystyle {lines} = 0 \end{{array}}")
+
+
+def omega_lines(answer: Answer) -> list[str]:
+    """omega, or its polynomial, and its constants, as text."""
+    riccati = answer.riccati
+    assert riccati is not None
+    formulas = formulas_of(answer)
+    omega = omega_math(riccati, formulas)
+    constants = answer.constants
+    roots = None if constants is None else _simple_roots(constants)
+    if roots is not None and riccati.degree == 1 and omega.text == formulas.symbol:
+        return [f"omega = {roots}"]
+    if riccati.degree == 1:
+        lines = [f"omega = {omega.text}"]
+    else:
+        lines = [f"omega is a root {formulas.unknown} of", *(f"    {line}" for line in omega.text.splitlines())]
+    if constants is not None:
+        what = roots or f"any root of {caret(constants.to_str(formulas.symbol))}"
+        lines.append(f"where {formulas.symbol} is {what}")
+    return lines
+
+
+def _simple_roots(modulus: Poly) -> str | None:
+    """The roots of c^2 - r for a rational number r, as "i or -i" and "sqrt(2) or -sqrt(2)"; None for other polynomials."""
+    if not isinstance(modulus, RationalPoly):
+        return None
+    constant, *middle = modulus.coefficients()[:-1]
+    if middle != [0]:
+        return None
+    unit = "i" if constant > 0 else ""
+    root = "" if abs(constant) == 1 else f"sqrt({as_text(abs(constant))})"
+    written = "*".join(part for part in (unit, root) if part)
+    return f"{written} or -{written}"
 
 
 def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
@@ -81,7 +131,7 @@ def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ..
 
 
 def _named_solutions(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:
-    y = unknown_of(answer)
+    y = "y" if answer.equation is None else answer.equation.unknown
     names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
     return list(zip(names, map(of_sympy, values), strict=False))
 

@@ -81,20 +81,14 @@ class Steps:
             Math("Delta = sqrt(1 + 4b)", r"\Delta = \sqrt{1 + 4 b}"),
             ". Conjugate poles stay together.",
         )
-        head = ("place", "points", "order", "local type", "Delta")
-        yield Table(head, [self._row(place) for place in self.places])
-
-    def _row(self, place: Place) -> list[Sentence]:
-        """One place in the table of local data."""
-        points = str(place.degree)
-        order = str(place.order)
-        if place.at_infinity:
-            points = "1"
-            order = str(-self.answer.S.degree) if self.answer.S else "-"
-        kind = _LOCAL_TYPES[place.kind]
-        if place.logarithm:
-            kind += ", logarithm"
-        return [self.formulas.place(str(place)), points, order, kind, self._delta(place)]
+        rows: list[list[Sentence]] = []
+        for place in self.places:
+            order = str(place.order)
+            if place.at_infinity:  # that of S itself; the place's is 4 more
+                order = str(-self.answer.S.degree) if self.answer.S else "-"
+            kind = _LOCAL_TYPES[place.kind] + (", logarithm" if place.logarithm else "")
+            rows.append([self.formulas.place(str(place)), str(place.degree), order, kind, self._delta(place)])
+        yield Table(("place", "points", "order", "local type", "Delta"), rows)
 
     def _delta(self, place: Place) -> str | Math:
         """The exponent difference at a regular point: a rational number, or a square root of a constant."""
@@ -111,21 +105,13 @@ class Steps:
         yield Heading("Kovacic's necessary conditions (section 2.1)")
         rows: list[list[Sentence]] = []
         for case, condition in _CONDITIONS.items():
-            rows.append([str(case), condition, self._verdict(case)])
+            verdict: list[str | Math] = ["holds" if _allowed(case, self.places) else "fails"]
+            # The condition of case 2 has to hold at some pole only; the others fail at certain places.
+            culprits = [place for place in self.places if case != 2 and not _allowed(case, [place])]
+            for k, place in enumerate(culprits):
+                verdict += [", " if k else " at ", self.formulas.place(str(place))]
+            rows.append([str(case), condition, verdict])
         yield Table(("case", "condition", "verdict"), rows)
-
-    def _verdict(self, case: int) -> list[str | Math]:
-        """Whether a necessary condition holds; those that every place has to meet, with the places where they fail."""
-        said = "holds" if _allowed(case, self.places) else "fails"
-        if case == 2:
-            return [said]
-        verdict: list[str | Math] = [said]
-        before = " at "
-        for place in self.places:
-            if not _allowed(case, [place]):
-                verdict += [before, self.formulas.place(str(place))]
-                before = ", "
-        return verdict
 
     def search(self) -> Iterator[Block]:
         """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
@@ -193,8 +179,15 @@ class Steps:
             yield say("Of conjugate poles, only families with equal exponents are listed.")
         rows: list[list[Sentence]] = []
         for family in families[:_MOST_SHOWN]:
+            outcome: str | Math = ""
+            if family.P is not None:
+                outcome = self._shown(family.P)
+            elif family.theta is not None:
+                outcome = "none"
+            elif is_natural(family.d):
+                outcome = "not tried"
             values = [self._shown(choice.value) for choice in family.choices]
-            rows.append([*values, self._shown(family.d), self._outcome(family)])
+            rows.append([*values, self._shown(family.d), outcome])
         if rows:
             head = [*map(self._point, search.points), Math("d", "d"), Math("P", "P")]
             yield Table(head, rows)
@@ -224,16 +217,6 @@ class Steps:
         if point.at is None:
             return self.formulas.place(str(point.place))
         return Math(self.answer.variable, latex_text(self.answer.variable)).equals(self._shown(point.at))
-
-    def _outcome(self, family: Family) -> str | Math:
-        """P, or why there is none."""
-        if family.P is not None:
-            return self._shown(family.P)
-        if family.theta is not None:
-            return "none"
-        if is_natural(family.d):
-            return "not tried"
-        return ""
 
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)

@@ -19,14 +19,14 @@ from kovacic.views.sentences import (
     formulas_of,
     normal_form,
     of_degree,
-    omega_of,
+    omega_lines,
+    omega_math,
     reason,
     solutions_of,
     verdict_of,
 )
 from kovacic.writing.escaped import in_one_line
 from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
-from kovacic.writing.omega import omega_lines
 
 if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
@@ -48,10 +48,12 @@ def one_line(answer: Answer) -> str:
         return f"{equation}: {said}" if answer.assumed else f"{equation}: undecided, {said}"
     if answer.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
-    if answer.omega is not None:
-        return f"{equation}: case {answer.case}, omega = {omega_of(answer).text}"
-    degree = "" if answer.riccati is None else f", omega {of_degree(answer.riccati.degree)}"
-    return f"{equation}: case {answer.case}{degree}"
+    riccati = answer.riccati
+    if riccati is None:
+        return f"{equation}: case {answer.case}"
+    if riccati.degree > 1:
+        return f"{equation}: case {answer.case}, omega {of_degree(riccati.degree)}"
+    return f"{equation}: case {answer.case}, omega = {omega_math(riccati, formulas_of(answer)).text}"
 
 
 def render(
@@ -73,7 +75,7 @@ def render(
     if solutions is not None:
         yield from _indented(solutions)
     if answer.riccati is not None:
-        yield from _indented(omega_lines(answer.riccati, formulas_of(answer)))
+        yield from _indented(omega_lines(answer))
     if answer.omega is not None and solutions is None:
         of_what = ", a solution of the normal form" if is_gauged else ""
         yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
@@ -108,7 +110,7 @@ def _how_verified(answer: Answer) -> str:
 
 
 def _given_text(answer: Answer) -> str:
-    """The equation in the user's variable; if it isn't rational in that, a notice gives the rational one."""
+    """The equation in the user's variable; if it isn't rational there, a notice has the rational one."""
     if answer.change is None:
         return equation_of(answer).text
     text = in_one_line(answer.text)
@@ -116,10 +118,10 @@ def _given_text(answer: Answer) -> str:
 
 
 def solution_lines(answer: Answer) -> Iterator[str]:
-    """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
+    """y1 and y2 of the homogeneous equation as given, with notes, or the limit that was reached.
 
-    Where there is no Liouvillian solution, the two in special functions, or which were looked for; for an undecided equation
-    these two if they are found.
+    Without a Liouvillian solution: two in special functions, or the classes that were searched in vain; for an undecided
+    equation, two in special functions if they are found.
     """
     if answer.status is Status.UNDECIDED and not derived.special(answer):
         return
@@ -148,7 +150,10 @@ def _exclusions(answer: Answer) -> list[str]:
     formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in answer.proof:
-        reasons = "; ".join(_as_text(reason(evidence, formulas)) for evidence in exclusion.evidence)
+        reasons = "; ".join(
+            "".join(part.text if isinstance(part, Math) else part for part in reason(evidence, formulas))
+            for evidence in exclusion.evidence
+        )
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     lines = []
     for (case, reasons), structures in grouped.items():
@@ -159,13 +164,8 @@ def _exclusions(answer: Answer) -> list[str]:
     return lines
 
 
-def _as_text(sentence: Iterable[str | Math]) -> str:
-    """The sentence with its formulas as text."""
-    return "".join(part.text if isinstance(part, Math) else part for part in sentence)
-
-
 def latex_view(answer: Answer) -> str:
-    """The equation and, where there are some, two solutions, between dollar signs."""
+    """The equation and any two solutions, between dollar signs."""
     found, _ = _solutions_in_time(answer)
     lines = [equation_of(answer).latex, *(name.equals(value).latex for name, value in found)]
     if answer.status in _NEITHER:

@@ -33,10 +33,8 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, Structure, VerificationFailed
-from kovacic.verify.division import inverse, quotient
-from kovacic.verify.factors import is_a_field, is_irreducible
-from kovacic.verify.identity import form_numerators
-from kovacic.verify.normal_form import is_normal_form
+from kovacic.verify.factors import inverse, is_a_field, is_irreducible, quotient
+from kovacic.verify.identity import form_numerators, is_normal_form
 from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.series import (
     rational_candidate,

@@ -15,7 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic import InputError, shown
+from kovacic import InputError
+from kovacic.errors import visible
+from kovacic.writing import escaped
 
 #: Each is obeyed by something.
 HOSTILE = [
@@ -76,11 +78,11 @@ _OBEYED_BY_MARKDOWN = re.compile(r"(?<!\\)(?:\\\\)*[<\[\]`*_$|#]|\n")
 @settings(max_examples=200)
 @given(_texts)
 def test_escaped_text_does_nothing(text: str) -> None:
-    assert not obeyed_by_a_terminal(shown.visible(text))
-    assert not obeyed_by_latex(shown.latex(text))
-    assert _OBEYED_BY_MARKDOWN.search(shown.markdown(text)) is None
-    assert Tags(shown.html(text)).found == set()
-    line = shown.json_line({"note": text})
+    assert not obeyed_by_a_terminal(visible(text))
+    assert not obeyed_by_latex(escaped.latex(text))
+    assert _OBEYED_BY_MARKDOWN.search(escaped.markdown(text)) is None
+    assert Tags(escaped.html(text)).found == set()
+    line = escaped.json_line({"note": text})
     assert line.isprintable()
     assert json.loads(line) == {"note": text}
 
