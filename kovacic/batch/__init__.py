@@ -37,8 +37,8 @@ def solve_many(
     Parameters
     ----------
     equations : iterable
-        Each is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id", "var" and "names".  It
-        may be a generator without an end.
+        Each is anything that `kovacic.solve` takes, or a mapping with the key "S" and optionally "id", "var" and "names".  It
+        may be an endless generator.
     var : str
         The name of the variable where an equation doesn't say.
     parameters : sequence of str
@@ -48,17 +48,17 @@ def solve_many(
     timeout : float
         Seconds for each equation; a process that exceeds them is killed and replaced, and its equation is undecided.
     memory : int
-        MiB for each equation, above what an idle worker has; as `timeout`.
+        MiB for each equation, above the size of an idle worker; enforced like `timeout`.
     group : bool
-        With True each record has the Galois group as well.  False by default.
+        True adds the Galois group to each record.  False by default.
     ordered : bool
         The records come in the order of the equations (the default), or with False as they finish.
     backend : str
-        "dask" or "ray" runs the same on a cluster; None, the default, on this machine.
+        "dask" or "ray" for a cluster; None, the default, for this machine.
     scheduler : str
         The address of Dask's scheduler.
     limits : Limits
-        Those of `kovacic.solve`, for each equation.
+        Bounds on the input and on the work, for each equation; by default those of `Limits()`.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def solve_many(
     Raises
     ------
     InputError
-        For options that don't fit together, and for one text instead of several.
+        For options that don't fit together, and for a single text.
 
     Examples
     --------

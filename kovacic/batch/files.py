@@ -38,7 +38,7 @@ _BYTES_PER_CHARACTER = 6
 
 
 def guess_format(name: str) -> str | None:
-    """Guess the format from a file name; None if the name says nothing ("-", "data.txt").
+    """The format that a file name implies; None if it implies none ("-", "data.txt").
 
     >>> guess_format("cases.jsonl.gz"), guess_format("table.CSV"), guess_format("-")
     ('jsonl', 'csv', None)
@@ -52,12 +52,10 @@ def read_items(
 ) -> Iterator[Item]:
     """The items of "lines", "jsonl" or "csv"; by default JSONL if the first item begins with `{` or `"`, else lines.
 
-    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), perhaps "id", "var" and
-    "names", a list of declared parameters, and no other.
-    A CSV file has such columns (the names with spaces between them) and any others, which are
-    carried along, or no header and the expressions in its first column.
-    `var` names the variable of all items that don't name one.  What begins like a gzip file is decompressed.  Raises
-    `InputError` where that fails, after the items up to there.
+    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), optionally "id", "var" and "names",
+    a list of declared parameters, and no other.  A CSV file has such columns (the names separated by spaces) and any others,
+    which are carried along, or no header and the expressions in its first column.  `var` is the variable of all items that
+    don't name one.  Gzip files are recognised and decompressed.  Raises `InputError` at damaged ones, after the items before.
     """
     longest = limits.text_length * _BYTES_PER_CHARACTER
     lines = _text_lines(stream, longest, var)
@@ -154,7 +152,7 @@ def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
 
 
 def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None:
-    """The error in the keys of an object or the header of a table, in which there may be `others`; None if there is none.
+    """The error in the keys of an object or in the header of a table, which may have `others`; None if they are right.
 
     Nothing is dropped silently: a repeated name, a second expression and an unknown key are refused.
     """

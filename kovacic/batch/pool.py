@@ -31,7 +31,7 @@ from kovacic.batch.records import Item, Job, ProcessLost, Record, refused, stopp
 from kovacic.errors import KovacicError
 from kovacic.process import Channel, Process
 
-# Seconds beyond the timeout in which a process may end by itself, with an answer that says what it has excluded.
+# Seconds beyond the timeout in which a process may end by itself, with an answer that has the exclusions so far.
 GRACE_SECONDS = 0.25
 _START_SECONDS = 120.0
 
@@ -103,7 +103,7 @@ class ItemSource:
         return None
 
     def lot(self, most: int) -> Lot:
-        """Up to `most` items, and at least one if one can be had."""
+        """Up to `most` items, and at least one if any is available."""
         lot = Lot([], [])
         size = 0
         while len(lot.items) + len(lot.refusals) < most:
@@ -192,7 +192,7 @@ class Pool(AbstractContextManager["Pool"]):
     def run(self, items: Iterable[Item], *, ordered: bool = True, stream: bool = False) -> Iterator[Record]:
         """One record for each item, in the order of the items or as they finish.
 
-        The numbers of the items must differ.  `stream` says that the items may be long in coming.
+        The numbers of the items must differ.  `stream` says that the items may be slow to arrive.
         """
         feed = _read_ahead(items, self._events) if stream else iter(items)
         if not ordered:

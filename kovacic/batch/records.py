@@ -123,12 +123,11 @@ class Record:
 class Job:
     """The conditions for every equation of a batch, and where it runs.
 
-    `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
-    are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,
-    the record has the differential Galois group: its name, its order (null if infinite) and whether it is finite.
-    `parameters` are names that are declared for all equations.
-    `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that the items may be long in coming.
-    Raises `InputError` for impossible conditions.
+    `timeout`, in seconds, and `memory`, in MiB above the size of an idle worker, are hard: the process is killed.  `limits`
+    are those of `kovacic.solve`, with `timeout` as their time, so that most equations end by themselves.  With `group`, the
+    record has the differential Galois group: name, order (null if infinite) and finiteness.  `parameters` are declared for
+    all equations.  `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that items may be
+    slow to arrive.  Raises `InputError` for impossible conditions.
     """
 
     timeout: float | None = None

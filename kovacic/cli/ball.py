@@ -13,7 +13,7 @@ from kovacic.writing.escaped import json_line
 if TYPE_CHECKING:
     from kovacic.ball.body import Rolling
 
-#: Points in time at which a motion is looked at, more of them for each oscillation, and the most.
+#: Points in time at which a motion is sampled: at least, for each oscillation, and at most.
 _LEAST_TIMES = 1200
 _PER_OSCILLATION = 60
 _MOST_TIMES = 60_000
@@ -26,7 +26,7 @@ _FORCE = ("gravity", "potential")
 
 
 class AnswerRow(NamedTuple):
-    """A key of the JSON with its value; where it is shown, its label, and the text if it isn't the value itself."""
+    """A key of the JSON with its value; its label if it is shown, and its text if that isn't the value itself."""
 
     key: str
     value: Any
@@ -34,7 +34,7 @@ class AnswerRow(NamedTuple):
     text: str | None = None
 
     def lines(self) -> Iterator[str]:
-        """What is shown; nothing without a label, or for an unknown value."""
+        """The lines for a terminal; none without a label, or for an unknown value."""
         if self.label is None or self.value is None:
             return
         title = f"{self.label}:" if self.label else ""
@@ -120,7 +120,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
 
 
 def _ball_of(given: Mapping[str, Any]) -> Rolling:
-    """The ball that is meant; raises `click.UsageError` for options that don't belong together."""
+    """The ball of these options; raises `click.UsageError` for options that don't belong together."""
     from kovacic.ball import RollingBall
     from kovacic.ball.body import InRoots, exact
     from kovacic.ball.theorems import read_ratio
@@ -146,7 +146,7 @@ def _ball_of(given: Mapping[str, Any]) -> Rolling:
 
 
 def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
-    """What the theorems and the engine say, and the closed form, which is checked."""
+    """The verdicts of the theorems and of the engine, and the closed form with its check."""
     import kovacic
     from kovacic.ball import BallOnSphere, closed_form
     from kovacic.ball.paper import equations_of
@@ -164,7 +164,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
     generic = " for generic values" if is_generic else ""
 
     def short(value: Any) -> str:
-        """A formula with the names of the polynomials that were shown in their places."""
+        """A formula with E and D in place of the polynomials that were shown under these names."""
         text = str(value)
         for name, polynomial in (("E", form.E), ("D", place.D)):
             text = text.replace(f"({polynomial})**", f"{name}**").replace(f"({polynomial})", f"({name})")
@@ -210,7 +210,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
 
 
 def _simulate(sphere: Any, given: Mapping[str, Any]) -> list[AnswerRow]:
-    """The motion from the start up to the end, under the force that is given; and its picture."""
+    """The motion from the start to the end under the given force, and its picture."""
     from kovacic.errors import InputError, needs
 
     with needs("numeric", "a motion"):

@@ -1,4 +1,4 @@
-"""`kovacic solve`, `dsolve`, `explain`, `check`, `schema`: a few equations, their answers, and what these rest on."""
+"""`kovacic solve`, `dsolve`, `explain`, `check`, `schema`: a few equations, their answers, and the proofs of these."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def solve(
 
 
 def _assignments(answer: Solution, language: str) -> Iterator[str]:
-    """The equation and the verdict as a comment, and two solutions if they are known, in Mathematica, Maple or Julia."""
+    """The equation and the verdict as a comment, and any two solutions, in Mathematica, Maple or Julia."""
     from kovacic.writing.code import LANGUAGES, as_code
 
     yield LANGUAGES[language].comment.format(answer)
@@ -192,7 +192,7 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
 
 
 def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
-    """What `dsolve` finds, and where it is real."""
+    """The solution that `dsolve` finds, and its domain of validity."""
     from kovacic.general_solution import dsolve, validity
     from kovacic.numbers.numerals import as_latex, as_text
     from kovacic.writing.formula import caret
@@ -282,7 +282,7 @@ def explain(
         raise click.UsageError("--output takes the explanation of one equation")
 
     def written(text: str) -> str:
-        """What is printed."""
+        """The text as printed, or a message after it was written to the output file."""
         text = text.rstrip("\n")
         if output is not None:
             output.write_text(f"{text}\n", encoding="utf-8")

@@ -27,7 +27,7 @@ NOT_WRITTEN = 5
 INTERRUPTED = 130
 PIPE_CLOSED = 141
 
-#: Name: the module kovacic.cli.<module> that has the click command of this name, and what it does.
+#: By name: the module of kovacic.cli that has the click command of this name, and its line of help.
 COMMANDS = {
     "solve": ("equations", "Decide equations y'' = S(x) y: two solutions, or a proof that there is none."),
     "dsolve": ("equations", "The general solution of an equation, or that with given initial values."),
@@ -35,7 +35,7 @@ COMMANDS = {
     "explain": ("equations", "The derivation, step by step, as a reader of Kovacic's paper follows it."),
     "conditions": ("values", "For which values of the parameters do Liouvillian solutions exist?"),
     "spectrum": ("values", "Which energies? The bound states of a potential, with wave functions and norms."),
-    "eigenvalues": ("eigenvalues", "Eigenvalues of boundary problems, as proven numbers."),
+    "eigenvalues": ("values", "Eigenvalues of boundary problems, as proven numbers."),
     "batch": ("many", "Decide many equations from a file, in parallel, with a result for every line."),
     "scan": ("many", "Tabulate the case over a grid of parameter values."),
     "check": ("equations", "Prove answers in JSON anew, by a program that shares no code with this one."),
@@ -46,7 +46,7 @@ COMMANDS = {
 
 
 class LazyGroup(click.Group):
-    """A group that knows its commands by name and imports them when they are called: `kovacic solve` must not pay for plots."""
+    """A group that imports a command only when it is called: `kovacic solve` must not pay for plots."""
 
     def list_commands(self, context: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -105,29 +105,23 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _open_closed_streams() -> None:
-    """Stand in for the standard streams that the caller has closed (`<&-`, `>&-`, `2>&-`), which Python gives as None.
+    """Replace the standard streams that the caller has closed (`<&-`, `>&-`, `2>&-`), which are None in Python.
 
-    Closed input fails when it is read and closed output when it is written to, as they would in C: hence the descriptors that
-    are open in the other direction only.  Closed standard error swallows what it gets; left as it is, `print` would put
-    messages among the data, and an output file could get its number.
+    Closed input fails when it is read and closed output when it is written to, as in C: hence the descriptors that are open
+    in the other direction only.  Closed standard error swallows everything; if it stayed closed, `print` would put messages
+    among the data, and an output file could get its number.
     """
-    if sys.stdin is None:
-        _occupy(0, os.O_WRONLY)
-        sys.stdin = open(0, encoding="utf-8")  # noqa: SIM115 - it stays until the end, as do the others
-    if sys.stdout is None:
-        _occupy(1, os.O_RDONLY)
-        sys.stdout = open(1, "w", encoding="utf-8")  # noqa: SIM115
-    if sys.stderr is None:
-        _occupy(2, os.O_WRONLY)
-        sys.stderr = open(2, "w", encoding="utf-8")  # noqa: SIM115
-
-
-def _occupy(descriptor: int, mode: int) -> None:
-    """Open the null device as this file descriptor."""
-    null = os.open(os.devnull, mode)
-    if null != descriptor:
-        os.dup2(null, descriptor)
-        os.close(null)
+    for descriptor, name, mode, access in (
+        (0, "stdin", "r", os.O_WRONLY),
+        (1, "stdout", "w", os.O_RDONLY),
+        (2, "stderr", "w", os.O_WRONLY),
+    ):
+        if getattr(sys, name) is None:
+            null = os.open(os.devnull, access)
+            if null != descriptor:
+                os.dup2(null, descriptor)
+                os.close(null)
+            setattr(sys, name, open(descriptor, mode, encoding="utf-8"))  # noqa: SIM115 - open until the end
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -162,7 +156,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _given_up(status: int) -> int:
-    """The status after an output has failed; the streams are drained, or Python would complain again when it exits."""
+    """The status after an output has failed; undrained streams would make Python complain again when it exits."""
     null = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
         try:

@@ -1,4 +1,4 @@
-"""What several commands have in common: equations, limits and assumptions as arguments, answers, colours."""
+"""Shared by the commands: equations, limits and assumptions as arguments, answers, colours."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class OutputFile(click.Path):
-    """A file that can be made: its folder is there, and its suffix one of those that are possible (any, by default)."""
+    """A file that can be written: its folder exists, and its suffix is one of the given ones (any, by default)."""
 
     def __init__(self, suffixes: Sequence[str] = ()) -> None:
         super().__init__(dir_okay=False)
@@ -74,10 +74,10 @@ def formats(
     suffixes: Mapping[str, str] | None = None,
     default: str = "text",
 ) -> Callable[[Function], Function]:
-    """The options --json, --latex, --as and --format, those that have a help text here, for what a command prints.
+    """The options --json, --latex, --as and --format for the output of a command: those with a help text here.
 
-    The command gets a single keyword `form`: "json"; "formula" for --latex; the language of --as; what --format or the suffix
-    of --output says; or the default.  Two of them at once are refused.
+    The command gets a single keyword `form`: "json"; "formula" for --latex; the language of --as; the value of --format or of
+    the suffix of --output; or the default.  Two of them at once are refused.
     """
     # The first one is applied last, and stands first in the help.
     options = []
@@ -167,7 +167,7 @@ def _assumptions(context: click.Context, _: click.Parameter, given: Sequence[str
 
 
 class Command(click.Command):
-    """A command that refuses a value given twice: click would take the last one without a word."""
+    """A command that refuses a value given twice: click would silently take the last one."""
 
     def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
         _, _, order = self.make_parser(context).parse_args(list(args))
@@ -185,7 +185,7 @@ def is_given(name: str) -> bool:
 
 
 def refuse(names: Iterable[str], beside: str) -> None:
-    """Raise `click.UsageError` if one of these parameters was given: it would have no effect, for the reason `beside`."""
+    """Raise `click.UsageError` if one of these parameters was given: it would have no effect, and `beside` says why."""
     for parameter in click.get_current_context().command.params:
         if parameter.name in names and is_given(parameter.name or ""):
             raise click.UsageError(f"{max(parameter.opts, key=len)} has no effect {beside}")
@@ -194,7 +194,7 @@ def refuse(names: Iterable[str], beside: str) -> None:
 class EquationCommand(Command):
     """A command with expressions among its arguments: anything but the exact name of an option, even -x^2 and -j*x.
 
-    Beside the names, -j4 and -vv are options.  Two minus signs and a word are an option always, a misspelt one perhaps.
+    -j4 and -vv are options as well.  Two minus signs and a word are always an option, perhaps a misspelt one.
     """
 
     def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
@@ -395,7 +395,7 @@ def answer_each(
 
 
 def say_reading(equation: str, var: str | None, names: Sequence[str] = ()) -> None:
-    """Print how an equation was read to the error stream, where something was guessed, or a parameter isn't among the names."""
+    """Print how an equation was read to the error stream, if anything was guessed or a parameter isn't among the names."""
     from kovacic.equation import parameters_of
     from kovacic.reading.pieces import taken_apart
     from kovacic.reading.read import read_input

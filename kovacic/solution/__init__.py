@@ -49,7 +49,7 @@ class Solution(Answer):
     decision : Decision
         The claim with its certificates: the data behind `status`, `case`, `riccati`, `proof` and so on.
     notices : tuple of str
-        What was noticed when the input was read: decimals taken as exact fractions, names taken as parameters, ...
+        Notes on how the input was read: decimals taken as exact fractions, names taken as parameters, ...
     verified : bool
         True if the decision has passed its independent check, as each decided answer of `solve` has; False for an undecided
         one, and for an answer that `from_json` read with `unverified` and that fails the check.
@@ -60,10 +60,9 @@ class Solution(Answer):
     assumed : bool
         True if a theorem proves the answer for all values with the assumptions, `known`, except those that the notices name.
     limits : Limits
-        They hold for each view that is computed later: where one would take longer, it raises `LimitExceeded`, and the groups
-        are None.
+        Those of each view that is computed later: one that would take longer raises `LimitExceeded`, and the groups are None.
     known : Assumptions or None
-        What was assumed about the parameters.
+        The assumptions about the parameters.
 
     Examples
     --------
@@ -78,26 +77,8 @@ class Solution(Answer):
     """
 
     @classmethod
-    def of(cls, answer: Answer) -> Solution:
-        """The answer with its methods.
-
-        Parameters
-        ----------
-        answer : Answer
-            The data of an answer.
-
-        Returns
-        -------
-        Solution
-            With the same fields.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> answer = kovacic.solve("x^2 + 3")
-        >>> kovacic.Solution.of(answer) == answer
-        True
-        """
+    def _of(cls, answer: Answer) -> Solution:
+        """The answer with its methods."""
         return cls(**{field.name: getattr(answer, field.name) for field in fields(answer)})
 
     @property
@@ -138,7 +119,7 @@ class Solution(Answer):
 
     @property
     def numeric(self) -> NumericProblem:
-        """The initial value problem behind `at` and its relatives, read once."""
+        """The initial value problem behind `at`, `prepared` and `plot`, read once."""
         from kovacic.enclosure.problem import problem_of
 
         return problem_of(self)
@@ -166,7 +147,9 @@ class Solution(Answer):
     def at(self, x: object, *, x0: object, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
     @limited
     def at(self, x: object, *, x0: object, derivative: bool = False, **options: Unpack[Options]) -> Any:
-        """A ball that contains y(x), for the solution y that starts at x0 as `y0` and `dy0` or others of the keywords say.
+        """A ball that contains y(x), for the solution y that starts at x0: `kovacic.evaluate` of this equation.
+
+        `kovacic.evaluate` describes each keyword, the result, exceptions and warnings.
 
         Parameters
         ----------
@@ -177,17 +160,7 @@ class Solution(Answer):
         derivative : bool
             With True, pairs of balls, y and y', come back.  False by default.
         y0, dy0, frobenius, which, path, params, digits, method, limits
-            The solution, its accuracy, and what the call may cost, as for `kovacic.evaluate`; y0 and dy0 only where
-            coefficients aren't rational.
-
-        Returns
-        -------
-        Ball, pair of Ball, or a tuple or an array of these
-            As `kovacic.evaluate` returns it.
-
-        Notes
-        -----
-        `kovacic.evaluate` describes each keyword, the result, exceptions and warnings.
+            The solution, its accuracy, and the limits; y0 and dy0 only unless the coefficients are rational.
 
         Examples
         --------
@@ -216,17 +189,12 @@ class Solution(Answer):
         x0 : number
             Where the solution starts.
         y0, dy0, frobenius, which, path, params, digits, method, limits
-            The solution, its accuracy, and what each call may cost, as for `kovacic.evaluate`.
+            The solution, its accuracy, and the limits of each call, as for `kovacic.evaluate`.
 
         Returns
         -------
         Prepared
             Called with a number, a sequence or an array, `derivative` and `digits`, it returns what `at` does.
-
-        Raises
-        ------
-        InputError
-            What `kovacic.evaluate` raises for the start.
 
         Examples
         --------
@@ -243,6 +211,8 @@ class Solution(Answer):
     @limited
     def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction:
         """A solution as a vectorised NumPy function in double precision, its error measured.
+
+        `kovacic.doubles.lambdify.lambdify` describes each keyword, the result, exceptions and warnings.
 
         Parameters
         ----------
@@ -261,10 +231,6 @@ class Solution(Answer):
         -------
         ProductForm or TabulatedFunction
             A function of a number or an array; `measured` is its error.
-
-        Notes
-        -----
-        `kovacic.doubles.lambdify.lambdify` describes each keyword, the result, exceptions and warnings.
 
         Examples
         --------
@@ -291,7 +257,7 @@ class Solution(Answer):
         output: str | Path | None = None,
         **options: Unpack[PlotOptions],
     ) -> Figure:
-        """A matplotlib figure of proven values over [start, stop].
+        """A matplotlib figure of proven values over [start, stop]; it isn't shown, except by a notebook.
 
         Parameters
         ----------
@@ -302,14 +268,9 @@ class Solution(Answer):
         output : str or Path
             A file to which the picture is saved: png, svg or pdf.
         x0, y0, dy0, frobenius, which
-            The solution to be drawn; by default y1 and y2 where they are known, else y(x0) = 1, y'(x0) = 0.
+            The solution to be drawn; by default y1 and y2 if they are known, else y(x0) = 1, y'(x0) = 0.
         points, digits, params, method, limits
             As for `kovacic.views.plot.plot`.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-            It is not shown; a notebook shows it.
 
         Examples
         --------
@@ -339,7 +300,7 @@ class Solution(Answer):
         digits : int
             The accuracy of the matrices: 15 by default.
         limits : Limits
-            What the continuation may cost.
+            Bounds on the work.
 
         Returns
         -------
@@ -366,7 +327,7 @@ class Solution(Answer):
     @property
     @limited
     def generic_conditions(self) -> GenericConditions:
-        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters.
+        """The functions that must not vanish and the exponents that must not be rational for the answer to hold, if any.
 
         >>> import kovacic
         >>> print(kovacic.solve("n*x").generic_conditions)
@@ -377,12 +338,7 @@ class Solution(Answer):
         return generic_conditions(self)
 
     def verify(self) -> Verification:
-        """Recompute every claim, the group's too, by independent code.
-
-        Returns
-        -------
-        Verification
-            True exactly when all claims hold.
+        """Recompute every claim, the group's too, by independent code; the result is true exactly when all claims hold.
 
         Examples
         --------
@@ -404,8 +360,8 @@ class Solution(Answer):
         Parameters
         ----------
         full : bool
-            With True, the group and two solutions in closed form are added, which have to be computed, and the coefficients of
-            the polynomial of omega where that has the degree 6 or 12.  False by default.
+            True adds what has to be computed: the group, two solutions in closed form, and the coefficients of the polynomial
+            of omega if its degree is 6 or 12.  False by default.
 
         Returns
         -------
@@ -415,7 +371,7 @@ class Solution(Answer):
         Raises
         ------
         LimitExceeded
-            Where the solutions take longer than the limits of the answer allow.
+            If the solutions take longer than the limits of the answer allow.
 
         Examples
         --------
@@ -447,20 +403,19 @@ class Solution(Answer):
         limits : Limits
             Bounds on the work; by default those of `Limits()`.
         unverified : bool
-            With True, an answer that fails its check is returned all the same, and its `verified` is False.  False by default.
+            True returns even an answer that fails its check; its `verified` is False.  False by default.
 
         Returns
         -------
         Solution
-            Equal to the one that was written.  `seconds` and `notices` are taken from the text as they stand; nothing
-            checks them.
+            Equal to the one that was written; `seconds` and `notices` are copied from the text unchecked.
 
         Raises
         ------
         InputError
-            Where it isn't an answer, contradicts itself, or has a key twice.
+            For anything but an answer, and for one that contradicts itself or has a key twice.
         VerificationFailed
-            Where it doesn't pass its check.
+            If the answer doesn't pass its check.
 
         Examples
         --------
@@ -471,31 +426,23 @@ class Solution(Answer):
         """
         from kovacic.views.json import loads
 
-        return cls.of(replace(loads(text, unverified=unverified), limits=limits))
+        return cls._of(replace(loads(text, unverified=unverified), limits=limits))
 
     @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
         """The derivation as a reader of Kovacic's paper follows it: the paper's steps, then the claims of this package.
 
+        The text says which formulas are too long to be printed, and which parts would have taken longer than the limits allow.
+        In HTML, formulas that there is no time to typeset stand as text.
+
         Parameters
         ----------
         format : str
             "text" (the default), "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx), or "html": a
-            page that needs nothing from elsewhere, in ASCII, with MathML and with the picture of a real solution where there is
-            one (for rational coefficients, if matplotlib is installed).
+            self-contained page in ASCII, with MathML and, for rational coefficients if matplotlib is installed, a picture of
+            real solutions.  Any other raises `ValueError`.
         solutions : bool
             False leaves the closed forms out, which take the most time.  True by default.
-
-        Returns
-        -------
-        str
-            Formulas that fill more than some screens aren't printed, and parts that would take longer than the limits allow are
-            left out; both are said.  In HTML, formulas that there is no time to typeset stand as text.
-
-        Raises
-        ------
-        ValueError
-            For another format.
 
         Examples
         --------
@@ -513,22 +460,12 @@ class Solution(Answer):
         return explain(self, format=format, solutions=solutions)
 
     def citation(self, *, style: str = "text") -> str:
-        """What the answer rests on in the literature.
+        """The publications that the answer rests on, one after the other.
 
         Parameters
         ----------
         style : str
-            "text", the default, or "bibtex".
-
-        Returns
-        -------
-        str
-            The references, one after the other.
-
-        Raises
-        ------
-        ValueError
-            For another style.
+            "text", the default, or "bibtex"; any other raises `ValueError`.
 
         Examples
         --------
@@ -586,8 +523,8 @@ def solve(
         The name of the variable; by default the only symbol, or x.  Every other symbol is a parameter, for whose generic
         values the equation is decided.
     assume : mapping
-        What is known of parameters: {"n": "integer"} or {"n": ">=0"}, in the words of `conditions`; a notice says for which of
-        these values the answer holds.  With {"n": 3} the number is put in.  Assumptions of SymPy symbols are used, too.
+        Assumptions about parameters, {"n": "integer"} or {"n": ">=0"} in the words of `conditions`; a notice says for which of
+        these values the answer holds.  {"n": 3} substitutes a number.  Assumptions of SymPy symbols are used, too.
     parameters : sequence of str
         Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
@@ -602,7 +539,7 @@ def solve(
     Raises
     ------
     InputError
-        For what isn't such a function or equation.
+        For anything but such a function or equation.
     LimitExceeded
         For an input above the limits, or that isn't read in time.
     VerificationFailed
@@ -643,4 +580,4 @@ def solve(
     Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
     """
     found = find_answer(S, a=a, b=b, c=c, f=f, var=var, assume=assume, parameters=parameters, limits=limits)
-    return Solution.of(found)
+    return Solution._of(found)

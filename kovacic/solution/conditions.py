@@ -18,46 +18,18 @@ from kovacic.solution import Solution
 class Conditions(ParametricAnswer):
     __doc__ = ParametricAnswer.__doc__
 
-    @classmethod
-    def of(cls, found: ParametricAnswer) -> Conditions:
-        """The conditions `found`, with `solve_at`.
-
-        Parameters
-        ----------
-        found : ParametricAnswer
-            The data.
-
-        Returns
-        -------
-        Conditions
-            With the same fields.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> type(bessel).of(bessel) == bessel
-        True
-        """
-        return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
-
     def solve_at(self, values: Values) -> Solution:
-        """The verified answer at a point.
+        """The verified answer at a point, with the omega that the region makes possible.
 
         Parameters
         ----------
         values : mapping
             A number for each parameter, rational or algebraic: {"n": "1/2"}.
 
-        Returns
-        -------
-        Solution
-            With the omega that the region makes possible.
-
         Raises
         ------
         InputError
-            Where S isn't defined, or a parameter has no value.
+            Where S isn't defined, or if a parameter has no value.
 
         Examples
         --------
@@ -65,13 +37,13 @@ class Conditions(ParametricAnswer):
         >>> kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").solve_at({"n": "1/2"}).case
         1
         """
-        return Solution.of(self.answer_at(values))
+        return Solution._of(self.answer_at(values))
 
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
         """Solve the equation at exact points inside and outside of the regions, and compare with the printed conditions.
 
-        The printed conditions themselves are evaluated: a parameter as a function of an integer, a sum of square roots; and
-        formulas are put into the equation.  One point in each region is compared whenever conditions are found.
+        The printed conditions themselves are evaluated, and formulas are substituted into the equation.  One point in each
+        region is compared whenever conditions are found.
 
         Parameters
         ----------
@@ -83,7 +55,7 @@ class Conditions(ParametricAnswer):
         Returns
         -------
         CheckReport
-            True when every sample agrees.
+            True if every sample agrees.
 
         Examples
         --------
@@ -102,19 +74,14 @@ class Conditions(ParametricAnswer):
         format : str
             "text" (the default), "markdown" with formulas between dollar signs, "latex", the environments theorem and proof
             for a document with amsmath, amssymb, amsthm, graphicx and ``\newtheorem{theorem}{Theorem}``, or "html", a page of
-            its own.
+            its own; any other raises `ValueError`.
 
         Returns
         -------
         str
-            "The equation has Liouvillian solutions if and only if one of the following holds", each case where none of those
-            before it holds, with its group, its solutions, and the first Delta_d; where the list isn't proven to be complete,
-            what isn't.
-
-        Raises
-        ------
-        ValueError
-            For another format.
+            "The equation has Liouvillian solutions if and only if one of the following holds", each case under the condition
+            that none before it holds, with its group, its solutions, and the first Delta_d; and the part, if any, that isn't
+            proven to be complete.
 
         Examples
         --------
@@ -154,28 +121,28 @@ def conditions(
     var : str or sympy.Symbol
         The variable; by default x, or the only symbol.  Every other symbol is a parameter.
     assume : mapping
-        Leaves out what then can't happen: {"n": "positive integer"}.  The words are natural (0, 1, 2, ...), integer, even, odd,
-        half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and inequalities
-        such as ">=1/2", for a real number.  A number, {"n": 3}, is put in for the parameter.  Assumptions of SymPy symbols are
-        used in the same way; those that contradict one another are refused.
+        Leaves out regions that it excludes: {"n": "positive integer"}.  The words are natural (0, 1, 2, ...), integer, even,
+        odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and
+        inequalities such as ">=1/2", for a real number.  A number, {"n": 3}, is substituted.  Assumptions of SymPy symbols are used in the
+        same way; contradictory ones are refused.
     max_degree : int
-        Where a condition has a natural number d in it, its determinants are shown up to d = `max_degree`, 2 by default;
-        `determinant` of the condition computes others.
+        For a condition on a natural number d, determinants are shown up to d = `max_degree`, 2 by default; `determinant` of
+        the condition computes others.
     parameters : sequence of str
         Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
-        Bounds on the input and on the work.
+        Bounds on the input and on the work; by default those of `Limits()`.
 
     Returns
     -------
     Conditions
-        Its regions in their order: the first one that holds decides.  `complete` is True where that is proven to be all, else
-        a sentence that says what isn't, as for a budget that was used up.
+        Regions in order: the first one that holds decides.  `complete` is True if they are proven to be all, else a sentence
+        about the part that isn't proven, as for an exhausted budget.
 
     Raises
     ------
     InputError
-        For what isn't a rational function or an equation with parameters.
+        For anything but a rational function or an equation with parameters.
     LimitExceeded
         For an input above the limits.
 
@@ -195,4 +162,5 @@ def conditions(
     """
     limits = limits_of(limits)
     names = declared(parameters, assume)
-    return Conditions.of(find_conditions(S, var=var, assume=assume, max_degree=max_degree, limits=limits, names=names))
+    found = find_conditions(S, var=var, assume=assume, max_degree=max_degree, limits=limits, names=names)
+    return Conditions(**{field.name: getattr(found, field.name) for field in fields(found)})
