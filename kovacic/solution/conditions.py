@@ -123,8 +123,8 @@ def conditions(
     assume : mapping
         Leaves out regions that it excludes: {"n": "positive integer"}.  The words are natural (0, 1, 2, ...), integer, even,
         odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and
-        inequalities such as ">=1/2", for a real number.  A number, {"n": 3}, is substituted.  Assumptions of SymPy symbols are used in the
-        same way; contradictory ones are refused.
+        inequalities such as ">=1/2", for a real number.  A number, {"n": 3}, is substituted.  Assumptions of SymPy symbols are
+        used in the same way; contradictory ones are refused.
     max_degree : int
         For a condition on a natural number d, determinants are shown up to d = `max_degree`, 2 by default; `determinant` of
         the condition computes others.
