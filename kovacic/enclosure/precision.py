@@ -6,7 +6,6 @@ First digits + guard bits, then as many bits more as were missing.
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
@@ -52,17 +51,6 @@ class PointValue:
     note: str | None = None
 
     @property
-    def reached(self) -> bool:
-        """Is the relative radius of y at most 10^-digits?"""
-        return self.missing == 0
-
-    def explained(self, limit: str | None) -> PointValue:
-        """With a note where digits are missing: the limit that was reached, or what the ball tells."""
-        if self.reached:
-            return self
-        return replace(self, note=limit or _reason(self))
-
-    @property
     def y(self) -> Ball:
         """y(x)."""
         return finite_ball(self.state[0], self.route)
@@ -105,104 +93,39 @@ def raise_precision(
     journey: Travel, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits, *, begin: int = 0
 ) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough; not below `begin` bits."""
-    ceiling = _Ceiling.of(digits, limits, capped=closed is not None)
-    climb = _Climb(
-        journey=journey,
-        targets=targets,
-        closed=closed,
-        digits=digits,
-        exact=journey.is_exact(targets),
-        ceiling=ceiling,
-        bits=max(start_bits(digits), min(begin, ceiling.bits // 2)),
-    )
+    exact = journey.is_exact(targets)
+    # Below 2^-ceiling a value isn't told from zero, unless other solutions are seen to be as large.
+    ceiling = 6 * start_bits(digits) + 4000
+    most = int(max(ceiling, limits.digits * _BITS_PER_DIGIT))
+    bits = max(start_bits(digits), min(begin, ceiling // 2))
+    previous: _Run | None = None  # the last one with finite balls
+    number = 0
     while True:
+        number += 1
+        route = Route(digits, "taylor" if closed is None else "closed form", bits, number)
         try:
-            run = climb.run()
+            run = _Run.made(journey, targets, closed, route)
         except LimitExceeded as limit:
-            if climb.previous is None:
+            if previous is None:
                 raise
-            return climb.previous.explained(str(limit))
+            return previous.explained(str(limit))
         if run.reached:
             return run.values
-        if closed is not None and run.is_worse(climb.previous):
+        if closed is not None and previous is not None and run.lacking > previous.lacking:
             raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
-        climb.raise_ceiling(run)
-        if climb.is_over(run):
+        if exact and run.finite and number > 1:  # the first run doesn't tell how large other solutions are
+            ceiling = max(ceiling, 2 * max(map(_growth, run.values)) + 2 * start_bits(digits))
+            if closed is not None:
+                ceiling = min(ceiling, most)
+        is_stalled = not exact and run.is_stalled(previous)
+        if bits >= ceiling or ceiling > most or is_stalled:
             return run.explained()
-        climb.go_up(run)
-
-
-@dataclass
-class _Climb:
-    """The runs of one journey at rising precision.
-
-    The next run is made with so many `bits`.  `exact` says that more bits make every ball smaller; `previous` is the last run
-    of those before with finite balls.
-    """
-
-    journey: Travel
-    targets: Sequence[Number]
-    closed: Closed | None
-    digits: int
-    exact: bool
-    ceiling: _Ceiling
-    bits: int
-    runs: int = 0
-    previous: _Run | None = None
-
-    def run(self) -> _Run:
-        """Make the journey once more."""
-        self.runs += 1
-        method: Method = "taylor" if self.closed is None else "closed form"
-        return _Run.made(self.journey, self.targets, self.closed, Route(self.digits, method, self.bits, self.runs))
-
-    def raise_ceiling(self, run: _Run) -> None:
-        """Where this run tells how much other solutions grow; the first one doesn't."""
-        if self.exact and run.finite and run.route.runs > 1:
-            self.ceiling = self.ceiling.raised(run)
-
-    def is_over(self, run: _Run) -> bool:
-        """Does a higher precision give no more, after this run?"""
-        if self.ceiling.is_reached(self.bits):
-            return True
-        return not self.exact and run.is_stalled(self.previous)
-
-    def go_up(self, run: _Run) -> None:
-        """By as many bits as were missing, and some more."""
         if run.finite:
-            self.previous = run
+            previous = run
         more = run.missing + 16
-        if self.closed is None:  # other points find what was expanded at the same precision
+        if closed is None:  # other points find what was expanded at the same precision
             more = -(-more // _STEP) * _STEP
-        self.bits = min(self.bits + more, self.ceiling.bits)
-
-
-@dataclass(frozen=True)
-class _Ceiling:
-    """The highest precision: below 2^-bits a value isn't told from zero, unless other solutions are as large.
-
-    `most` is what the limits allow; a closed form is `capped` by it, other ways end beyond it.
-    """
-
-    bits: int
-    most: int
-    digits: int
-    capped: bool
-
-    @classmethod
-    def of(cls, digits: int, limits: Limits, *, capped: bool) -> _Ceiling:
-        bits = 6 * start_bits(digits) + 4000
-        return cls(bits, int(max(bits, limits.digits * math.log2(10))), digits, capped)
-
-    def raised(self, run: _Run) -> _Ceiling:
-        """A recessive solution is as small as the others are large."""
-        bits = max(self.bits, 2 * max(map(_growth, run.values)) + 2 * start_bits(self.digits))
-        if self.capped:
-            bits = min(bits, self.most)
-        return replace(self, bits=bits)
-
-    def is_reached(self, prec: int) -> bool:
-        return prec >= self.bits or self.bits > self.most
+        bits = min(bits + more, ceiling)
 
 
 @dataclass(frozen=True)
@@ -240,10 +163,6 @@ class _Run:
         """Are all values known to as many digits as were asked for?"""
         return self.finite and self.missing == 0
 
-    def is_worse(self, previous: _Run | None) -> bool:
-        """Do more values lack digits than at a lower precision?"""
-        return previous is not None and self.lacking > previous.lacking
-
     def is_stalled(self, previous: _Run | None) -> bool:
         """Where a higher precision hasn't halved the balls, their size comes from the initial values."""
         if previous is None or not self.finite:
@@ -251,19 +170,19 @@ class _Run:
         for before, value in zip(previous.values, self.values, strict=True):
             # A ball around 0 may at first tell of nothing but a precision that was too low.
             is_telling = self.route.runs > 2 or not value.y.contains_zero()
-            is_final = value.reached or (is_telling and 2 * arb(value.y.rad) > arb(before.y.rad))
+            is_final = value.missing == 0 or (is_telling and 2 * arb(value.y.rad) > arb(before.y.rad))
             if not is_final:
                 return False
         return True
 
     def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
-        """The values, with a note where there are fewer digits than were asked for: the limit, or what the balls tell.
+        """The values; those with fewer digits than were asked for with a note, which is the limit or what their balls tell.
 
         Raises LimitExceeded where there are none.
         """
         if not self.finite:
             raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
-        return tuple(value.explained(limit) for value in self.values)
+        return tuple(v if v.missing == 0 else replace(v, note=limit or _reason(v)) for v in self.values)
 
 
 def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:

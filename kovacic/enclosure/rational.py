@@ -60,7 +60,7 @@ class RationalWay(Way):
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         system = self.problem.system
-        split = alone and is_split(system, self.prec)
+        split = alone and is_split(system, self.prec, a, b)
         enter, leave = self._in_discs(a, b)
         if enter != a:
             yield swing(system, a, enter, self.prec)
@@ -103,7 +103,8 @@ class RationalWay(Way):
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         here = traveller.here
         found: dict[ExactPoint, State] = {}
-        is_far = is_split(self.problem.system, self.prec // len(stops))
+        ends = stops if isinstance(here, Singular) else [here, *stops]
+        is_far = is_split(self.problem.system, self.prec // len(stops), *ends)
         if is_far or isinstance(here, Singular):
             for first, *others in sides(here, stops):
                 one = traveller.moved(first)

@@ -103,7 +103,7 @@ def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> l
     check_segment(system, a, b)
     ahead = forecast(system, a, b, prec)
     found = []
-    for number, leg in enumerate(walk(system, a, b, prec, split=is_split(system, prec)), 1):
+    for number, leg in enumerate(walk(system, a, b, prec, split=is_split(system, prec, a, b)), 1):
         found.append(leg.matrix)
         ahead.check(number)
     return found
