@@ -1,7 +1,7 @@
 """The frozen data of an answer: the input, the decision, and properties that can be read off from these.
 
-What has to be computed from an answer (its group, closed forms, ...) is a function in the room where it is computed, and
-`computed_once` keeps what it finds: so whatever shows or uses an answer takes this data, and depends on nothing above it.
+Everything that has to be computed from an answer (its group, closed forms, ...) is a function in a room of its own, whose
+result is kept by `computed_once`: views and other users of an answer take this data, and depend on nothing above it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _T = TypeVar("_T")
 
 
 class KnownParameters(Protocol):
-    """What was assumed about the parameters, as far as an answer needs it; `kovacic.parametric` has the class."""
+    """The assumptions about the parameters, as far as an answer uses them; `kovacic.parametric` has the class."""
 
     def __bool__(self) -> bool:
         """True if anything was assumed."""
@@ -100,14 +100,14 @@ class Answer:
 
     @property
     def proof(self) -> tuple[Exclusion, ...]:
-        """What was excluded and by which evidence: everything, for a "no"; all smaller structures, for a "yes"."""
+        """The exclusions with their evidence: of every structure, for a "no"; of all smaller ones, for a "yes"."""
         return self.decision.exclusions
 
     def __bool__(self) -> bool:
         raise TypeError("ask for .status or .case: an answer is neither true nor false")
 
     def __getstate__(self) -> dict[str, Any]:
-        """The data alone: what was computed from it may not pickle, and is computed again on demand."""
+        """The data alone: results computed from it may not pickle, and are computed again on demand."""
         return {f.name: self.__dict__[f.name] for f in fields(self)}
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What `kovacic.decide` returns: the case alone.
+    """The result of `kovacic.decide`: the case alone.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ def find_answer(
     parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Answer:
-    """What `kovacic.solve` returns, as data: arguments and exceptions are the same."""
+    """The answer of `kovacic.solve` as data; arguments and exceptions are the same."""
     start = time.perf_counter()
     coefficients = {"a": a, "b": b, "c": c, "f": f}
     S, parsed, assume = _read_question(S, coefficients, var, assume, parameters, limits)
@@ -97,9 +97,9 @@ def find_answer(
 
 
 def _text_of(S: Any, parsed: Parsed) -> str:
-    """The input as it was given; in our own spelling where it is no text, or constants became parameters.
+    """The input as given; in our own spelling if it is no text, or if constants became parameters.
 
-    An equation in another variable than the user's isn't what was given: then it is written as SymPy has it.
+    After a change of variable the equation is another one: then SymPy's text of the input is taken.
     """
     is_changed = parsed.equation is not None and parsed.equation.change is not None
     if parsed.letters and not is_changed:
@@ -131,7 +131,7 @@ def decide(
     var : str
         The name of the variable; by default the only symbol, or x.
     assume : mapping
-        What is known of parameters, or their values, as for `kovacic.solve`.
+        Assumptions about parameters, or their values, as for `kovacic.solve`.
     parameters : sequence of str
         Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits

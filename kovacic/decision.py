@@ -15,7 +15,7 @@ from kovacic.algebra.ratfunc import RatFunc
 
 
 class Status(StrEnum):
-    """What is known about the Liouvillian solutions of an equation; equal to its string."""
+    """The verdict on the Liouvillian solutions of an equation; equal to its string."""
 
     LIOUVILLIAN = "liouvillian"
     NONE_EXISTS = "none"
@@ -178,8 +178,8 @@ class RiccatiPolynomial:
 class Decision:
     """The engine's outcome: the structure that the group has, or None, and everything that was excluded before it.
 
-    `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None where
-    an omega was found without one).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions
+    `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None if
+    omega was found without one).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions
     is claimed.
     """
 

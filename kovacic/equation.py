@@ -27,7 +27,7 @@ DEFAULT_VARIABLE = "x"
 # The unknown function of y'' = S y: a variable only where the caller says so.
 UNKNOWN = "y"
 
-#: Transcendental numbers, which are parameters where they occur in a coefficient: what holds for generic values holds for one.
+#: Transcendental numbers, which are parameters in a coefficient: a claim for generic values holds for a transcendental one.
 PI = "pi"
 EULER = "e"
 
@@ -193,10 +193,10 @@ class Equation:
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """S as a rational function, the name of its variable, and what the user should know about how it was read.
+    """S as a rational function, the name of its variable, and notices about the reading.
 
-    `equation` is the equation that was given, None where S itself was.  `letters` are the parameters that stand for
-    constants, as SymPy expressions: sin_theta for sin(theta).  `guesses` are those of the notices that say what was guessed.
+    `equation` is the given equation, None if S itself was given.  `letters` are the parameters that stand for constants, as
+    SymPy expressions: sin_theta for sin(theta).  `guesses` are those of the notices that are about guesses.
     """
 
     S: RatFunc
@@ -213,7 +213,7 @@ class Parsed:
 
     @property
     def reading(self) -> str:
-        """What was read, in a line: m*x'' + c*x' + k*x = 0, x(t), parameters m, c, k; empty in another variable."""
+        """The reading in one line: m*x'' + c*x' + k*x = 0, x(t), parameters m, c, k; empty after a change of variable."""
         equation = self.equation
         if equation is None:
             line = f"y'' = ({self.S.to_str(self.variable)})*y, y({self.variable})".replace("**", "^")

@@ -34,9 +34,8 @@ class KovacicError(Exception):
 class InputError(KovacicError, ValueError):
     """The input isn't an equation that the package can treat.
 
-    Attributes: `text`, the whole input where it is text; `position`, the 0-based offset of the offending part, and
-    `length`, its length; both None where the input isn't text; `hint`, what the user could write instead in Python, and
-    `shell`, the same for the command line (`hint` itself where both are written alike).
+    Attributes: `text`, the whole input if it is text; `position`, the 0-based offset of the offending part, None unless the
+    input is text, and `length`, its length; `hint`, the remedy in Python, and `shell`, the remedy on the command line.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What one call may cost: sizes that are checked before an operation, and a wall clock checked between steps."""
+"""Limits of a call: sizes, checked before an operation, and a wall clock, checked between steps."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
     process = Process(serve)          serve(channel) runs there, a function of a module
     process.send(3)                   channel.receive() is 3
-    process.receive()                 what it gives to channel.send(); EOFError at its end
+    process.receive()                 the argument of channel.send(); EOFError at its end
 
 It is an interpreter of its own instead of a fork or of `multiprocessing`: that works in programs with threads, in notebooks and
 in scripts without a main guard, and it can be killed at any moment without harm to the parent.  It ends when `serve` returns,
@@ -27,7 +27,7 @@ from typing import IO, Any, cast
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, watched_seconds
 
-# The interpreter looks for modules where this one does, and not in the current directory.
+# The interpreter finds modules on this one's path, and not in the current directory.
 _INTERPRETER_SOURCE = (
     "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import main; main()"
 )
@@ -44,7 +44,7 @@ class Channel:
         self._target = target
 
     def receive(self) -> Any:
-        """What the parent has sent next; raises EOFError once it sends no more."""
+        """The parent's next object; raises EOFError once it sends no more."""
         return pickle.load(self._source)
 
     def send(self, value: object) -> None:
@@ -54,7 +54,7 @@ class Channel:
 
 
 class Process:
-    """The parent's end.  Raises OSError where no process can be started.
+    """The parent's end.  Raises OSError if no process can be started.
 
     >>> from kovacic.process import Process, echo
     >>> process = Process(echo)
@@ -81,7 +81,7 @@ class Process:
         self.write(pickle.dumps(value))
 
     def write(self, pickled: bytes) -> None:
-        """Objects that are pickled already, one after the other.  A broken pipe is no error: the end arrives at `receive`."""
+        """Send objects that are pickled already.  A broken pipe is no error here: `receive` reports the end."""
         with suppress(OSError):
             self._to.write(pickled)
             self._to.flush()
@@ -117,8 +117,8 @@ class Process:
 def computed_apart(what: str, function: Callable[..., Any], *arguments: Any) -> Any:
     """The value of a function of a module, computed in a process that is killed when the watched time is over.
 
-    Arguments and value must be picklable.  Raises `LimitExceeded`, with `what` was computed, if there is no value: for want of
-    time, of memory or of a process.  Here, the computation might never end.
+    Arguments and value must be picklable.  Raises `LimitExceeded`, with `what` was computed, if there is no value for lack
+    of time, memory or a process; in this process the computation might never end.
     """
     check_time()
     seconds = watched_seconds(_LONGEST_SECONDS)

@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import QQ
 
 #: Bits of the approximations.
 _EMBEDDING_BITS = 512
-#: What is smaller than this is zero, where it is known that one of several candidates is.
+#: One of several candidates is known to be zero: it is the one below 2^-200, half of the precision away from rounding errors.
 _TINY_BITS = 200
 
 
@@ -147,7 +147,7 @@ def _complex(pair: tuple[Fraction, Fraction] | None) -> Any:
 
 
 def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int | None:
-    """How many real roots of a polynomial over Q lie below the real root at `position`; None if that one isn't real."""
+    """The number of real roots of a polynomial over Q below the real root at `position`; None if that one isn't real."""
     with working_precision(_EMBEDDING_BITS):
         nearest, *others = _roots_by_distance(modulus, _complex(position))
         if not nearest.imag.contains(0) or any(abs(root - nearest.conjugate()).contains(0) for root in others):

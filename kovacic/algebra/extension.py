@@ -33,7 +33,7 @@ _EUCLID_IN_TOWERS = 2
 class AlgebraicField(Field):
     """K(c), c a root of the monic irreducible `modulus` over K; `name` is what c is called in print.
 
-    `approximation` says which complex root c is, by real and imaginary part; None where any root will do.  Exact arithmetic
+    `approximation` says which complex root c is, by real and imaginary part; None if any root will do.  Exact arithmetic
     doesn't depend on it, nor does equality.
     """
 
@@ -48,7 +48,7 @@ class AlgebraicField(Field):
 
     @property
     def height(self) -> int:
-        """How many extensions the tower has."""
+        """The number of extensions in the tower."""
         return self.base.height + 1
 
     @property

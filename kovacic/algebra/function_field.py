@@ -307,7 +307,7 @@ class FunctionPoly(Poly):
     def value_at(self, values: Sequence[Poly | Scalar], field: Field) -> Poly:
         """The polynomial over `field` in which the parameters have these values, constants of that field.
 
-        Raises `ZeroDivisionError` where the denominator vanishes.
+        Raises `ZeroDivisionError` if the denominator vanishes.
         """
         constants = [v if isinstance(v, Poly) else field.poly([v]) for v in values]
         below = _substitute(self.den, constants, field)

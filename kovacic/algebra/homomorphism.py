@@ -1,4 +1,4 @@
-"""Ring homomorphisms to prime fields, under which everything is looked at first; reduction modulo a prime, no more.
+"""Ring homomorphisms to prime fields: reduction modulo a prime, by which every computation begins.
 
 Which homomorphisms a field has is found in `splitting` and `function_field`; the way back from images is in `lifting`.
 """
@@ -59,7 +59,7 @@ class ExtensionHomomorphism(Homomorphism):
 
     @property
     def height(self) -> int:
-        """How many extensions the tower has."""
+        """The number of extensions in the tower."""
         return self.base.height + 1 if isinstance(self.base, ExtensionHomomorphism) else 1
 
     def __call__(self, polynomial: Any) -> Any:

@@ -3,7 +3,7 @@
 A coefficient N/D of least total degree d is found by linear algebra: N(t) - v(t) D(t) = 0 at random points t has, for
 the least d with a solution, one solution up to a factor.  Rational coefficients come from the first prime by rational
 reconstruction, or with those modulo further primes, where only the terms that occur are unknown.
-Exactness comes from the verification of what is proposed; a wrong proposal is never an answer.
+Exactness comes from the verification of proposals; a wrong one is never an answer.
 """
 
 from __future__ import annotations
@@ -126,9 +126,9 @@ class _Unknown:
         return sum(map(len, self.terms)) if self.terms else 0
 
     def solve(self, p: int, points: list[Exponents], values: list[int]) -> None:
-        """Add what the samples modulo a prime say: with the known terms, or with all up to the next degree.
+        """Add the samples modulo a prime: with the known terms, or with all up to the next degree.
 
-        Raises `LimitExceeded` where these are too many.
+        Raises `LimitExceeded` for too many terms.
         """
         if self.terms is None:
             monomials = list(_exponents_up_to(self.parameters, self.degree))

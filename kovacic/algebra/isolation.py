@@ -29,7 +29,7 @@ Zeros = tuple[tuple[Any, int], ...]
 
 
 def complex_zeros(polynomial: fmpz_poly) -> Zeros:
-    """The zeros, at the working precision in force; raises `LimitExceeded` where there isn't the time.
+    """The zeros, at the working precision in force; raises `LimitExceeded` if there isn't enough time.
 
     >>> [(complex(root), multiplicity) for root, multiplicity in complex_zeros(fmpz_poly([1, 2, 1]))]
     [((-1+0j), 2)]

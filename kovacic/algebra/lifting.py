@@ -66,7 +66,7 @@ class Lifter:
     """Collects images under bundles of homomorphisms and proposes the polynomials over the field.
 
     Images of different shapes (numbers and lengths of the polynomials) are collected apart, so that bad primes, at which a
-    leading term vanishes or a space grows, can't spoil what the others say.
+    leading term vanishes or a space grows, don't spoil the others.
     """
 
     def __init__(self, field: Field) -> None:
@@ -75,7 +75,7 @@ class Lifter:
 
     @property
     def primes_used(self) -> int:
-        """How many images were used."""
+        """The number of images that were used."""
         return sum(collector.primes_used for collector in self._collectors.values())
 
     def add(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Poly] | None:

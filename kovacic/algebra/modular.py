@@ -1,6 +1,6 @@
 """Power series and linear algebra over F_p.  All polynomials are flint's `nmod_poly` modulo one prime p.
 
-A series to order L is a polynomial of degree below L; the prime must exceed the orders that are asked for.
+A series to order L is a polynomial of degree below L; the prime must exceed every order L.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Rational functions as derivatives and residues: what an integral looks like before any logarithm is written down.
+"""Rational functions as derivatives and residues: an integral before any logarithm is written down.
 
 Every r in K(x) is r = R' + sum over the irreducible factors p of its denominator, and over the roots a of p, of
 rho(a)/(x - a), with R in K(x) and rho in K[x]/p [Hermite 1872].  R is unique up to a constant; the residues rho are unique.

@@ -1,4 +1,4 @@
-"""What a polynomial over an exact field is, and what a field is: the classes that every implementation fills in.
+"""Polynomials over exact fields, and the fields: the abstract classes that every implementation fills in.
 
 `Poly` is what every other module sees; flint's mutable polynomials stay inside.  A constant of the field is a polynomial
 of degree 0 (or -1, for zero), so that one type serves for both.  The fields are Q (`rationals`), Q(t) for parameters t
@@ -295,7 +295,7 @@ class Field(ABC):
 
     @property
     def height(self) -> int:
-        """How many extensions lie above the ground field."""
+        """The number of extensions above the ground field."""
         return 0
 
     @property

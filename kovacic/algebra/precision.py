@@ -1,7 +1,7 @@
 """FLINT's working precision and the length of its power series: the only place that sets them.
 
 `flint.ctx` is global: a thread that changes it changes it for all others.  So each change is made under one lock, which is
-held as long as it is in force, and undone whatever happens.  Threads wait for each other; processes don't.
+held while it is in force, and always undone.  Threads wait for each other; processes don't.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def working_digits(digits: int) -> Iterator[None]:
 
 @contextmanager
 def series_length(terms: int) -> Iterator[None]:
-    """How many terms FLINT's power series have within the block."""
+    """The number of terms of FLINT's power series within the block."""
     with _LOCK:
         before = ctx.cap
         ctx.cap = terms

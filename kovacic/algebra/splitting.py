@@ -93,7 +93,7 @@ def _extended(
 ) -> tuple[ExtensionHomomorphism, ...] | None:
     """The homomorphisms of K(c) over these of K: to all roots of the modulus, or unless `complete` to one simple root each.
 
-    None where there are fewer roots; raises BadPrimeError.
+    None if there are fewer roots.  Raises `BadPrimeError`.
     """
     found: list[ExtensionHomomorphism] = []
     for h in bundle:

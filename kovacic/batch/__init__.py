@@ -3,7 +3,7 @@
 Texts, or files of them, go in; a `Record` with a line of JSON for every one of them comes out.  `records` first: what travels.
 
     files    files into items; the answers   pool     items into records, with limits that hold
-    scan     grids of parameters, a map      worker   what the processes of the pool do
+    scan     grids of parameters, a map      worker   the processes of the pool
     backends chunks through Dask or Ray
 """
 

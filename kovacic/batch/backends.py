@@ -3,7 +3,7 @@
 On the machine that gets a chunk, it runs through a worker process that can be killed, as on a single machine: limits hold
 everywhere, an equation that exhausts the memory doesn't take a Dask worker with it, and flint, whose precision is global,
 isn't run in threads.  Each thread of the engine keeps its worker process for the next chunk; the process ends with the
-thread's process, or after a failure.  What a lost worker of the engine had is done again by another one: the engine sees to it.
+thread's process, or after a failure.  The engine gives the chunks of a lost worker to another one.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
 
     `job.jobs` is the number of chunks that are worked on at a time: by default, all that the engine has room for.  Its
     `scheduler` is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, Ray starts on this
-    machine, and Dask uses the client that the program has made.  Raises `InputError` where the engine isn't installed or
+    machine, and Dask uses the client that the program has made.  Raises `InputError` if the engine isn't installed or
     can't be reached, and `KovacicError` where it gives up.
     """
     engine = _ENGINES.get(job.backend or "")
@@ -74,7 +74,7 @@ def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
                     records = done.result()
                 except KovacicError:
                     raise
-                except CancelledError as error:  # nothing here cancels what it waits for
+                except CancelledError as error:  # not by this function, which cancels only at its end
                     where = "" if job.scheduler is None else f" at {job.scheduler}"
                     said = f"the {job.backend} scheduler{where} has ended, or can't be reached any more"
                     raise KovacicError(f"{said}; the answers so far were given out") from error

@@ -124,7 +124,7 @@ def _text_lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Ite
 
 
 def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
-    """The item of a string or an object; `text` is what a refused line is shown as."""
+    """The item of a string or an object; a refused line is shown as `text`."""
     if isinstance(value, str):
         return Item(number, value, var)
     if not isinstance(value, Mapping):
@@ -234,7 +234,7 @@ class _Rows:
             return line, cells
         if columns and any(cells) and len(cells) != columns:
             error = ParseError(f"{len(cells)} cells in a table of {columns} columns")
-        # An even number of quotation marks closes what it opens.
+        # An even number of quotation marks leaves none open.
         if error is not None and line.text.count('"') % 2:
             error = ParseError("a quotation mark isn't closed", hint='write "" for a quotation mark within quoted text')
         if error is None:

@@ -9,7 +9,7 @@ A process that is over its time is killed, and its item gets a record.  So does 
 exception; one whose process was killed by somebody else gets another one, up to three times.  What waited behind the item
 goes back to the front.
 
-The processes are those of `kovacic.process`, and what they do is `kovacic.batch.worker.serve`.
+The processes are those of `kovacic.process`, and run `kovacic.batch.worker.serve`.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ ORDERED_WINDOW = 10_000
 _AHEAD = 256
 
 # Seconds of work that a process gets at once, so that it needn't wait for the parent after each item; a longer item comes
-# alone.  What follows the first item must fit into the pipe: the process reads the first one before it works,
+# alone.  Everything behind the first item must fit into the pipe: the process reads the first one before it works,
 # and writing to a full pipe of a process that is busy would stop the parent, its deadlines included.
 _SECONDS_AT_ONCE = 0.02
 _ITEMS_AT_ONCE = 32
@@ -55,7 +55,7 @@ _BYTES_AT_ONCE = 30_000
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
 
 
-# What a worker process does.
+# The function that a worker process runs.
 Serve = Callable[[Channel], None]
 
 # A record of a child, or None at its end; in place of the pair None, where an item of a stream has arrived.
@@ -70,13 +70,13 @@ class Lot(NamedTuple):
 
 
 class ItemSource:
-    """Where items come from: those that a lost process has left, then the input, which may be silent for the moment."""
+    """The source of items: first those that a lost process has left, then the input, which may be silent for the moment."""
 
     def __init__(self, feed: Iterator[Item | None]) -> None:
         self._feed = feed
         self._returned: deque[Item] = deque()
         self._ended = False
-        self.failure: Exception | None = None  # what has ended the input, if it wasn't its end
+        self.failure: Exception | None = None  # that has ended the input, unless it came to its end
 
     @property
     def exhausted(self) -> bool:
@@ -229,7 +229,7 @@ class Pool(AbstractContextManager["Pool"]):
                     raise source.failure
                 return
             events = self._arrived(wait=not lots)
-            # Those that are over their time, and from which nothing has come.
+            # Processes that are over their time, and have sent nothing.
             now = time.monotonic()
             heard = [event[0] for event in events if event is not None]
             late = [child for child in self._children if child not in heard and self._deadline(child) <= now]
@@ -291,7 +291,7 @@ class Pool(AbstractContextManager["Pool"]):
                 self._failed_starts = 0
 
     def _end(self, late: list[Child], source: ItemSource) -> Iterator[Record]:
-        """Kill processes that are over their time; the records of what they worked on."""
+        """Kill processes that are over their time; the records of the items that they worked on."""
         for child in late:
             if not child.items:
                 raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
@@ -326,7 +326,7 @@ class Pool(AbstractContextManager["Pool"]):
             source.give_back([item])
 
     def _replace(self, child: Child, source: ItemSource) -> None:
-        """Kill a process, give back what it hasn't begun, and start another one."""
+        """Kill a process, give back the items that it hasn't begun, and start another one."""
         source.give_back(child.items)
         child.kill()
         place = self._children.index(child)

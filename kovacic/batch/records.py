@@ -21,7 +21,7 @@ from kovacic.views.json import group_dict
 from kovacic.writing.document import FORMATS, Table
 from kovacic.writing.escaped import json_line
 
-# What a record says about its equation in one word; the degree of omega is added in case 3.
+# The verdict of a record in one word; the degree of omega is added in case 3.
 NONE = "none"
 UNDECIDED = "undecided"
 ERROR = "bad input"
@@ -53,7 +53,7 @@ class Item:
 
     `names` are declared parameters, whatever they look like.
     `extra` is copied to the record (an identifier, the values of parameters).  `error` says why the line isn't an equation;
-    then `text` is the line as it was found.
+    then `text` is the whole line.
     """
 
     number: int
@@ -113,7 +113,7 @@ class Record:
 
     @property
     def solution(self) -> Solution:
-        """The answer as an object.  Raises `KovacicError` with the record's error where there is none."""
+        """The answer as an object.  Raises `KovacicError` with the record's error if there is none."""
         if self.error is not None:
             raise KovacicError(f"line {self.number}: {self.error}")
         return Solution.from_json(self.data)
@@ -184,7 +184,7 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
 def label_of(data: Mapping[str, Any]) -> str:
     """The label of a record that has been read from a file.
 
-    Raises `ValueError`, `KeyError` or `TypeError` where it isn't a whole record, or contradicts itself.
+    Raises `ValueError`, `KeyError` or `TypeError` for an incomplete record, and for one that contradicts itself.
     """
     if data["schema"] != 1:
         raise ValueError("another schema")
@@ -215,7 +215,7 @@ def refused(item: Item, error: KovacicError, seconds: float = 0.0, *, shell: boo
 def stopped(item: Item, reason: str, seconds: float) -> Record:
     """The record of an equation that is undecided because a limit was reached before the engine could say so; schema 1.
 
-    `S` is the text as it was given, because nothing has been heard from the process that read it.
+    `S` is the text as given, because the process that read it has sent nothing.
     """
     data: dict[str, Any] = {
         "variable": item.var or "x",

@@ -116,7 +116,7 @@ def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction | str]]:
 def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None) -> Iterator[Item]:
     """An item for each point of the grids, the last parameter changing fastest; `extra` has the values.
 
-    `expression` is a text or a SymPy expression.  Raises `InputError` at once where a parameter doesn't occur.
+    `expression` is a text or a SymPy expression.  Raises `InputError` at once if a parameter doesn't occur.
     """
     names = [grid.name for grid in grids]
     if not names:

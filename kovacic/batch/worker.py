@@ -3,8 +3,8 @@
 The first record says that the process is ready.  Unexpected exceptions aren't caught here: the process ends with its
 traceback, and the parent replaces it.
 
-The memory limit is the address space that the process may have beyond what it has when an equation begins, so that one
-equation never pays for another.
+The memory limit is the address space that the process may have beyond its size when an equation begins, so that one equation
+never pays for another.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def serve(channel: Channel) -> None:
     limits = job.engine_limits
     # The modules are loaded before the clock of the first equation starts.
     record = solve_item(Item(0, "x**2 + 3"), job, limits)
-    gc.freeze()  # what is loaded stays: the collector needn't look at it again
+    gc.freeze()  # modules stay: the collector needn't visit them again
     while True:
         channel.send((record.number, record.label, record.seconds, record.json))
         item = Item(*channel.receive())
@@ -41,7 +41,7 @@ def serve(channel: Channel) -> None:
 def solve_item(item: Item, job: Job, limits: Limits) -> Record:
     """The record of one item, computed in this process; the limits are those of the job.
 
-    An answer is found and written within the time; that there is none for want of time is written all the same.
+    An answer is found and written within the time limit; an undecided one is written even after it.
     """
     start = time.perf_counter()
     budget = Budget(limits)
@@ -56,7 +56,7 @@ def solve_item(item: Item, job: Job, limits: Limits) -> Record:
 
 
 def _limit_memory(mebibytes: int) -> None:
-    """Move the bound on the address space along with what the process has."""
+    """Move the bound on the address space along with the size of the process."""
     resource: Any = __import__("resource")  # not on every system; `Job` with `memory` needs it
     with open("/proc/self/statm", "rb") as statm:
         size = int(statm.readline().split()[0]) * resource.getpagesize()

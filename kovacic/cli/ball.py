@@ -1,4 +1,4 @@
-"""`kovacic ball`: the equation of a rolling ball, what the theorems say about it, its solutions, its motion."""
+"""`kovacic ball`: the equation of a rolling ball, the theorems about it, its solutions, its motion."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
 
         text = explained(format="latex" if latex else "text")
         derivation = {"derivation": text, "derived": all(holds().values())}
-    # Without a ball, what holds for every one; the other options only say how it is shown.
+    # Without a ball, --explain is about every one; the other options only choose the output.
     names_a_ball = any(map(is_given, given))
     rows: list[AnswerRow] = []
     motion: list[AnswerRow] = []

@@ -53,7 +53,7 @@ class DegreeBound:
     def exponents(self, place: Place) -> list[Fraction] | None:
         """The exponents of omega at a place that leave a natural number for the degree, whatever those elsewhere are.
 
-        None where the place isn't a single point with a choice between rational numbers.
+        None unless the place is a single point with a choice between rational numbers.
         """
         halves = [half for other, half in self.choices if other is place]
         if place.degree > 1 or not halves:

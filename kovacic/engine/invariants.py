@@ -69,7 +69,7 @@ class Bounds(NamedTuple):
 
 
 def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> Bounds | None:
-    """What the places say about an invariant of degree m; None if there can be none."""
+    """The bounds that the places set for an invariant of degree m; None if there can be none."""
     valuations = list[int]()
     N = m
     for place in problem.places:
@@ -170,7 +170,7 @@ class ModularSpace(NamedTuple):
 def invariants_modulo(
     h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, *, margin: int
 ) -> ModularSpace:
-    """What agrees with a form to N + m + 2 + margin terms."""
+    """The polynomials P that agree with a form to N + m + 2 + margin terms."""
     num = h(problem.S.num)
     den = h.keeping_degree(problem.S.den)
     point = ordinary_point(den)

@@ -97,11 +97,10 @@ class Family:
 
 @dataclass(frozen=True)
 class Search:
-    """What steps 1 to 3 give for one degree m of omega.
+    """The results of steps 1 to 3 for one degree m of omega.
 
-    `total` is the number of families, `natural` that of those with a natural d (None where there are too many sums).
-    `families` are the ones with a natural d, in the order of the paper, or all of them, if they are few; None where they are
-    too many.
+    `total` is the number of families, `natural` that of those with a natural d (None for too many sums).
+    `families` are the ones with a natural d, in the order of the paper, or all of them if they are few; None for too many.
     """
 
     m: int
@@ -230,7 +229,7 @@ def _points_of_place(place: Place, roots: Roots) -> list[SingularPoint]:
 
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:
-    """How many families have a natural d, conjugate poles counted one by one; None for many poles."""
+    """The number of families with a natural d, conjugate poles counted one by one; None for many poles."""
     if len(points) > _MOST_SUMMED_POINTS:
         return None
     # By d, and whether all e are even so far, which for m = 2 excludes the family.

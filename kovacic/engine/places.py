@@ -33,7 +33,7 @@ from kovacic.limits import Budget
 
 
 class Kind(Enum):
-    """What an equation looks like at a place."""
+    """The local type of an equation at a place."""
 
     ORDINARY = "ordinary point"
     REGULAR = "regular singular point"
@@ -50,7 +50,7 @@ class Images:
     found: dict[Homomorphism, tuple[Any, Any]] = field(default_factory=dict)
 
     def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
-        """Numerator and denominator; raises `BadPrimeError` where the denominator loses its degree."""
+        """Numerator and denominator; raises `BadPrimeError` if the denominator loses its degree."""
         if h not in self.found:
             self.found[h] = (h(self.num), h.keeping_degree(self.den))
         return self.found[h]

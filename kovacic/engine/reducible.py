@@ -62,7 +62,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     """The form y1 of degree 1, from F = y1 y2 or F = y1^2.
 
     F' = Q0 X / D and sqrt(disc) = Q0 Y / D with F = Q0 P; so D omega = (X + Y) / (2 P), and the zeros of y1 are the common
-    zeros of P and X - Y.  Over Q and for moderate degrees this is done as it stands, else modulo primes; then R of
+    zeros of P and X - Y.  Over Q and for moderate degrees this is done exactly, else modulo primes; then R of
     omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate (else it has a recurrence).
     """
     F = normalised(F, problem)
@@ -226,9 +226,9 @@ def _lifted_omega(
 
 #: Degrees of P that are tried before their bound is computed where that is the more expensive part.
 _FIRST_DEGREES = [8, 32]
-#: How many primes the lift of an omega may take that is looked for without a proof at hand.
+#: Primes for the lift of an omega whose existence isn't proven: then there may be none.
 _PRIMES_FOR_A_SIMPLE_OMEGA = 400
-#: What one of them costs, in units of work, about.
+#: Units of work for each of them, approximately.
 _WORK_PER_PRIME = 25
 
 
@@ -248,7 +248,7 @@ def _omega_modulo(
 ) -> tuple[Any, int] | None:
     """R and deg P of the only rational omega modulo p; None if there is none.
 
-    With `exponents` only the expansions with these are looked at, with a `sign` only that one.  Raises `BadPrimeError` if
+    `exponents` restricts the search to expansions with these, `sign` to a single one.  Raises `BadPrimeError` if
     the place has no root in F_p, or if there are two such omegas modulo p.
     """
     c = chart(h, problem, place)

@@ -1,4 +1,4 @@
-"""Which group, for each outcome of Kovacic's algorithm.
+"""The group for each outcome of Kovacic's algorithm.
 
 Symbols: omega = y1'/y1 = theta + P'/P; F a rational form of degree 2 in the solutions.
 

@@ -1,12 +1,12 @@
-"""The differential Galois group of the equation as it was given: solutions z = gamma y with y'' = S y, gamma'/gamma = rho.
+"""The differential Galois group of the equation as given: solutions z = gamma y with y'' = S y, gamma'/gamma = rho.
 
 The group lies in GL2.  It consists of the products chi g of the elements (g, chi) of the joint group H of the y and of
 gamma, a subgroup of G x Gamma, where G is the group of the normal form and Gamma = mu_N or G_m that of gamma.
 
 - Reducible: the diagonal characters belong to lambda_1 = rho + omega and lambda_2 = rho - omega.  With the lattice
   L = {(a, b) : a lambda_1 + b lambda_2 is the logarithmic derivative of a rational function} they form the diagonalisable
-  group with the characters Z^2/L; a unipotent part stays as it is.
-- Imprimitive and finite on a curve of genus 0: the same with the residues on the curve z^2 = g of `imprimitive`, where every
+  group with the characters Z^2/L; a unipotent part is unchanged.
+- Imprimitive and finite on a curve of genus 0: likewise with the residues on the curve z^2 = g of `imprimitive`, where every
   divisor of degree 0 is principal; the diagonal part has index 2.
 - Imprimitive and finite on a curve of positive genus: see `_order_on_curve`.
 - N(T): see `_infinite_dihedral`.
@@ -55,7 +55,7 @@ class Torus(NamedTuple):
 
 @dataclass(frozen=True)
 class EquationGroup:
-    """The group of the equation as it was given, in GL2(C).
+    """The group of the equation as given, in GL2(C).
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     if rho and S.field.ground != QQ:
         return None
     residues = rational_residues(rho)
-    # that of the gauge's own group; None where it is infinite
+    # The order of the gauge's own group; None if it is infinite.
     N = None if isinstance(residues, Ground) else lcm(1, *(residue.denominator for residue in residues))
     kind = normal_form.kind
     f = decision.semi_invariant
@@ -122,7 +122,7 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
 
 
 def _finite_gauge(S: RatFunc, normal_form: Group, f: SemiInvariant, rho: RatFunc, N: int) -> EquationGroup:
-    """The group for a gauge of order N > 1, and an irreducible normal form that is finite or isn't known to be."""
+    """The group for a gauge of order N > 1 and an irreducible normal form whose group may be finite."""
     given = normal_form.name
     order = _finite_order(S, normal_form, f, rho, N)
     if order is None:

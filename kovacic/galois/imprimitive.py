@@ -47,7 +47,7 @@ from kovacic.galois.chain import function_of_order
 from kovacic.galois.group import Ground, Group, GroupKind
 from kovacic.galois.jacobian import Jacobian
 
-#: Primes whose orders must agree before a function of this order is looked for.
+#: Primes whose orders must agree before a function of this order is sought.
 _AGREEING_PRIMES = 3
 #: The orders 1, 2, ... up to this are tried where no prime shows one.
 _ORDERS_TRIED = 12

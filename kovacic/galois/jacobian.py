@@ -25,7 +25,7 @@ class DivisorClass(NamedTuple):
 
     @property
     def key(self) -> tuple[Any, ...]:
-        """What can be looked up."""
+        """A hashable form."""
         return tuple(self.u), tuple(self.v)
 
 

@@ -234,7 +234,7 @@ _LONGEST_RADICAND = 1600
 def radical(value: Any, n: int = 2) -> Any:
     """SymPy's root of an expression, square or of order n.
 
-    Raises `LimitExceeded` where a number comes out of it that is too long for that.
+    Raises `LimitExceeded` for a number that is too long for SymPy.
 
     >>> radical(18)
     3*sqrt(2)

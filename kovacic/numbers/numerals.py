@@ -1,7 +1,7 @@
 """Integers, fractions and SymPy expressions as text, with numbers of any length.
 
 Python refuses to convert integers of more than 4,300 digits, and takes time that grows with the square of their length where it
-is allowed to.  FLINT does neither.  SymPy's printers use Python's conversion, so ours replace what they do with numbers.
+is allowed to.  FLINT does neither.  SymPy's printers use Python's conversion; ours replace it.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def in_a_message(number: int) -> str:
 
 
 def as_text(value: Any, first: Any = None) -> str:
-    """What `str` gives for an integer, a `Fraction` or a SymPy expression, with numbers of any length.
+    """`str` for an integer, a `Fraction` or a SymPy expression, with numbers of any length.
 
     Polynomials in the symbol `first`, if there is one, begin with its highest power: x - c, not -c + x.
 
@@ -99,7 +99,7 @@ def plain_text(value: Any) -> str:
 
 
 def as_latex(expression: Any, first: Any = None) -> str:
-    """What `sympy.latex` gives for an expression, with numbers of any length; `first` as for `as_text`."""
+    """`sympy.latex` for an expression, with numbers of any length; `first` as for `as_text`."""
     _, latex = _printers()
     printer = latex(_settings(expression))
     printer.first = first
@@ -143,7 +143,7 @@ def _settings(expression: Any) -> dict[str, Any]:
 
 
 class _LongIntegers:
-    """What a printer of SymPy does with integers of any length, and with the order of terms: powers of `first` come first."""
+    """Methods for printers of SymPy: integers of any length, and an order of terms that begins with powers of `first`."""
 
     first: Any = None
 

@@ -41,7 +41,7 @@ class Solution(Answer):
     Attributes
     ----------
     text : str
-        The input as it was given.
+        The input as given.
     variable : str
         The name of x.
     S : RatFunc
@@ -56,7 +56,7 @@ class Solution(Answer):
     seconds : float or None
         Wall-clock time of reading, deciding and verifying together; None for an answer that was read from JSON.
     equation : Equation or None
-        The equation of which y'' = S y is the normal form, None where S itself was given.
+        The equation of which y'' = S y is the normal form; None if S itself was given.
     assumed : bool
         True if a theorem proves the answer for all values with the assumptions, `known`, except those that the notices name.
     limits : Limits
@@ -91,7 +91,7 @@ class Solution(Answer):
 
     @property
     def equation_group(self) -> EquationGroup | None:
-        """The group of the equation as it was given, in GL2(C); None without `group`, and with a gauge and parameters."""
+        """The group of the equation as given, in GL2(C); None without `group`, and with a gauge and parameters."""
         return derived.equation_group(self)
 
     @property
@@ -113,7 +113,7 @@ class Solution(Answer):
     def special(self) -> SpecialFunctions:
         """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
 
-        What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
+        Assumptions about parameters are used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
         """
         return derived.special(self)
 
@@ -126,7 +126,7 @@ class Solution(Answer):
 
     @property
     def solutions(self) -> tuple[Any, ...]:
-        """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
+        """y1 and y2, SymPy expressions that solve the equation as given; empty without a Liouvillian solution."""
         return derived.solutions(self)
 
     @overload
@@ -221,7 +221,7 @@ class Solution(Answer):
         which : int or str
             The number of the solution, 0 by default; with x0 "regular" or "decaying".
         careful : bool or None
-            Double-doubles (True), plain doubles (False), or what the measured error asks for (None, the default).
+            Double-doubles (True), plain doubles (False), or a choice by the measured error (None, the default).
         check : bool
             False leaves the measurement out.  True by default.
         params, x0, y0, dy0, frobenius, path, limits
@@ -305,7 +305,7 @@ class Solution(Answer):
         Returns
         -------
         Agreement
-            `verdict` is False (a proof that it isn't this group), True, or None where matrices can't tell; `reason` says why.
+            `verdict` is False (a proof that it isn't this group), True, or None if matrices can't tell; `reason` says why.
 
         Raises
         ------

@@ -1,8 +1,8 @@
 """Eigenvalues of Sturm-Liouville problems as proven numbers: -(p y')' + q y = E w y on an interval, a half-line or the
 line.
 
-The problem is brought to y'' = (Q - E W) y.  What is proven is a count: N(E), the number of eigenvalues below an exact
-number E, from the zeros of the solutions that belong to the two ends (Sturm).  A level number k lies between two
+The problem is brought to y'' = (Q - E W) y.  The claim that is proven is a count: N(E), the number of eigenvalues below an
+exact number E, from the zeros of the solutions that belong to the two ends (Sturm).  A level number k lies between two
 numbers with N <= k and N >= k + 1; how these two were guessed needs no proof.  Read `count` first.  One step a module:
 
 1. `problem`: the normal form, its analytic pieces, the conditions at the ends;
@@ -10,6 +10,6 @@ numbers with N <= k and N >= k + 1; how these two were guessed needs no proof.  
 3. `ends`: with which values the solution of an end begins, or between which;
 4. `discs`: Taylor series with proven errors, along the axis;
 5. `count`: N(E), for separated and for periodic conditions;
-6. `search`: brackets, their refinement, and the proof; `levels` is what is returned;
+6. `search`: brackets, their refinement, and the proof; `levels` has the results;
 7. `families`: the eigenvalues as formulas, where the equation has constant coefficients after a change of variable.
 """

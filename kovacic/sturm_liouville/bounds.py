@@ -26,7 +26,7 @@ Range = tuple[Any, Any]
 
 _INFINITE = arb.pos_inf()
 _EVERYTHING = (-_INFINITE, _INFINITE)
-#: Derivatives that are looked at: cosh(x) - x^2 needs three.
+#: Derivatives that are tried: cosh(x) - x^2 needs three.
 _DERIVATIVES = 4
 _HYPERBOLIC = [sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch]
 #: Terms of a sum, up to which each is tried as the dominant one.

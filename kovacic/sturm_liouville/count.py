@@ -58,7 +58,7 @@ class SeparatedCounter:
         return any(isinstance(end, CutEnd) for end in self.ends)
 
     def _matching_point(self) -> Any:
-        """Where a share of the oscillations at the largest E lies to the left; any point would do."""
+        """The point with the share `_MATCH` of the oscillations at the largest E to its left; any point would do."""
         low, high = (position.mid() for position in self.positions)
         points = [(low + (high - low) * k / _SAMPLES).mid() for k in range(1, _SAMPLES)]
         depths = [(-self.road.value(point, self.span.high)).max(arb(0)).sqrt() for point in points]

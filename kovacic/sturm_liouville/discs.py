@@ -70,7 +70,7 @@ class TaylorStep:
         return a
 
     def advance(self, u: Any, v: Any, E: Any) -> tuple[Any, Any]:
-        """(Y, Y') at the other end, for |E| at most what the step was made for."""
+        """(Y, Y') at the other end, for |E| within the span of the step."""
         a = self.series(u, v, E)
         error = arb(0, ((abs(u) + self.radius * abs(v)) * self.tail).upper())
         slopes = sum(n * c for n, c in enumerate(a))
@@ -104,7 +104,7 @@ def _sign(value: Any) -> int:
 
 
 def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
-    """The Taylor coefficients of e about x0, without zeros at the end.  Raises `InputError` where they aren't real."""
+    """The Taylor coefficients of e about x0, without zeros at the end.  Raises `InputError` unless they are real."""
     with series_length(terms):
         try:
             value = BallEvaluator({x: acb_series([acb(x0), 1])})(e)
@@ -127,7 +127,7 @@ def not_analytic(x: Expr, x0: Any) -> InputError:
 
 
 def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
-    """An upper bound of |e| in a disc in which e is analytic; not finite where that isn't known.
+    """An upper bound of |e| in a disc in which e is analytic; infinite if that isn't known.
 
     Where one box isn't enough, as for 1/cosh(x), the upper half of the disc is in several: e(conj x) = conj e(x).
     """

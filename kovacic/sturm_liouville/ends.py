@@ -1,4 +1,4 @@
-"""How the solution of an end begins: with values at the end, with a Frobenius series, or between two values at a cut.
+"""The initial data of the solution of an end: values at the end, a Frobenius series, or bounds at a cut.
 
 At a regular end the condition gives Y and Y'.  At a regular singular one, where t^2 (Q - E W) = G(t) is analytic in the
 distance t, the principal solution is t^s (1 + a_1 t + ...) with s = 1/2 + sqrt(1/4 + G(0)).  At all others Q - E W is
@@ -26,7 +26,7 @@ from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, 
 
 Expr = Any
 State = tuple[Any, Any]
-#: Doublings of the distance at which the potential is looked at.
+#: Doublings of the distance at which the potential is sampled.
 _REACH = 60
 
 
@@ -129,7 +129,7 @@ class CutEnd:
         return plain(Q, self.tau), plain(W, self.tau)
 
     def position(self, span: Span, digits: int) -> Any:
-        """Where the solution begins for all E <= top; beyond, half of the digits are lost twice over."""
+        """The cut for all E <= span.high; the solution decays beyond it by more than half of the digits, twice over."""
         return self._cut(span.high, digits)
 
     @kept

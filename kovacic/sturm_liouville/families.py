@@ -130,7 +130,7 @@ def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Wa
 
 
 def _numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tuple[int, Expr] | None:
-    """The first n, and k T; None where the equation for k is transcendental."""
+    """The first n, and k T; None if the equation for k is transcendental."""
     kinds = [None if A != 0 and B != 0 else bool(B == 0) for A, B in (left, right)]
     if None in kinds:
         return None

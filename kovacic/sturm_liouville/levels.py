@@ -1,4 +1,4 @@
-"""What `kovacic.eigenvalues` returns."""
+"""The results of `kovacic.eigenvalues`."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Eigenvalues(Sequence[Level]):
     parameter : str
         The name of the eigenvalue.
     notes : tuple of str
-        What was assumed, and what isn't proven.
+        Assumptions, and claims that aren't proven.
 
     Examples
     --------

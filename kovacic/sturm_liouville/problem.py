@@ -118,7 +118,7 @@ def kept(method: Callable[..., _T]) -> Callable[..., _T]:
 
 
 def ball(e: Expr) -> Any:
-    """The value of a constant, a real ball.  Raises `InputError` where it isn't known to be real."""
+    """The value of a constant, a real ball.  Raises `InputError` unless it is known to be real."""
     found = BallEvaluator({})(e)
     if not found.imag.is_zero():
         raise InputError(f"{e} isn't known to be real")

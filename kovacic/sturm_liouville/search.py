@@ -62,7 +62,7 @@ class Searcher:
         self._known: dict[tuple[Any, bool], Count] = {}
 
     def at(self, E: Any, *, high: bool = False, raises: int = _RAISES) -> Count:
-        """Raises `_Near` where E is too near to an eigenvalue."""
+        """The count at E; raises `_Near` if E is too near to an eigenvalue."""
         key = (E.man_exp(), high)
         if key not in self._known:
             self._known[key] = self._counted(E, high, raises)
@@ -94,7 +94,7 @@ class Searcher:
         return below, above
 
     def between(self, a: Any, b: Any) -> Count:
-        """N somewhere near the middle of an interval.  Raises `LimitExceeded` where it can't be counted anywhere."""
+        """N somewhere near the middle of an interval.  Raises `LimitExceeded` if it can't be counted at any of the shares."""
         for share in _SHARES:
             try:
                 return self.at(self._rounded(a + (b - a) * share, b - a))
@@ -214,7 +214,7 @@ class LevelSearch:
     """The lowest levels of a problem, one after the other.
 
     `counters(span, digits)` makes a counter; `threshold` is the bottom of the essential spectrum, or None, and
-    `total()` the number of levels below it, or None where that isn't known.
+    `total()` the number of levels below it, or None if that isn't known.
     """
 
     def __init__(

@@ -38,7 +38,7 @@ class Eigenproblem:
 
     @cached_property
     def threshold(self) -> Any:
-        """The bottom of the essential spectrum; None where there is none."""
+        """The bottom of the essential spectrum; None if there is none."""
         if self.problem.wrap:
             return None
         finite = [end.threshold for end in self.ends if end.threshold is not None]
@@ -46,7 +46,7 @@ class Eigenproblem:
 
     @cached_property
     def search(self) -> LevelSearch:
-        """Where the levels come from."""
+        """The search for the levels."""
         if self.problem.wrap:
             return LevelSearch(partial(PeriodicCounter, self.problem), self._scale(), separations=_PERIODIC_SEPARATIONS)
         threshold = None if self.threshold is None else ball(self.threshold)
@@ -66,7 +66,7 @@ class Eigenproblem:
             return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
 
     def _total(self) -> int | None:
-        """The number of levels below the essential spectrum; None where it isn't proven."""
+        """The number of levels below the essential spectrum; None if it isn't proven."""
         ends = [at_threshold(end, self.threshold) for end in self.ends]
         first, second = ends
         if first is None or second is None:
@@ -85,7 +85,7 @@ class Eigenproblem:
             yield found
 
     def answer(self, reason: str = "") -> Eigenvalues:
-        """The levels found so far, what is known about them, and the reason why there aren't more."""
+        """The levels found so far, with notes, and the reason why there aren't more."""
         found = tuple(self._found)
         if reason:
             return Eigenvalues(found, False, self.parameter, (*self.notes, reason), self.problem)
@@ -93,7 +93,7 @@ class Eigenproblem:
         return Eigenvalues(found, self.search.complete, self.parameter, notes, self.problem)
 
     def _said(self) -> Iterator[str]:
-        """What was assumed, and what isn't proven."""
+        """Notes on assumptions, and on claims that aren't proven."""
         if not self.problem.wrap:
             x = self.problem.x
             for end, wish in zip(self.ends, self.problem.conditions, strict=True):

@@ -131,7 +131,7 @@ def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]
     claimed = [exclusion.structure for exclusion in decision.exclusions]
     required = [*Structure]
     if decision.status is not Status.NONE_EXISTS:
-        # Those before the structure that was found; before a limit was reached, as many as there are.
+        # The structures before the one found; for an undecided equation, as many as it claims.
         found = decision.status is Status.LIOUVILLIAN and decision.structure
         required = required[: required.index(found) if found else len(claimed)]
     checks = []

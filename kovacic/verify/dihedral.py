@@ -1,4 +1,4 @@
-"""Is y1/y2 algebraic on its curve?  A function in pieces decides, however it was found.
+"""Decides whether y1/y2 is algebraic on its curve, by a function in pieces, however it was found.
 
 For an imprimitive equation, H = (y1'/y1 - y2'/y2)^2 is rational, and u = y1/y2 = exp(int sqrt(H) dx).  Let y^2 = h be the
 curve of sqrt(H), f = prod (a_i + b_i y)^(e_i), N_i = a_i^2 - h b_i^2 and R_i dx/y the odd part of d log(a_i + b_i y),

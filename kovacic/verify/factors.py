@@ -19,7 +19,7 @@ from kovacic.limits import check_time
 
 
 def factors_of(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """The monic irreducible factors with their multiplicities; raises `VerificationFailed` where the field found other ones."""
+    """The monic irreducible factors with their multiplicities; raises `VerificationFailed` if the field found other ones."""
     if polynomial.degree <= 0:
         return []
     factors = polynomial.field.factor(polynomial)

@@ -62,8 +62,8 @@ def dimension_modulo(
 ) -> int:
     """The dimension modulo a prime of the forms of degree m whose quotient by prod p^v is a polynomial of at most this degree.
 
-    They are expanded at the integer `at`, to some terms more than there are unknowns.  Raises `BadPrimeError` where the point
-    is singular, or the series would be longer than the prime allows.
+    They are expanded at the integer `at`, to some terms more than there are unknowns.  Raises `BadPrimeError` if the point is
+    singular, or the series would be longer than the prime allows.
     """
     count = degree + m + 1 + _MORE_EQUATIONS
     bottom = translated(h.keeping_degree(S.den), at)

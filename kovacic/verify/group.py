@@ -25,7 +25,7 @@ from kovacic.verify.torsion import order_holds
 #: The name of a family, as in `kovacic.galois.Kind`, and its parameter.
 _Named = tuple[str, int | None]
 
-#: The order, None where it is infinite, and the dimension of a group without n; |SL(2,3)| = 3 (9 - 1), |SL(2,5)| = 5 (25 - 1).
+#: The order, None for infinite, and the dimension of a group without n; |SL(2,3)| = 3 (9 - 1), |SL(2,5)| = 5 (25 - 1).
 _SIZES: dict[str, tuple[int | None, int | None]] = {
     "tetrahedral": (24, 0),
     "octahedral": (48, 0),
@@ -111,7 +111,7 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
 
 @dataclass(frozen=True)
 class FormCurve:
-    """What the rules need of z^2 = g, g = f^2 for the form f = y1 y2, and eta = dx/z up to a constant, y1/y2 = exp(int eta).
+    """The local data of z^2 = g, g = f^2 for the form f = y1 y2, and eta = dx/z up to a constant, y1/y2 = exp(int eta).
 
     Local data in characteristic 0 only; the arithmetic of classes on such a curve modulo a prime is `torsion.Curve`.
 

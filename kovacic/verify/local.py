@@ -163,7 +163,7 @@ def _expansion_near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Po
 
 @dataclass(frozen=True, eq=False)
 class Expansions:
-    """What the points at some factors of the denominator, with these orders, have in common.
+    """Shared by the points at some factors of the denominator, with these orders.
 
     `_expansion_near` is computed for the first one alone, which is often enough, and for many others together.  A claim at
     irregular points, where there are many digits, may need one of them, or all.

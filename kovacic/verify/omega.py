@@ -64,7 +64,7 @@ def chart(place: Point, points: list[Point], h: Homomorphism, root: int) -> Char
 def no_expansion_is_rational(at: Chart, counts: ZeroCounts) -> bool:
     """True if no expansion that omega can have there is that of a rational function with a possible number of zeros.
 
-    Raises `BadPrimeError` where the prime is too small for the series, or changes the equation.
+    Raises `BadPrimeError` if the prime is too small for the series, or changes the equation.
     """
     bounds = counts.by_exponent(at.place)
     for start in first_terms(at):

@@ -41,7 +41,7 @@ class Homomorphism(ABC):
 
     @abstractmethod
     def __call__(self, polynomial: Any) -> Any:
-        """The polynomial over F_p.  Raises `BadPrimeError` where a coefficient has no image."""
+        """The polynomial over F_p.  Raises `BadPrimeError` if a coefficient has no image."""
 
     def keeping_degree(self, polynomial: Any) -> Any:
         """The polynomial over F_p, where it has the same degree; else raises `BadPrimeError`."""

@@ -1,4 +1,4 @@
-"""The residues of sqrt(S) at unramified irregular points: what tells the exponents there apart.
+"""The residues of sqrt(S) at unramified irregular points, by which the exponents there differ.
 
 For S = N/(p^(2 nu) q), p irreducible over K, the solutions at a root theta of p have the exponents nu/2 +- r with r the residue
 of sqrt(S) dx (Kovacic's b/(2a)), and
@@ -65,7 +65,7 @@ def _value_modulo(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
 def residue(H: Poly, p: Poly, nu: int) -> Poly:
     """The residue of H/p^nu at the class of x in K[x]/p, by Hermite's reduction of the highest powers of p.
 
-    B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1: what a digit of H leaves behind is carried to the next.
+    B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1: the remainder of a digit of H is carried to the next.
     """
     if p.degree == 1:  # all digits are constants, and the last one is the residue
         digits = H(p.field.poly([-p[0], 1])) if p[0] else H

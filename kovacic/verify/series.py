@@ -1,4 +1,4 @@
-"""Power series modulo a prime, in the plainest way: what the negative claims are recomputed with.
+"""Power series modulo a prime, in the plainest way, for recomputing the negative claims.
 
 A series to `count` terms is an `nmod_poly` of degree below `count`.
 """
@@ -47,8 +47,8 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     """u = 1 + O(t) with second u'' + first u' + zeroth u = 0 to `count` terms, where second(0) = 0.
 
     The coefficient of t^(j-1) says what u_j is, term after term, as long as the indicial factor j ((j - 1) second_1 + first_0)
-    isn't 0.  What the terms of earlier blocks leave of the equation is found by multiplication.
-    Raises `BadPrimeError` where an indicial factor is 0 modulo the prime.
+    isn't 0.  The share of the terms of earlier blocks is found by multiplication.
+    Raises `BadPrimeError` if an indicial factor is 0 modulo the prime.
     """
     p = second.modulus()
     # The coefficients from t^2, t^1 and t^0 on, as many as a block needs: u_k gets those of t^(j - k) in equation number j.

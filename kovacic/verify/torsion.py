@@ -58,7 +58,7 @@ class Differential(NamedTuple):
 
 
 def _differential(H: RatFunc, homomorphism: Homomorphism) -> Differential:
-    """eta modulo p; raises `BadPrimeError` where zeros or poles meet."""
+    """eta modulo p; raises `BadPrimeError` if zeros or poles meet."""
     num, den = (homomorphism.keeping_degree(f) for f in (H.num, H.den))
     p = num.modulus()
     r = next((r for r in range(p) if fmpz(int(num(r)) * int(den(r))).jacobi(p) == -1), None)  # where H is no square

@@ -8,7 +8,7 @@ There are two exponents at a point of the order k > 0, A/2 plus or minus half th
 A = k/2 for even k > 2.  The difference is Delta or, at an irregular point, twice the residue of sqrt(S) dx.  Which of the two
 belongs to y isn't known, hence the numbers that are possible.
 
-The roots of an irreducible factor p aren't told apart: what is known is the square of the difference at "the" root, the class
+The roots of an irreducible factor p aren't told apart: only the square of the difference is known, at "the" root, the class
 of x in K[x]/p.  But at all of them y has the "same" exponent.  For an automorphism that leaves the elements of K alone, and
 moves one root to another, leaves omega alone, whose coefficients are in K; so it moves the residue of omega at the one root to
 that at the other.  These residues are thus the values at the roots of one element of K[x]/p, and so is the difference.  If its
@@ -148,8 +148,8 @@ def is_no_square(element: Poly, p: Poly) -> bool:
     """True if an element of K[x]/p is no square, because its norm or its value at a simple root of p isn't one mod a prime.
 
     The norm costs least, but that of a rational number, for instance, is a square for every even degree of p.  Roots are
-    looked for among so many primes that one is there as a rule; where none is found, or an element happens to be a square
-    modulo all of them, nothing is proven.
+    sought among enough primes for one to be there as a rule; if none is found, or an element happens to be a square modulo
+    all of them, nothing is proven.
     """
     if element.degree <= 0 and p.field.sqrt(element) is not None:  # which spares the tests
         return False

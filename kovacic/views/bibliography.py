@@ -48,7 +48,7 @@ def references(answer: Answer) -> tuple[Reference, ...]:
         used.append("SU93")
         if was_computed(derived.closed_form, answer):
             used.append("HW05")
-    # Citing computes nothing: a group that nobody asked for isn't part of what the answer rests on.
+    # Citing computes nothing: the answer doesn't rest on a group that wasn't computed.
     group = derived.group(answer) if was_computed(derived.group, answer) else None
     if group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST"):
         used += ["Dav81", "Can87"]

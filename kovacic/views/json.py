@@ -6,9 +6,9 @@
      "verified": true, "proof": {...}, "notices": [], "seconds": 0.001}
 
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
-"1".  Those of degree 6 and 12 are null unless they are asked for: they follow from the semi-invariant by the recurrence of
+"1".  Those of degree 6 and 12 are null unless requested: they follow from the semi-invariant by the recurrence of
 `kovacic.verify.identity`, and would be most of the answer.
-`proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
+`proof` has the data for a check beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
 rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
 `group`, on request, has the name, the order, and the family of the group with its parameter n; on a curve of positive genus
 also the function, in pieces, that shows whether it is finite, or the orders modulo primes that show an infinite one.
@@ -57,7 +57,7 @@ from kovacic.writing.escaped import json_line, strict_json
 from kovacic.writing.formula import Formulas
 
 SCHEMA = 1
-#: Those of an equation a y'' + b y' + c y = f.
+#: The coefficients of an equation a y'' + b y' + c y = f.
 _COEFFICIENTS = ("a", "b", "c", "f")
 
 #: The degrees of omega from which on the coefficients follow from the semi-invariant.
@@ -146,7 +146,7 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
 
 
 def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
-    """What a check needs in addition to the polynomial of omega."""
+    """The data for a check in addition to the polynomial of omega."""
     structure = None if decision.structure is None else decision.structure.value
     invariant = None if decision.invariant is None else _form_dict(decision.invariant, names)
     semi_invariant = None
@@ -230,7 +230,7 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
 
 
 def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
-    """The input.  Raises `ValueError` where S, the equation or the gauge aren't those of the data."""
+    """The input.  Raises `ValueError` unless S, the equation and the gauge are those of the data."""
     change = (data.get("equation") or {}).get("change") or {}
     given = change.get("variable", variable)
     parameters = (data.get("field") or {}).get("parameters") or ()
@@ -246,7 +246,7 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
 
 
 def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
-    """What is claimed of S, with its proof; nothing is verified."""
+    """The claim about S, with its proof; nothing is verified."""
     proof = data["proof"]
     has_omega = data["riccati"] is not None
     has_form = proof["semi_invariant"] is not None
@@ -313,7 +313,7 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
 
 
 def _check_normal_form(answer: Answer) -> None:
-    """Raises `ValueError` where a P isn't monic, or D isn't the product of the factors to half the orders of the poles."""
+    """Raise `ValueError` unless P is monic and D the product of the factors to half the orders of the poles."""
     form = answer.decision.semi_invariant
     riccati = answer.decision.riccati
     field = answer.S.field
@@ -328,7 +328,7 @@ def _check_normal_form(answer: Answer) -> None:
 
 
 def _check_invariant(answer: Answer) -> None:
-    """Raises `ValueError` where P of the rational form isn't monic, or one of degree 2 isn't that of omega."""
+    """Raise `ValueError` unless P of the rational form is monic, and a form of degree 2 is that of omega."""
     F = answer.decision.invariant
     riccati = answer.decision.riccati
     if F is None or riccati is None:
@@ -346,7 +346,7 @@ def _check_invariant(answer: Answer) -> None:
 
 
 def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
-    """Raises `ValueError` where the group, computed and verified anew, is another one; its evidence isn't needed for that."""
+    """Raise `ValueError` unless the group, computed and verified anew, is the same; the recorded evidence isn't needed."""
     if data is None:
         return
     found = group_dict(answer)
@@ -359,7 +359,7 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
 
 
 def _check_solutions(answer: Answer, texts: Any) -> None:
-    """Raises `ValueError` where the solutions are neither those that are computed anew nor others of the same equation."""
+    """Raise `ValueError` unless the solutions are those computed anew, or others of the same equation."""
     if texts is None:
         return
     found = _solutions(answer)
@@ -384,7 +384,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
 
 
 def _check_given_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
-    """Raises `ValueError` where the equation and the gauge aren't those that were read."""
+    """Raise `ValueError` unless the equation and the gauge are those that were read."""
     if equation is None:
         raise ValueError("the answer has an equation or a gauge, but S alone was given")
     reader = _Reader.over(equation.a.field, variable)
@@ -398,7 +398,7 @@ def _check_given_equation(data: Mapping[str, Any], equation: Equation | None, va
 
 
 def _given_equation(equation: Equation | None) -> dict[str, Any] | None:
-    """The equation as it was given; None if S alone was given."""
+    """The equation as given; None if S alone was given."""
     if equation is None:
         return None
     coefficients = {name: getattr(equation, name).to_str(equation.variable) for name in _COEFFICIENTS}
@@ -437,7 +437,7 @@ def _is_field(data: Mapping[str, Any] | None, field: Field) -> bool:
 
 @dataclass(frozen=True)
 class _Reader(WrittenReader):
-    """What `to_dict` wrote of a decision."""
+    """Reads the output of `to_dict` for a decision."""
 
     @classmethod
     def over(cls, field: Field, variable: str) -> _Reader:
@@ -451,7 +451,7 @@ class _Reader(WrittenReader):
         return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
 
     def extended(self, constants: Mapping[str, Any] | None) -> _Reader:
-        """A reader that knows omega's constant c, too.  Raises `ValueError` if K[c] is no field, where a gcd might not end."""
+        """A reader that also knows omega's constant c.  Raises `ValueError` if K[c] is no field: a gcd might not terminate."""
         if constants is None:
             return self
         symbol = constants["symbol"]
@@ -513,7 +513,7 @@ def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
 
 
 def _typed(data: Mapping[str, Any], key: str, *types: type) -> Any:
-    """The value of this key.  Raises `ValueError` where it has another type; a truth value isn't a number."""
+    """The value of this key.  Raises `ValueError` for another type; a truth value isn't a number."""
     value = data[key]
     is_unwanted_truth = isinstance(value, bool) and bool not in types
     if is_unwanted_truth or not isinstance(value, types):

@@ -1,7 +1,7 @@
 """Pictures of solutions: real and imaginary part over an interval of the real axis, with the singular points marked.
 
-What is drawn are midpoints of proven enclosures, as dense as the solution oscillates, and cubics between them that were
-compared with further values; the error band is drawn where it's visible at all.  Where an oscillation is too fine for the
+The curves are midpoints of proven enclosures, as dense as the solution oscillates, and cubics between them that were
+compared with further values; the error band is drawn where it is visible.  Where an oscillation is too fine for the
 picture, its envelope is drawn instead (`kovacic.doubles.curve`), and the legend says so.  Beyond a singular point on the
 axis the solution is the continuation through the upper half-plane.
 
@@ -70,7 +70,7 @@ _SEEN = 2e-3
 #: Beside a singular point, up to this share of the width, a solution may be as large as it likes without being drawn whole.
 _NEAR_SINGULAR = 0.05
 _NEAR_IRREGULAR = 0.2
-#: The axis is cut off where the largest value is more than this many times the size that is looked for: cosh isn't cut.
+#: The axis is cut off if the largest value is more than this many times the typical size: cosh isn't cut.
 _RANGE = 4
 
 
@@ -227,7 +227,7 @@ def plot(
     method : str
         "taylor" or "closed form"; by default the one that is faster for this equation.
     limits : Limits
-        What the work may cost.
+        Bounds on the work; by default those of `Limits()`.
 
     Returns
     -------
@@ -461,7 +461,7 @@ def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions
 def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
     """The first solution that isn't zero, and the first one that isn't a multiple of it, by values and slopes to 30 digits."""
     sizes = [abs(y) + abs(dy) for _, (y, dy) in solutions]
-    # What is smaller is what rounding leaves of an imaginary part.
+    # Anything smaller is the rounding error of an imaginary part.
     visible = [(one, size) for one, size in zip(solutions, sizes, strict=True) if size > 1e-25 * max(sizes)]
     first, first_size = visible[0]
     y1, dy1 = first[1]
@@ -530,10 +530,10 @@ class _DrawnPart:
             axes.fill_between(envelope.x, -size, size, color=colour, alpha=0.35, linewidth=0.8, label=said)
 
     def sizes(self, width: float) -> tuple[float, float]:
-        """The size that is looked for, and the largest value.
+        """The typical size, and the largest value.
 
-        A solution that oscillates is looked at for its extrema, another one for its values; none of them beside a singular
-        point, where they are as large as one comes near.
+        The typical size is the largest extremum of a solution that oscillates, or else its largest value, away from singular
+        points, near which values may be arbitrarily large.
         """
         pieces = []
         for arc in self.curve.arcs:

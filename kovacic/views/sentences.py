@@ -26,7 +26,7 @@ def formulas_of(answer: Answer | Parsed) -> Formulas:
 
 
 def equation_of(answer: Answer) -> Math:
-    """The equation as it was given."""
+    """The equation as given."""
     equation = answer.equation
     if equation is None:
         return normal_form(answer)

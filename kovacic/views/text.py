@@ -61,7 +61,7 @@ def render(
 ) -> Iterator[str]:
     """The lines: the equation, the verdict in words, the `solutions`, omega or its polynomial, and how it was verified.
 
-    Each line is yielded as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
+    Each line is yielded as soon as it is known: the verdict doesn't wait for the solutions.
     """
     yield style(_given_text(answer), "title")
     for notice in answer.notices:
@@ -99,7 +99,7 @@ def _indented(lines: Iterable[str]) -> Iterator[str]:
 
 
 def _how_verified(answer: Answer) -> str:
-    """What the kernel recomputed."""
+    """The claims that the kernel recomputed."""
     if answer.status is Status.NONE_EXISTS:
         return "every exclusion was recomputed by independent code"
     if answer.status is Status.UNDECIDED:

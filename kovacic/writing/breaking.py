@@ -2,7 +2,7 @@ r"""Long formulas in LaTeX, written so that TeX can break their lines.
 
 TeX breaks a formula in a paragraph after + and =, but not inside of \frac{}{}, \sqrt{}, \left( \right), a power or braces.
 Where one of these is wider than a line, it is written on the line: (x + 1)/(x - 1), (x + 1)^{1/2}, \exp(...), plain
-parentheses.  Everything narrower is left as it is.
+parentheses.  Everything narrower is unchanged.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ class _LineBreaker:
         return written
 
     def _construct(self, nodes: list[Node]) -> str:
-        """What belongs together: a command with its arguments, a group, or a token."""
+        """A construct on the line: a command with its arguments, a group, or a token."""
         first = nodes[0]
         if isinstance(first, list):
             return self.written(first) if _width(first) > self.most else _verbatim(nodes)

@@ -1,8 +1,8 @@
 """SymPy expressions as code of Mathematica, Maple and Julia: SymPy's printers, with our own names where theirs are wrong.
 
 Maple's elliptic integrals take the sine of the amplitude and the modulus k, m = k^2, where SymPy has the amplitude and m.
-Julia's functions are those of SpecialFunctions.jl, HypergeometricFunctions.jl (pFq) and Elliptic.jl.  What a language lacks, or
-has with another meaning (the branches of Maple's LegendreP are others), is refused.
+Julia's functions are those of SpecialFunctions.jl, HypergeometricFunctions.jl (pFq) and Elliptic.jl.  Functions that a language
+lacks, or has with another meaning (the branches of Maple's LegendreP are others), are refused.
 """
 
 from __future__ import annotations

@@ -116,7 +116,7 @@ def _markdown_table(rows: list[list[str]]) -> str:
 def _latex_table(rows: list[list[str]]) -> str:
     """A table with columns of their natural width, or with broken lines if together they would be wider than the page."""
     widths = [min(max(map(width, column)), _COLUMN) for column in zip(*rows, strict=True)]
-    #: Those of the columns in which lines are broken; 0 for the others.
+    # The widths of the columns in which lines are broken; 0 for the others.
     broken = [0.0] * len(widths)
     for k, w in enumerate(widths):
         if sum(widths) > _PAGE and w > _PAGE / 6:

@@ -22,7 +22,7 @@ _GREEK_LETTERS = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon "
     "phi chi psi omega"
 )
-# What has another form in LaTeX, in the order in which it is replaced.
+# Replacements for LaTeX, in this order.
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
     (re.compile(r"(?<![\\\w])[^\W\d]\w*"), lambda match: symbol(match[0])),
