@@ -15,12 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
 from math import lcm
 from typing import Any
 
 import sympy
 from sympy import atan, cos, exp, log, sin, tan
+from sympy.integrals.manualintegrate import find_substitutions
 
 from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
 from kovacic.general_solution.special_integrals import (
@@ -141,20 +141,6 @@ def _of_term(term: Expr, x: Expr) -> Expr | None:
 # ------------------------------------------------------------------------------------------------ changes of variable
 
 
-def _changed(inner: Expr, t: Expr, u: Expr, x: Expr) -> Expr | None:
-    """int inner dt at t = u; None where x is left in it, or the integral isn't known."""
-    if inner.has(x):
-        return None
-    return _at(u, t, _known(inner, t))
-
-
-def _at(u: Expr, t: Expr, found: Expr | None) -> Expr | None:
-    """An integral that was found in t, for t = u."""
-    if found is None:
-        return None
-    return found.subs(t, u)
-
-
 def _known(integrand: Expr, t: Expr) -> Expr | None:
     """As `antiderivative` in another variable: an `Integral` that stays would have that."""
     found = _by_rules(integrand, t)
@@ -173,146 +159,45 @@ def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
     return expression.replace(exp, power).subs(t, log(u))
 
 
-def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
-    """In t = log(x)."""
-    t = sympy.Dummy(real=True)
-    inner = prepared(term.subs(x, exp(t)) * exp(t))
-    if inner.has(log) or inner.has(x):
-        return None
-    found = _known(inner, t)
-    if found is None:
-        return None
-    return in_powers(found, t, x)
-
-
-def _index_within_functions(term: Expr, x: Expr) -> int:
-    """q for the root of x that stands within functions, or beside waves."""
-    arguments = [f.args[0] for f in term.atoms(sympy.Function)]
-    if term.has(sin, cos):
-        arguments = [term]
-    return lcm(*(_index_of_root(argument, x) for argument in arguments))
-
-
-def _in_roots_within_functions(term: Expr, x: Expr) -> Expr | None:
-    """In t with x = t^q."""
-    q = _index_within_functions(term, x)
-    t = sympy.Dummy(positive=True)
-    return _changed(_in_root(term, x, t, q), t, sympy.root(x, q), x)
-
-
-def _index_of_root(e: Expr, x: Expr) -> int:
-    """q, where x^(1/q) is the root of which all powers of x with rational exponents are powers."""
-    powers = [power for power in e.atoms(sympy.Pow) if power.base == x and power.exp.is_Rational]
-    return lcm(*(int(power.exp.q) for power in powers))
-
-
-def _in_root(integrand: Expr, x: Expr, t: Expr, q: int) -> Expr:
-    """The integrand for x = t^q, times dx/dt."""
-    return integrand.subs(x, t**q) * q * t ** (q - 1)
-
-
-def _in_roots_of_x(term: Expr, x: Expr) -> Expr | None:
-    """A rational function of t with x = t^q."""
-    q = _index_of_root(term, x)
-    t = sympy.Dummy(positive=True)
-    found = integral_of_fraction(sympy.cancel(_in_root(term, x, t, q)), t)
-    return _at(sympy.root(x, q), t, found)
-
-
-def _has_roots_beside_functions(term: Expr, x: Expr) -> bool:
-    return bool(_functions(term)) and any(base.has(x) for base in radicands(term))
-
-
-def _in_a_linear_argument(term: Expr, x: Expr) -> Expr | None:
-    """In u = a x + b, of which alone there are roots."""
-    bases = {base for base in radicands(term) if base.has(x)}
-    if len(bases) != 1:
-        return None
-    (line,) = bases
-    if not line.is_Add or not line.is_polynomial(x) or sympy.degree(line, x) != 1:
-        return None
-    u = sympy.Dummy()
-    slope = line.diff(x)
-    inner = term.subs(x, sympy.expand(x - (line - u) / slope)) / slope
-    return _changed(inner, u, line, x)
-
-
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
-    """In an argument u of a function, beside whose slope the term is one of u."""
+    """In u, beside whose slope the term is one of u: a function, an argument of one, or what SymPy proposes."""
     t = sympy.Dummy()
-    for u in sorted(_arguments_with_functions(term, x), key=str):
-        inner = (term / u.diff(x)).subs(u, t)
-        found = _changed(inner, t, u, x)
-        if found is not None:
-            return found
+    own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
+    proposed = [(u, 1, (term / u.diff(x)).subs(u, t)) for u in sorted(own, key=str) if u.has(x)]
+    for u, factor, inner in [*proposed, *find_substitutions(term, x, t)]:
+        if not inner.has(x) and not _leads_back(u, inner, t):
+            found = _known(factor * inner, t)
+            if found is not None:
+                return in_powers(found, t, u.args[0]) if isinstance(u, log) else found.subs(t, u)
     return None
 
 
-def _arguments_with_functions(term: Expr, x: Expr) -> set[Expr]:
-    """The arguments of functions of which x isn't the only part."""
-    arguments = {f.args[0] for f in term.atoms(sympy.Function)}
-    return {argument for argument in arguments if argument.has(x) and argument.has(exp, sin, cos, log)}
+def _leads_back(u: Expr, inner: Expr, t: Expr) -> bool:
+    """True for a change of variable whose inverse may come next: a power of x, or exp(x) where log(u) is left."""
+    if u.is_rational_function() or (u.is_Pow and not isinstance(u, exp)):
+        return True
+    return u.has(exp) and any(not (f.args[0] / t).has(t) for f in inner.atoms(log))
 
 
-def _has_exponentials(term: Expr, _: Expr) -> bool:
-    return bool(term.has(exp))
+def _has_roots_in_all_functions_by_parts(term: Expr, _: Expr) -> bool:
+    return all(radicands(f) for f in term.atoms(*_BY_PARTS))
 
 
-def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
-    """In u = exp(k x), for which x is written."""
-    term = sympy.expand(term)
-    slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
-    rates = {e: slope for e, slope in slopes.items() if not slope.has(x)}  # exp(sin(x)) isn't one of them
-    k = _rate_of_variable(term, rates)
-    if k is None:
+def _in_a_root(term: Expr, x: Expr) -> Expr | None:
+    """In t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
+    powers = [power for power in term.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
+    bases = {power.base for power in powers if power.base.has(x)}
+    if len(bases) != 1:
         return None
-    u = sympy.Dummy()
-    in_u = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
-    if in_u.has(x):
+    (line,) = bases
+    slope = line.diff(x)
+    if slope.has(x):
         return None
-    found = _in_one_exponential(prepared(in_u.xreplace({u: x})), x)
-    return _at(exp(k * x), x, found)
-
-
-def _rate_of_variable(term: Expr, rates: dict[Expr, Expr]) -> Expr | None:
-    """k, with polynomials in exp(k x) under roots and in logarithms if that can be; None where there is no common rate."""
-    k = _common_rate(list(rates.values()))
-    if k is None:
-        return None
-    inner: set[Expr] = set()
-    for argument in [*radicands(term), *(f.args[0] for f in term.atoms(log))]:
-        inner |= argument.atoms(exp)
-    powers = [rates[e] / k for e in inner if e in rates]
-    if powers and all(power.is_negative for power in powers):
-        return -k
-    return k
-
-
-def _in_one_exponential(integrand: Expr, u: Expr) -> Expr | None:
-    """The integral of what is written in u = exp(k x)."""
-    found = integral_of_fraction(integrand, u)
-    if found is not None:
-        return found
-    found = by_coefficients(integrand, u)
-    if found is not None:
-        return found
-    if integrand.has(log(u)):  # in t = log(u) exponentials would come back
-        return None
-    return _known(integrand, u)
-
-
-def _common_rate(rates: list[Expr]) -> Expr | None:
-    """k, of which all rates are integer multiples; None where there is none."""
-    if not rates or rates[0] == 0:
-        return None
-    ratios = [rate / rates[0] for rate in rates]
-    if not all(ratio.is_Rational for ratio in ratios):
-        return None
-    k = rates[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
-    # One u for all terms, or logarithms that cancel would stay.
-    if k.could_extract_minus_sign():
-        return -k
-    return k
+    q = lcm(*(int(power.exp.q) for power in powers if power.base == line))
+    t = sympy.Dummy(positive=True)
+    inner = term.subs(x, (t**q - line.subs(x, 0)) / slope) * q * t ** (q - 1) / slope
+    found = None if inner.has(x) else _known(inner, t)
+    return None if found is None else found.subs(t, sympy.root(line, q))
 
 
 def _has_waves(term: Expr, _: Expr) -> bool:
@@ -320,7 +205,11 @@ def _has_waves(term: Expr, _: Expr) -> bool:
 
 
 def _in_waves(term: Expr, x: Expr) -> Expr | None:
-    """In c, s or a tangent: the shortest result."""
+    """In c, s or a tangent, with exp(i u) = cos(u) + i sin(u): the shortest result."""
+    for e in term.atoms(exp):
+        angle = sympy.expand(e.args[0] / sympy.I)
+        if e.has(sympy.I) and not angle.has(sympy.I):
+            term = term.xreplace({e: cos(angle) + sympy.I * sin(angle)})
     found = []
     for change in wave_changes(term, x):
         integral = _rational_or_known(change.integrand, x)
@@ -337,84 +226,35 @@ def _rational_or_known(integrand: Expr, u: Expr) -> Expr | None:
     return _known(integrand, u)
 
 
-def _with_real_arguments(term: Expr, x: Expr) -> Expr | None:
-    """exp(i w x) as cos(w x) + i sin(w x)."""
-    waves = {}
-    for e in term.atoms(exp):
-        angle = sympy.expand(e.args[0] / sympy.I)
-        if e.args[0].has(sympy.I) and not angle.has(sympy.I):
-            waves[e] = cos(angle) + sympy.I * sin(angle)
-    if not waves:
-        return None
-    return _in_waves(term.xreplace(waves), x)
-
-
 # ------------------------------------------------------------------------------------------------------------ by parts
 
 
-@dataclass(frozen=True)
-class _Power:
-    """function^m with a natural number m."""
-
-    function: Expr
-    m: Expr
-
-
 def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these."""
-    powers = _natural_powers(inverse)
-    if not powers:
+    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these.
+
+    g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m.
+    """
+    powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(inverse)]
+    if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
+        return None
+    if isinstance(inverse, log) and g.is_rational_function(x):
+        found = _beside_logarithm(inverse, g, x)
+        if found is not None:
+            return found
+    G = _by_rules(g, x)
+    if G is None:
         return None
     if len(powers) == 1:
-        return _beside_one_power(powers[0], g, x)
-    G = _by_rules(g, x)
-    if G is None:
-        return None
-    return _with_integrated(powers, G, x)
-
-
-def _beside_one_power(power: _Power, g: Expr, x: Expr) -> Expr | None:
-    """The same for l^m, where g may be near l'."""
-    found = _of_one_function(power, g, x)
-    if found is not None:
-        return found
-    G = _by_rules(g, x)
-    if G is None:
-        return None
-    share = sympy.expand(G).coeff(power.function)
-    if share != 0 and not share.has(x):
-        return _with_share(power, share, g, x)
-    return _with_integrated([power], G, x)
-
-
-def _with_integrated(powers: list[_Power], G: Expr, x: Expr) -> Expr | None:
-    """G l - int G l' dx for the product l of the powers."""
+        ((function, m),) = powers
+        k = sympy.expand(G).coeff(function)
+        if k != 0 and not k.has(x):
+            rest = _by_parts(inverse, sympy.expand(g - k * function.diff(x)), x)
+            return None if rest is None else k * function ** (m + 1) / (m + 1) + rest
     if not _functions(G) <= _SIMPLE:
         return None
-    product = sympy.Mul(*(power.function**power.m for power in powers))
-    rates = [power.m * _slope(power.function, x) / power.function for power in powers]  # l'/l, by factors
-    rest = _by_rules(sympy.Add(*(rate * product * G for rate in rates)), x)
-    if rest is None:
-        return None
-    return sympy.expand(G * product) - rest
-
-
-def _natural_powers(inverse: Expr) -> list[_Power]:
-    """The factors of a product; none where an exponent isn't a natural number, and of 1."""
-    powers = [_Power(*factor.as_base_exp()) for factor in sympy.Mul.make_args(inverse)]
-    if inverse == 1 or not all(power.m.is_Integer and power.m > 0 for power in powers):
-        return []
-    return powers
-
-
-def _with_share(power: _Power, share: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int g l^m dx for g = k l' + H' with a constant share k: k l^(m + 1)/(m + 1) + int H' l^m dx."""
-    function = power.function
-    m = power.m
-    rest = _by_parts(function**m, sympy.expand(g - share * function.diff(x)), x)
-    if rest is None:
-        return None
-    return share * function ** (m + 1) / (m + 1) + rest
+    slopes = (m * _slope(function, x) * inverse / function * G for function, m in powers)
+    rest = _by_rules(sympy.Add(*slopes), x)
+    return None if rest is None else sympy.expand(G * inverse) - rest
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
@@ -425,31 +265,13 @@ def _slope(function: Expr, x: Expr) -> Expr:
     return sympy.powsimp(sympy.radsimp(slope))
 
 
-def _of_one_function(power: _Power, g: Expr, x: Expr) -> Expr | None:
-    """int l^m l' dx, and dilogarithms."""
-    function = power.function
-    m = power.m
-    ratio = sympy.cancel(g / function.diff(x))
-    if not ratio.has(x):
-        return ratio * function ** (m + 1) / (m + 1)
-    if function.func is not log or m != 1 or not g.is_rational_function(x):
-        return None
-    return _beside_logarithm(function, g, x)
-
-
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
     """int R log(u) dx, where a partial fraction of R has a dilogarithm; None where none has."""
-    known: dict[Expr, Expr | None] = {}
-    unknown = []
-    for fraction in sympy.Add.make_args(sympy.apart(g, x)):
-        known[fraction] = dilogarithm(logarithm.args[0], fraction, x)
-        if known[fraction] is None:
-            unknown.append(fraction)
-    if len(unknown) == len(known):
+    fractions = sympy.Add.make_args(sympy.apart(g, x))
+    known = {fraction: dilogarithm(logarithm.args[0], fraction, x) for fraction in fractions}
+    if set(known.values()) == {None}:
         return None
-    for fraction in unknown:
-        known[fraction] = _by_parts(logarithm, fraction, x)
-    return sum_of(known.values())
+    return sum_of(_by_parts(logarithm, f, x) if found is None else found for f, found in known.items())
 
 
 def _polynomial_factor(term: Expr, x: Expr) -> Expr:
@@ -528,16 +350,8 @@ def _only_wave_below(term: Expr) -> Expr | None:
 
 _RULES = (
     _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", lambda e, x: True, by_coefficients),
-    _Rule("int f(x, log(x)) dx = int f(exp(t), t) exp(t) dt", lambda e, x: e.has(log(x)), _in_logarithms),
-    _Rule(
-        "int f(x^(1/q)) dx = int f(t) q t^(q - 1) dt",
-        lambda e, x: _index_within_functions(e, x) > 1,
-        _in_roots_within_functions,
-    ),
-    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_arguments_with_functions(e, x)), _in_an_argument),
-    _Rule("int f(exp(k x)) dx = int f(u)/(k u) du", _has_exponentials, _in_exponentials),
     _Rule("int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent", _has_waves, _in_waves),
-    _Rule("the same with exp(i u) = cos(u) + i sin(u)", _has_exponentials, _with_real_arguments),
+    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_functions(e)), _in_an_argument),
     _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
     _Rule("int P sin(q) dx for quadratic q: Fresnel functions", _has_waves, fresnel),
     _Rule(
@@ -546,9 +360,8 @@ _RULES = (
         beside_waves,
     ),
     _Rule("int q + (a + b s)/c dx where the second part isn't elementary", _has_waves, _beside_tangents),
+    _Rule("int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)", _has_roots_in_all_functions_by_parts, _in_a_root),
     _Rule("int P g dx = P G - int P' G dx", _has_polynomial_beside_simple_functions, _powers_by_parts),
-    _Rule("int f(sqrt(u), u) dx for u = a x + b", _has_roots_beside_functions, _in_a_linear_argument),
     _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
     _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", lambda e, x: True, incomplete_gamma),
-    _Rule("int R(x^(1/q)) dx: partial fractions in t = x^(1/q)", lambda e, x: _index_of_root(e, x) > 1, _in_roots_of_x),
 )

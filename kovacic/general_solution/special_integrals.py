@@ -6,7 +6,7 @@ References: DLMF 7.2(iii), 8.2, 25.12.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 from sympy import cos, exp, log, sin
@@ -29,57 +29,27 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     -uppergamma(s + 1, x) -exp(2)*uppergamma(s + 1, x + 2)
     """
     K, rest = term.as_independent(x, as_Add=False)
-    bases = {factor.as_base_exp()[0] for factor in sympy.Mul.make_args(rest)} - {sympy.E}
-    line = next(iter(bases), x)
-    if len(bases) == 1 and line.is_Add and not (slope := line.diff(x)).has(x):  # (a x + b)^s, in t = a x + b
-        t = sympy.Dummy()
-        found = incomplete_gamma(
-            sympy.expand_power_exp(term.xreplace({line: t}).subs(x, (t - line + slope * x) / slope)), t
-        )
-        return None if found is None else found.subs(t, line) / slope
-    found = _power_and_exponent(rest, x)
-    if found is None:
+    powers = rest.as_powers_dict()
+    exponent = powers.pop(sympy.E, sympy.Integer(0))
+    if len(powers) > 1:
         return None
-    s = found.s
-    if found.exponent != 0:
-        return _of_power_and_exponential(K, s, found.exponent, x)
-    if s == -1:
+    line, s = next(iter(powers.items()), (x, sympy.Integer(0)))
+    slope = line.diff(x)
+    if slope.has(x) or slope == 0 or s.has(x):
         return None
-    return K * x ** (s + 1) / (s + 1)
-
-
-class _PowerTimesExponential(NamedTuple):
-    """x^s exp(exponent)."""
-
-    s: Expr
-    exponent: Expr
-
-
-def _power_and_exponent(product: Expr, x: Expr) -> _PowerTimesExponential | None:
-    """A product as a power of x times an exponential; None for another."""
-    s = sympy.Integer(0)
-    exponent = sympy.Integer(0)
-    for factor in sympy.Mul.make_args(product):
-        base, power = factor.as_base_exp()
-        if base is sympy.E:
-            exponent += power
-        elif base == x and not power.has(x):
-            s += power
-        else:
-            return None
-    return _PowerTimesExponential(s, exponent)
-
-
-def _of_power_and_exponential(K: Expr, s: Expr, exponent: Expr, x: Expr) -> Expr | None:
-    """The same for an exponent c x^m + d, d beside K; None for another exponent."""
-    d, single = sympy.expand(exponent).as_independent(x, as_Add=True)
-    c, power = single.as_independent(x, as_Add=False)
+    if exponent == 0:
+        return None if s == -1 else K * line ** (s + 1) / (s + 1) / slope
+    # exp(d + c t^m) for t = a x + b
+    t = sympy.Dummy()
+    d, single = sympy.expand(exponent.subs(x, (t - line.subs(x, 0)) / slope)).as_independent(t, as_Add=True)
+    c, power = single.as_independent(t, as_Add=False)
     base, m = power.as_base_exp()
-    if base != x or m.has(x) or m == 0:
+    if base != t or m.has(t) or m == 0:
         return None
-    z = -c * x**m
+    z = -c * t**m
     e = (s + 1) / m
-    return -K / m * exp(d) * sympy.powsimp(x ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
+    found = -K / (m * slope) * exp(d) * sympy.powsimp(t ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
+    return found.xreplace({t: line})
 
 
 def fresnel(term: Expr, x: Expr) -> Expr | None:
@@ -105,54 +75,34 @@ def _is_quadratic(q: Expr, x: Expr) -> bool:
 
 
 def _fresnel(term: Expr, x: Expr) -> Expr | None:
-    """The same for one wave; None for none, or more."""
+    """That of a polynomial times one wave; None for another term."""
     waves = term.atoms(sin, cos)
     if len(waves) != 1:
         return None
     (wave,) = waves
     P = term / wave
     (q,) = wave.args
-    is_polynomial = not P.has(wave) and P.is_polynomial(x)
-    if not is_polynomial or not _is_quadratic(q, x):
+    if P.has(wave) or not P.is_polynomial(x) or not _is_quadratic(q, x):
         return None
     a, b, c = sympy.Poly(q, x).all_coeffs()
     t = sympy.Dummy()
+    phase = c - b**2 / (4 * a)
+    if wave.func is cos:  # the sine, an angle of pi/2 later
+        phase += sympy.pi / 2
     coefficients = sympy.Poly(P.subs(x, t - b / (2 * a)), t).all_coeffs()[::-1]
-    integrals = _fresnel_integrals(a, c - b**2 / (4 * a), t, len(coefficients))
-    total = sympy.Add(*(k * one.of(wave) for k, one in zip(coefficients, integrals, strict=True)))
+    total = sympy.Add(*(k * _power_beside_sine(n, a, phase, t) for n, k in enumerate(coefficients)))
     return sympy.expand(total).subs(t, x + b / (2 * a))
 
 
-class _FresnelIntegrals(NamedTuple):
-    """int t^n sin(a t^2 + d) dt and int t^n cos(a t^2 + d) dt."""
-
-    sine: Expr
-    cosine: Expr
-
-    def of(self, wave: Expr) -> Expr:
-        """The one with a sine, or a cosine, as the wave is."""
-        if wave.func is sin:
-            return self.sine
-        return self.cosine
-
-
-def _fresnel_integrals(a: Expr, d: Expr, t: Expr, count: int) -> list[_FresnelIntegrals]:
-    """Those for n below `count`, by parts down to n = 0 or 1."""
-    angle = a * t**2 + d
-    unit = sympy.sqrt(sympy.pi / (2 * a))
-    z = t * sympy.sqrt(2 * a / sympy.pi)
-    S = unit * sympy.fresnels(z)
-    C = unit * sympy.fresnelc(z)
-    found = [_FresnelIntegrals(cos(d) * S + sin(d) * C, cos(d) * C - sin(d) * S)]
-    for n in range(1, count):
-        sine = -(t ** (n - 1)) * cos(angle) / (2 * a)
-        cosine = t ** (n - 1) * sin(angle) / (2 * a)
-        if n > 1:
-            before = found[n - 2]
-            sine += (n - 1) * before.cosine / (2 * a)
-            cosine -= (n - 1) * before.sine / (2 * a)
-        found.append(_FresnelIntegrals(sine, cosine))
-    return found
+def _power_beside_sine(n: int, a: Expr, d: Expr, t: Expr) -> Expr:
+    """int t^n sin(a t^2 + d) dt = -t^(n-1) cos(a t^2 + d)/(2 a) + (n - 1)/(2 a) int t^(n-2) sin(a t^2 + d + pi/2) dt."""
+    if n == 0:
+        z = t * sympy.sqrt(2 * a / sympy.pi)
+        return sympy.sqrt(sympy.pi / (2 * a)) * (cos(d) * sympy.fresnels(z) + sin(d) * sympy.fresnelc(z))
+    by_parts = -(t ** (n - 1)) * cos(a * t**2 + d) / (2 * a)
+    if n == 1:
+        return by_parts
+    return by_parts + (n - 1) / (2 * a) * _power_beside_sine(n - 2, a, d + sympy.pi / 2, t)
 
 
 def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:

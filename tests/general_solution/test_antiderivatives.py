@@ -44,7 +44,7 @@ def integrands(count: int) -> Iterator[Any]:
         yield from sympy.Add.make_args(whole)
 
 
-@parametrize("number", range(len(antiderivatives._RULES)), ordinary=0, long=16)
+@parametrize("number", range(len(antiderivatives._RULES)), ordinary=0, long=11)
 def test_each_rule_alone_finds_antiderivatives(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     rule = antiderivatives._RULES[number]
     monkeypatch.setattr(antiderivatives, "_RULES", (rule,))
@@ -66,8 +66,7 @@ def test_powers_of_two_lines_have_no_incomplete_gamma_function() -> None:
     assert incomplete_gamma(sqrt(x) / (x + 1), x) is None
 
 
-def test_an_exponential_of_a_wave_is_no_power_of_another(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_exponential_of_a_wave_is_no_power_of_another() -> None:
     """exp(sin(x)) isn't u^cos(x) with u = exp(x)."""
-    (rule,) = (rule for rule in antiderivatives._RULES if rule.claim.startswith("int f(exp(k x)) dx"))
-    monkeypatch.setattr(antiderivatives, "_RULES", (rule,))
-    assert antiderivatives.antiderivative(exp(sin(x)) * cos(x), x) is None
+    assert antiderivatives.antiderivative(exp(sin(x)) * cos(x), x) == exp(sin(x))
+    assert antiderivatives.antiderivative(exp(sin(x)), x) is None
