@@ -239,6 +239,8 @@ def _several(text: str, func: Any, ics: Any, parameters: Sequence[str]) -> tuple
     if len(paste.scans("equation")) < 2:
         return text, func, ics
     reading = read_equations(paste, names=declared(parameters))
+    for guess in reading.guesses:
+        warn_user(guess)
     return list(reading.equations), func or list(reading.functions), ics or dict(reading.conditions)
 
 

@@ -301,10 +301,7 @@ def _read_text(text: str | Paste, sought: _Sought, var: str | None, limits: Limi
     variable = equation.variable
     if equation.change is not None:
         variable = equation.change.variable
-    guesses = parsed.guesses
-    if "i" in parameters_of(equation.S.field) and "i" not in names:
-        guesses = (*guesses, "i is taken as a parameter: the imaginary unit is I")
-    return _Read(equation, sought.function(equation.unknown, variable), parsed.letters, guesses)
+    return _Read(equation, sought.function(equation.unknown, variable), parsed.letters, parsed.guesses)
 
 
 def _only_function(eq: Expr) -> Expr:

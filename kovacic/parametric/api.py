@@ -100,7 +100,7 @@ def conditions_of(
 
 def _notices(parsed: Parsed, constant: ParameterPoint) -> tuple[str, ...]:
     """What was noticed at reading, with the constant's own name among the parameters."""
-    notices = [notice for notice in parsed.notices if "parameter" not in notice]
+    notices = [notice for notice in parsed.notices if notice in parsed.guesses or "parameter" not in notice]
     if isinstance(constant.field, AlgebraicField):
         name = rf"\b{re.escape(constant.field.name)}\b"
         notices = [re.sub(name, constant.names[0], notice) for notice in notices]

@@ -62,7 +62,7 @@ class Vocabulary:
 
     def equation(self, tokens: Tokens) -> Named:
         """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
-        notes = _guesses(tokens)
+        guesses = _guesses(tokens)
         has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
         has_operator = OPERATOR not in self.declared and OPERATOR in tokens.names() and not has_other
         y = self.unknown or _primed(tokens, self.declared) or next(iter(differentiated(tokens)), None)
@@ -72,13 +72,13 @@ class Vocabulary:
         _check_stiffness(tokens, self.declared)
         x, why = (self.variable, None) if self.variable else _variable_of(tokens, y, self.declared)
         split, products = self._with_products(tokens, x, y)
-        notes += [*([why] if why else []), *products]
-        if "i" in split.names() and "i" not in (x, y, *self.declared):
-            notes.append("i is a parameter; the imaginary unit is I")
+        if why is not None and x not in (DEFAULT_VARIABLE, "t"):
+            guesses.append(why)
+        guesses += products
+        guesses += self._imaginary_unit(split, x, y)
         _check_two_exponents(split, y)
-        is_guess = why is not None and x not in (DEFAULT_VARIABLE, "t")
-        guesses = (*([why] if is_guess and why else []), *products)
-        return Named(_with_factors(split, x, y), x, y, tuple(notes), has_operator, guesses)
+        notes = [why] if why is not None and why not in guesses else []
+        return Named(_with_factors(split, x, y), x, y, (*notes, *guesses), has_operator, tuple(guesses))
 
     def S(self, tokens: Tokens) -> Named:
         """The names of S alone."""
@@ -88,10 +88,17 @@ class Vocabulary:
         split, products = self._with_products(tokens, x, "")
         if x != "e":
             _check_two_exponents(split, "")
-        notes = [*_guesses(tokens), *products]
+        guesses = [*_guesses(tokens), *products, *self._imaginary_unit(split, x, "")]
         if self.variable is None and x not in USUAL_VARIABLES and x in split.names():
-            notes.append(f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)")
-        return Named(_with_factors(split, x, ""), x, "", tuple(notes), guesses=tuple(products))
+            guesses.append(
+                f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)"
+            )
+        return Named(_with_factors(split, x, ""), x, "", tuple(guesses), guesses=tuple(guesses))
+
+    def _imaginary_unit(self, tokens: Tokens, x: str, y: str) -> list[str]:
+        """That i is a parameter, where it is one that wasn't declared."""
+        is_parameter = "i" in tokens.names() and "i" not in (x, y, *self.declared)
+        return ["i is a parameter; the imaginary unit is I"] if is_parameter else []
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""

@@ -33,7 +33,7 @@ class SystemReading:
     equations: tuple[Expr, ...]
     functions: tuple[Expr, ...]
     conditions: tuple[tuple[str, str], ...]
-    notes: tuple[str, ...]
+    guesses: tuple[str, ...]
 
 
 def read_equations(
@@ -46,17 +46,17 @@ def read_equations(
     if not unknowns:
         raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
     chosen = var or paste.variable or _variable(paste.equations, unknowns)
-    notes = dict.fromkeys(paste.notes)
+    guesses = dict.fromkeys(paste.notes)
     equations = []
     for tokens in paste.equations:
         named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).equation(tokens)
-        notes |= dict.fromkeys(named.notes)
+        guesses |= dict.fromkeys(named.guesses)
         reader = SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")
         reader.has_functions = True  # those that aren't differentiated
         equations.append(evaluate(named.tokens, reader))
     x = sympy.Symbol(chosen)
     functions = tuple(sympy.Function(name)(x) for name in unknowns)
-    return SystemReading(tuple(equations), functions, paste.conditions, tuple(notes))
+    return SystemReading(tuple(equations), functions, paste.conditions, tuple(guesses))
 
 
 def _variable(equations: Collection[Tokens], unknowns: Collection[str]) -> str:

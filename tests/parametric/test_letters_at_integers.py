@@ -161,7 +161,7 @@ def test_values_at_a_point_divide_by_the_wronskian_of_abel(a: str) -> None:
 
 
 def test_the_letter_i_is_a_parameter_and_said_to_be() -> None:
-    with pytest.warns(UserWarning, match="i is taken as a parameter: the imaginary unit is I"):
+    with pytest.warns(UserWarning, match="i is a parameter; the imaginary unit is I"):
         found = kovacic.dsolve("y'' = i*y").rhs
     assert found.has(sympy.Symbol("i"))
     assert kovacic.dsolve("y'' = i*y", parameters=["i"]).rhs == found
