@@ -15,8 +15,7 @@ Any other relation isn't used: what holds for generic values of letters holds fo
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import reduce
 from typing import Any, NamedTuple
 
@@ -37,8 +36,7 @@ _LONGEST = 30
 _LARGEST = 10**12
 
 
-@dataclass(frozen=True)
-class Lettered:
+class Lettered(NamedTuple):
     """`parts` in letters, and what these stand for in the symbols that were given."""
 
     parts: tuple[Expr, ...]
@@ -56,10 +54,12 @@ def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered 
     letters = _LetterTable(x, parts)
     found = tuple(parts)
     for _ in range(_MOST):
-        inner = _innermost(found[:coefficients], x)
+        # Beside pi, e becomes a letter, for the two numbers aren't known to be independent.
+        e_is_known = not any(part.has(sympy.pi) for part in found[:coefficients])
+        inner = {kernel for part in found[:coefficients] for kernel in _kernels(part, x, e_is_known=e_is_known)}
         if not inner:
             break
-        found = letters.replaced(found, inner)
+        found = letters.replaced(found, sorted(inner, key=sympy.default_sort_key))
     used = set().union(*(part.free_symbols for part in found))
     meanings = {letter: meaning for letter, meaning in letters.meanings.items() if letter in used}
     return Lettered(found, meanings) if found != tuple(parts) else None
@@ -74,91 +74,46 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
 
     Powers a^x are exponentials, whose rate is log(a).
     """
-    inner = sympy.Dummy()
-    shift = sympy.Dummy()
+    inner, shift = sympy.symbols("inner shift", cls=sympy.Dummy)
 
     def is_power_of_constant(e: Expr) -> bool:
-        if not e.is_Pow or e.base is sympy.E:
-            return False
-        return bool(e.exp.has(x) and not e.base.has(x))
+        return bool(e.is_Pow and e.base is not sympy.E and e.exp.has(x) and not e.base.has(x))
 
     def as_exponential(power: Expr) -> Expr:
         return sympy.exp(sympy.log(power.base) * power.exp, evaluate=False)
 
-    def is_shifted(e: Expr) -> bool:
-        if not isinstance(e, _EXPONENTIALS_AND_WAVES) or not e.has(x):
-            return False
-        return bool(_shifted(e.args[0], x).constant != 0)
-
     def apart(e: Expr) -> Expr:
-        argument = _shifted(e.args[0], x)
-        by_theorem = sympy.expand(e.func(inner + shift), trig=True)
-        return by_theorem.xreplace({inner: argument.rest, shift: argument.constant})
+        constant, rest = e.args[0].expand().as_independent(x, as_Add=True)
+        if constant == 0:
+            return e
+        return sympy.expand(e.func(inner + shift), trig=True).xreplace({inner: rest, shift: constant})
 
-    return part.replace(is_power_of_constant, as_exponential).replace(is_shifted, apart)
+    def has_line(e: Expr) -> bool:
+        return isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction) and bool(e.has(x))
 
-
-_EXPONENTIALS_AND_WAVES = (sympy.exp, TrigonometricFunction, HyperbolicFunction)
-
-
-class _Shifted(NamedTuple):
-    """constant + rest, where each term of the rest has x."""
-
-    constant: Expr
-    rest: Expr
-
-
-def _shifted(argument: Expr, x: Expr) -> _Shifted:
-    constant, rest = argument.expand().as_independent(x, as_Add=True)
-    return _Shifted(constant, rest)
-
-
-def _innermost(parts: Sequence[Expr], x: Expr) -> list[Expr]:
-    """The constants that are no rational functions of symbols and numbers, and have no such constants within them."""
-    # Beside pi, e becomes a letter, for the two numbers aren't known to be independent.
-    e_is_known = not any(part.has(sympy.pi) for part in parts)
-    found: set[Expr] = set()
-    for part in parts:
-        found.update(_kernels(part, x, e_is_known=e_is_known))
-    return sorted(found, key=sympy.default_sort_key)
+    return part.replace(is_power_of_constant, as_exponential).replace(has_line, apart)
 
 
 def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
-    """Of one expression; `e_is_known`: powers of Euler's number are none."""
+    """The constants in an expression that aren't rational in symbols and numbers, and have no such constants within them.
+
+    `e_is_known`: powers of Euler's number are none.
+    """
+    is_power_of_e = e is sympy.E or isinstance(e, sympy.exp)
     is_constant = not e.has(x)
-    if is_constant and _is_known(e, e_is_known=e_is_known):
+    if is_constant and (e.is_Symbol or e is sympy.pi or (e.is_number and not is_power_of_e and e.is_algebraic)):
         return []
-    inner: list[Expr] = []
-    for argument in e.args:
-        inner += _kernels(argument, x, e_is_known=e_is_known)
-    if inner or not is_constant or _is_rational(e):
-        return inner
-    return [e]
-
-
-def _is_known(e: Expr, *, e_is_known: bool) -> bool:
-    """Is a constant a symbol, an algebraic number, pi, or a power of Euler's number where that is known?"""
-    if e.is_Symbol or e is sympy.pi:
-        return True
-    if e is sympy.E or (isinstance(e, sympy.exp) and e.args[0].is_Integer):
-        return e_is_known
-    return bool(e.is_number and e.is_algebraic)
-
-
-def _is_rational(e: Expr) -> bool:
-    """Is it a rational function of its arguments?"""
-    if e is sympy.E or isinstance(e, sympy.exp):
-        return False
-    if e.is_Pow:
-        return bool(e.exp.is_Integer)
-    return bool(e.is_Add or e.is_Mul)
+    if e_is_known and (e is sympy.E or (is_power_of_e and e.args[0].is_Integer)):
+        return []
+    inner = [kernel for argument in e.args for kernel in _kernels(argument, x, e_is_known=e_is_known)]
+    is_integer_power = e.is_Pow and e.exp.is_Integer and not is_power_of_e
+    return inner if inner or not is_constant or e.is_Add or e.is_Mul or is_integer_power else [e]
 
 
 class _LetterTable:
     """Letters with what they stand for; new ones have names that nothing else has."""
 
     def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:
-        self.x = x
         symbols = set().union(*(part.free_symbols for part in parts))
         self.taken = {symbol.name for symbol in symbols} | {x.name, UNKNOWN, *NUMBER_NAMES, *FUNCTION_NAMES}
         self.meanings: Meanings = {}
@@ -177,117 +132,57 @@ class _LetterTable:
         return new
 
     def replaced(self, parts: Sequence[Expr], kernels: Sequence[Expr]) -> tuple[Expr, ...]:
-        """The expressions with letters in the place of these constants."""
-        depending = _depending(kernels)
+        """The expressions with letters in the place of these constants; first those that depend on others by these."""
+        by_others = {kernel: _by_others(kernel, kernels) for kernel in kernels}
+        depending = {kernel: others for kernel, others in by_others.items() if others != kernel}
         if depending:
             return tuple(part.xreplace(depending) for part in parts)
-        values: Meanings = {kernel: self.letter(kernel) for kernel in kernels if not _is_power(kernel)}
+        values: Meanings = {}
         symbols: Meanings = {}
-        for base, powers in _by_bases(kernels).items():
-            found = self._powers_of(base, powers, replaced=symbols)
-            values |= found.powers
-            symbols |= found.symbols
-        without_squares = [_without_squares(part, kernels) for part in parts]
-        return tuple(part.xreplace(values).xreplace(symbols) for part in without_squares)
+        by_bases: dict[Expr, list[Expr]] = {}
+        for kernel in kernels:
+            base = kernel.as_base_exp()[0]
+            if kernel.is_Pow or base is sympy.E:
+                by_bases.setdefault(base, []).append(kernel)
+            else:
+                values[kernel] = self.letter(kernel)
+        for base, powers in by_bases.items():
+            values |= self._powers_of(base, powers, symbols)
+        return tuple(_without_squares(part, kernels).xreplace(values).xreplace(symbols) for part in parts)
 
-    def _powers_of(self, base: Expr, powers: Sequence[Expr], *, replaced: Meanings) -> _PowersInLetters:
-        """base^(sum of r m), r rational and m monomials, by letters for base^(u m) with rational u.
+    def _powers_of(self, base: Expr, powers: Sequence[Expr], symbols: Meanings) -> Meanings:
+        """base^(sum of r m), r rational and m monomials, by letters for base^(u m), u the common divisor of the rates r.
 
-        A base that is linear in a symbol which isn't `replaced` yet becomes a power of the letter, and so does the symbol.
+        A base that is linear in a symbol which isn't among the `symbols` yet becomes a power of the letter, and so does this.
         """
-        one = sympy.S.One  # the monomial of base^r, and its rate in the base itself
+        one = sympy.S.One  # the monomial of base^r, and the rate of the base itself
         exponents = {power: _monomials(power) for power in powers}
-        rates = _rates(exponents.values())
-        line = None
-        if one in rates:
-            line = _solved_for(base, replaced)
+        rates: dict[Expr, list[Expr]] = {}
+        for terms in exponents.values():
+            for monomial, rate in terms.items():
+                rates.setdefault(monomial, []).append(rate)
+        line = _solved_for(base, symbols) if one in rates else None
         if line is not None:
             rates[one].append(one)
-        roots = {monomial: self._root_of(base, monomial, of_monomial) for monomial, of_monomial in rates.items()}
-        found = {
-            power: sympy.Mul(*(roots[monomial].power(rate) for monomial, rate in terms.items()))
-            for power, terms in exponents.items()
-        }
-        if line is None:
-            return _PowersInLetters(found, {})
-        return _PowersInLetters(found, {line.symbol: line.symbol_for(roots[one].power(one))})
+        units = {monomial: _unit(of_monomial) for monomial, of_monomial in rates.items()}
+        for monomial in units:
+            if monomial != 1 and not base.is_negative:
+                units[monomial] /= 2  # so that the root, which solutions often have, is rational
+        roots = {monomial: self.letter(base ** (unit * monomial)) for monomial, unit in units.items()}
 
-    def _root_of(self, base: Expr, monomial: Expr, rates: Sequence[Expr]) -> _RootLetter:
-        """A letter by which base^(r m) is rational for each of the rates r of a monomial m."""
-        unit = _unit(rates)
-        if monomial != 1 and not base.is_negative:
-            unit /= 2  # so that the root, which solutions often have, is rational
-        return _RootLetter(self.letter(base ** (unit * monomial)), unit)
+        def power(monomial: Expr, rate: Expr) -> Expr:
+            return roots[monomial] ** (rate / units[monomial])
 
-
-class _PowersInLetters(NamedTuple):
-    """What `powers` of one base are in letters, and the symbol that follows from a letter, if there is one."""
-
-    powers: Meanings
-    symbols: Meanings
-
-
-class _RootLetter(NamedTuple):
-    """A letter for base^(unit m)."""
-
-    letter: Expr
-    unit: Expr
-
-    def power(self, rate: Expr) -> Expr:
-        """base^(rate m)."""
-        return self.letter ** (rate / self.unit)
-
-
-class _LinearForm(NamedTuple):
-    """slope symbol + rest."""
-
-    symbol: Expr
-    slope: Expr
-    rest: Expr
-
-    def symbol_for(self, value: Expr) -> Expr:
-        """The symbol, if the form has this value."""
-        return sympy.expand((value - self.rest) / self.slope)
-
-
-def _depending(kernels: Sequence[Expr]) -> Meanings:
-    """The constants that depend on others in a known way, in terms of these."""
-    found: Meanings = {}
-    for kernel in kernels:
-        by_others = _by_others(kernel, kernels)
-        if by_others != kernel:
-            found[kernel] = by_others
-    return found
-
-
-def _is_power(kernel: Expr) -> bool:
-    """Is it a power of a constant, or of Euler's number?"""
-    return bool(kernel.is_Pow or kernel.as_base_exp()[0] is sympy.E)
-
-
-def _by_bases(kernels: Sequence[Expr]) -> dict[Expr, list[Expr]]:
-    """The powers among the constants, by their bases."""
-    found: dict[Expr, list[Expr]] = {}
-    for kernel in kernels:
-        if _is_power(kernel):
-            found.setdefault(kernel.as_base_exp()[0], []).append(kernel)
-    return found
-
-
-def _rates(exponents: Iterable[dict[Expr, Expr]]) -> dict[Expr, list[Expr]]:
-    """The rational factors of each monomial in the exponents."""
-    found: dict[Expr, list[Expr]] = {}
-    for terms in exponents:
-        for monomial, rate in terms.items():
-            found.setdefault(monomial, []).append(rate)
-    return found
+        if line is not None:  # slope symbol + rest = base
+            symbol, slope, rest = line
+            symbols[symbol] = sympy.expand((power(one, one) - rest) / slope)
+        return {each: sympy.Mul(*(power(m, rate) for m, rate in terms.items())) for each, terms in exponents.items()}
 
 
 def _monomials(power: Expr) -> dict[Expr, Expr]:
     """The exponent as a sum of rational numbers times monomials."""
-    exponent = power.as_base_exp()[1]
     found: dict[Expr, Expr] = {}
-    for term in sympy.Add.make_args(sympy.expand(exponent)):
+    for term in sympy.Add.make_args(sympy.expand(power.as_base_exp()[1])):
         rate, monomial = term.as_coeff_Mul(rational=True)
         found[monomial] = found.get(monomial, sympy.S.Zero) + rate
     return found
@@ -295,108 +190,62 @@ def _monomials(power: Expr) -> dict[Expr, Expr]:
 
 def _unit(rates: Sequence[Expr]) -> Expr:
     """The greatest common divisor of rational numbers, negative where they all are negative."""
-    divisor = reduce(sympy.gcd, rates)
-    are_negative = all(rate < 0 for rate in rates)
-    if are_negative and divisor > 0:
-        return -divisor
-    return divisor
+    divisor = abs(reduce(sympy.gcd, rates))
+    return -divisor if all(rate < 0 for rate in rates) else divisor
 
 
-def _solved_for(base: Expr, known: Meanings) -> _LinearForm | None:
-    """The base as a function of degree 1 of a symbol that isn't replaced yet; pi is one, too."""
+def _solved_for(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
+    """A symbol, not among the `known` ones, and m and r with base = m symbol + r; pi is one, too."""
     if base is sympy.pi:
-        return _LinearForm(base, slope=sympy.S.One, rest=sympy.S.Zero)
+        return base, sympy.S.One, sympy.S.Zero
     for symbol in sorted(base.free_symbols - known.keys(), key=str):
         slope = base.diff(symbol)
         rest = sympy.expand(base - slope * symbol)
         if slope.is_Rational and not rest.free_symbols & known.keys():
-            return _LinearForm(symbol, slope, rest)
+            return symbol, slope, rest
     return None
+
+
+#: The sine s and the cosine c of each kind of waves, with s^2 = sign (1 - c^2); the others are quotients of them.
+_WAVES = {TrigonometricFunction: (sympy.sin, sympy.cos, 1), HyperbolicFunction: (sympy.sinh, sympy.cosh, -1)}
+_QUOTIENTS = {"tan": (1, -1), "cot": (-1, 1), "sec": (0, -1), "csc": (-1, 0)}  # the exponents of s and c
 
 
 def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
     """A constant in terms of the others, where it depends on them in a known way; else itself."""
-    if isinstance(kernel, sympy.log):
-        return _log_by_primes(kernel)
-    if isinstance(kernel, TrigonometricFunction):
-        return _by_waves(kernel, _of_kind(kernels, TrigonometricFunction), _TRIGONOMETRIC)
-    if isinstance(kernel, HyperbolicFunction):
-        if _of_kind(kernels, sympy.exp):
-            return kernel.rewrite(sympy.exp)
-        return _by_waves(kernel, _of_kind(kernels, HyperbolicFunction), _HYPERBOLIC)
-    return _power_by_primes(kernel)
-
-
-def _of_kind(kernels: Sequence[Expr], kind: Any) -> list[Expr]:
-    return [kernel for kernel in kernels if isinstance(kernel, kind)]
-
-
-@dataclass(frozen=True)
-class _SineAndCosine:
-    """The functions s and c of which the other waves of their kind are quotients, with s^2 = sign (1 - c^2)."""
-
-    sine: Any
-    cosine: Any
-    sign: int
-
-    def quotient(self, wave: Expr) -> Expr:
-        """A wave that is neither, as a quotient of s and c of its argument."""
-        s = self.sine(*wave.args)
-        c = self.cosine(*wave.args)
-        forms = {"tan": s / c, "cot": c / s, "sec": 1 / c, "csc": 1 / s}
-        return forms[wave.func.__name__.removesuffix("h")]
-
-    def square_of_sine(self, argument: Expr) -> Expr:
-        return self.sign * (1 - self.cosine(argument) ** 2)
-
-
-_TRIGONOMETRIC = _SineAndCosine(sympy.sin, sympy.cos, 1)
-_HYPERBOLIC = _SineAndCosine(sympy.sinh, sympy.cosh, -1)
-
-
-def _log_by_primes(logarithm: Expr) -> Expr:
-    """log(12) = 2 log(2) + log(3); of what isn't a number that can be factored itself."""
-    argument = logarithm.args[0]
-    if argument.is_Rational and abs(argument) < _LARGEST:
-        return sympy.expand_log(logarithm, factor=True)
-    return logarithm
-
-
-def _power_by_primes(power: Expr) -> Expr:
-    """12^a = 2^(2 a) 3^a; of what isn't a number that can be factored itself."""
-    base, exponent = power.as_base_exp()
-    if base.is_Rational and 0 < base < _LARGEST and 1 / base < _LARGEST:
+    for kind in _WAVES:
+        if isinstance(kernel, kind):
+            has_exponentials = any(isinstance(other, sympy.exp) for other in kernels)
+            if kind is HyperbolicFunction and has_exponentials:
+                return kernel.rewrite(sympy.exp)
+            return _by_waves(kernel, [other for other in kernels if isinstance(other, kind)], kind)
+    if isinstance(kernel, sympy.log):  # log(12) = 2 log(2) + log(3)
+        number = kernel.args[0]
+        return sympy.expand_log(kernel, factor=True) if number.is_Rational and abs(number) < _LARGEST else kernel
+    base, exponent = kernel.as_base_exp()
+    if base.is_Rational and 1 / sympy.Integer(_LARGEST) < base < _LARGEST:  # 12^a = 2^(2 a) 3^a
         return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
-    return power
+    return kernel
 
 
-def _by_waves(kernel: Expr, waves: Sequence[Expr], pair: _SineAndCosine) -> Expr:
+def _by_waves(kernel: Expr, waves: Sequence[Expr], kind: Any) -> Expr:
     """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
+    sine, cosine, _ = _WAVES[kind]
     (argument,) = kernel.args
-    arguments = {wave.args[0] for wave in waves}
-    if any(argument != other and (argument / other).is_Integer for other in arguments):
+    if any(argument != wave.args[0] and (argument / wave.args[0]).is_Integer for wave in waves):
         return sympy.expand_trig(kernel)
     has_others_beside = any(wave.args == kernel.args and wave != kernel for wave in waves)
-    if not has_others_beside or isinstance(kernel, (pair.sine, pair.cosine)):
+    if not has_others_beside or isinstance(kernel, (sine, cosine)):
         return kernel
-    return pair.quotient(kernel)
+    of_sine, of_cosine = _QUOTIENTS[kernel.func.__name__.removesuffix("h")]
+    return sine(argument) ** of_sine * cosine(argument) ** of_cosine
 
 
 def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
     """With 1 - cos^2 in the place of sin^2, where sine and cosine of one argument are among the constants; and with sinh^2."""
-    squares = _squares_of_sines(kernels)
-    lower: Meanings = {}
-    for power in part.atoms(sympy.Pow):
-        if power.base in squares and power.exp.is_Integer:
-            lower[power] = power.base ** (power.exp % 2) * squares[power.base] ** (power.exp // 2)
-    return part.xreplace(lower)
-
-
-def _squares_of_sines(kernels: Sequence[Expr]) -> Meanings:
-    """By the sines beside whose cosine they stand, their squares."""
     squares: Meanings = {}
-    for pair in (_TRIGONOMETRIC, _HYPERBOLIC):
-        for wave in _of_kind(kernels, pair.sine):
-            if pair.cosine(*wave.args) in kernels:
-                squares[wave] = pair.square_of_sine(*wave.args)
-    return squares
+    for sine, cosine, sign in _WAVES.values():
+        of_kind = [kernel for kernel in kernels if kernel.func is sine and cosine(*kernel.args) in kernels]
+        squares |= {wave: sign * (1 - cosine(*wave.args) ** 2) for wave in of_kind}
+    powers = [power for power in part.atoms(sympy.Pow) if power.base in squares and power.exp.is_Integer]
+    return part.xreplace({p: p.base ** (p.exp % 2) * squares[p.base] ** (p.exp // 2) for p in powers})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -88,55 +87,18 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
     try:
         return read_with_numbers(source, limits)
     except NotLinear:
-        found = _multiplied_out(given, source, limits)
+        from kovacic.reading.functions import multiplied_out
+
+        found = multiplied_out(given, source, limits)
         if found is None:
             raise
         return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
     except NotRational as error:
         if not exponentials:
             raise
-        return _divided(source, limits) or _in_other_functions(source, error, limits)
+        from kovacic.reading.functions import in_other_functions
 
-
-def _in_other_functions(source: Source, error: NotRational, limits: Limits) -> Parsed:
-    """With coefficients in exp(k x), in powers of x, or with letters for constants: the first that succeeds.
-
-    Raises `NotRational` where none does: the reason why it isn't in exp(k x), where that is known, else the `error`.
-    """
-    from kovacic.reading.exponentials import in_exponentials
-    from kovacic.reading.powers import in_powers
-
-    reason = error
-    found = None
-    try:
-        found = in_exponentials(source, limits)
-    except NotRational as other:
-        if other.position is None:  # what isn't rational is the same
-            other.text = error.text
-            other.position = error.position
-            other.length = error.length
-        reason = other
-    found = found or in_powers(source, limits) or _in_letters(source, limits)
-    if found is None:
-        raise reason from None
-    return found
-
-
-def _multiplied_out(given: Any, source: Source, limits: Limits) -> Any:
-    """An equation without the unknown function in denominators; None where that doesn't make it linear."""
-    from sympy import Equality, Function, Symbol
-
-    from kovacic.reading.quotients import multiplied_out
-    from kovacic.reading.symbolic import expression_of, functions_in
-
-    if source.tokens is not None:
-        try:
-            return multiplied_out(expression_of(source, limits), Function(source.unknown)(Symbol(source.variable)))
-        except InputError:
-            return None
-    expression = given.lhs - given.rhs if isinstance(given, Equality) else given
-    unknown = [f for f in functions_in(expression) if f.func.__name__ == source.unknown and f.args[0].is_Symbol]
-    return multiplied_out(expression, unknown[0]) if unknown else None
+        return in_other_functions(source, limits, error)
 
 
 def _with_note(parsed: Parsed) -> Parsed:
@@ -151,64 +113,6 @@ def _with_note(parsed: Parsed) -> Parsed:
     y = parsed.equation.unknown
     said = f"{names} on the right-hand side is any function: what is said of {y} holds for the equation with 0 there"
     return replace(parsed, notices=(*parsed.notices, f"{said}; dsolve has solutions with it"))
-
-
-def _divided(source: Source, limits: Limits) -> Parsed | None:
-    """The equation over the coefficient of y'', where that is no rational function and cancels; None elsewhere."""
-    from sympy import Integer, Symbol, cancel
-
-    from kovacic.reading.parts import parts_of, source_of_parts
-
-    (a, *others), notices = parts_of(source, limits)
-    if a.is_rational_function(Symbol(source.variable)):
-        return None
-    with suppress(NotRational):
-        found = read_source(source_of_parts((Integer(1), *(cancel(part / a) for part in others)), source), limits)
-        return replace(found, notices=(*notices, *found.notices))
-    return None
-
-
-def _in_letters(source: Source, limits: Limits) -> Parsed | None:
-    """With letters for constants that aren't rational in symbols; None where that doesn't help.
-
-    Then with letters for those that are added to multiples of x in exponents and waves, too.
-    """
-    from sympy import Symbol
-
-    from kovacic.reading.letters import without_shifts
-    from kovacic.reading.parts import parts_of
-
-    parts, notices = parts_of(source, limits)
-    x = Symbol(source.variable)
-    found = _with_letters(parts, source, limits)
-    if found is None:
-        found = _with_letters([without_shifts(part, x) for part in parts[:3]] + [parts[3]], source, limits)
-    return found and replace(found, notices=(*notices, *found.notices))
-
-
-def _with_letters(parts: Sequence[Any], source: Source, limits: Limits) -> Parsed | None:
-    from sympy import Symbol
-
-    from kovacic.reading.exponentials import in_exponentials
-    from kovacic.reading.letters import with_letters
-    from kovacic.reading.parts import source_of_parts
-    from kovacic.reading.powers import in_powers
-
-    lettered = with_letters(parts, 3, Symbol(source.variable))
-    if lettered is None:
-        return None
-    written = source_of_parts(lettered.parts, source)
-    found = None
-    for reader in (read_with_numbers, in_exponentials):
-        if found is None:
-            with suppress(NotRational):
-                found = reader(written, limits)
-    found = found or in_powers(written, limits)
-    if found is None:
-        return None
-    meanings = {letter.name: meaning for letter, meaning in lettered.meanings.items()}
-    said = [f"{name} is {meaning}" for name, meaning in meanings.items() if name != str(meaning)]
-    return replace(found, notices=(*said, *found.notices), letters=(*found.letters, *meanings.items()))
 
 
 def read_coefficients(

@@ -1,0 +1,115 @@
+"""What is tried where coefficients aren't rational in x: another variable, letters for constants, a common denominator."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+import sympy
+from sympy.core.function import AppliedUndef
+
+from kovacic.equation import Parsed
+from kovacic.errors import InputError, NotRational
+from kovacic.limits import Limits
+from kovacic.reading.exponentials import in_exponentials
+from kovacic.reading.letters import with_letters, without_shifts
+from kovacic.reading.parts import parts_of, source_of_parts
+from kovacic.reading.powers import in_powers
+from kovacic.reading.source import Source, read_source, read_with_numbers
+from kovacic.reading.symbolic import expression_of, functions_in
+
+Expr = Any  # SymPy publishes no types
+_Reader = Callable[[Source, Limits], Parsed | None]
+
+
+def in_other_functions(source: Source, limits: Limits, error: NotRational) -> Parsed:
+    """The first reading that succeeds.  Raises `NotRational`: why it isn't in exp(k x), where that is known, or the `error`."""
+    found, reason = _first((_divided, in_exponentials, in_powers, _in_letters), source, limits)
+    if found is not None:
+        return found
+    if reason is None:
+        raise error
+    if reason.position is None:  # what isn't rational is the same
+        reason.text, reason.position, reason.length = error.text, error.position, error.length
+    raise reason from None
+
+
+def _first(readers: Sequence[_Reader], source: Source, limits: Limits) -> tuple[Parsed | None, NotRational | None]:
+    """What the first reader finds that finds anything; else the first reason that was given."""
+    reason = None
+    for reader in readers:
+        try:
+            found = reader(source, limits)
+        except NotRational as error:
+            reason = reason or error
+        else:
+            if found is not None:
+                return found, None
+    return None, reason
+
+
+def _divided(source: Source, limits: Limits) -> Parsed | None:
+    """The equation over the coefficient of y'', where that is no rational function and cancels; None elsewhere."""
+    (a, *others), notices = parts_of(source, limits)
+    if a.is_rational_function(sympy.Symbol(source.variable)):
+        return None
+    monic = (sympy.Integer(1), *(sympy.cancel(part / a) for part in others))
+    with suppress(NotRational):
+        found = read_source(source_of_parts(monic, source), limits)
+        return replace(found, notices=(*notices, *found.notices))
+    return None
+
+
+def _in_letters(source: Source, limits: Limits) -> Parsed | None:
+    """With letters for constants that aren't rational in symbols; None where that doesn't help.
+
+    Then with letters for those that are added to multiples of x in exponents and waves, too.
+    """
+    parts, notices = parts_of(source, limits)
+    x = sympy.Symbol(source.variable)
+    for given in (parts, [*(without_shifts(part, x) for part in parts[:3]), parts[3]]):
+        lettered = with_letters(given, 3, x)
+        if lettered is None:
+            continue
+        written = source_of_parts(lettered.parts, source)
+        found, _ = _first((read_with_numbers, in_exponentials, in_powers), written, limits)
+        if found is not None:
+            meanings = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
+            said = [f"{name} is {meaning}" for name, meaning in meanings if name != str(meaning)]
+            notices = [*notices, *said, *found.notices]
+            return replace(found, notices=tuple(notices), letters=(*found.letters, *meanings))
+    return None
+
+
+def multiplied_out(given: Any, source: Source, limits: Limits) -> Expr | None:
+    """An equation without the unknown function in denominators; None where that doesn't make it linear.
+
+    >>> x, y = sympy.Symbol("x"), sympy.Function("y")(sympy.Symbol("x"))
+    >>> multiplied_out(y.diff(x, 2) / y - x, Source(print, "x", "y"), Limits())
+    -x*y(x) + Derivative(y(x), (x, 2))
+
+    y = 0 is left out.
+    """
+    if source.tokens is not None:
+        y = sympy.Function(source.unknown)(sympy.Symbol(source.variable))
+        try:
+            expression = expression_of(source, limits)
+        except InputError:
+            return None
+    else:
+        expression = given.lhs - given.rhs if isinstance(given, sympy.Equality) else given
+        named = [f for f in functions_in(expression) if f.func.__name__ == source.unknown and f.args[0].is_Symbol]
+        if not named:
+            return None
+        y = named[0]
+    unknown = sympy.symbols("y2 y1 y0", cls=sympy.Dummy)
+    derivatives = [y.diff(y.args[0], 2), y.diff(), y]
+    plain = expression.xreplace(dict(zip(derivatives, unknown, strict=True)))
+    if plain.has(sympy.Derivative) or any(f.func == y.func for f in plain.atoms(AppliedUndef)):
+        return None
+    above, below = sympy.fraction(sympy.together(plain))
+    if not below.has(*unknown) or not above.is_polynomial(*unknown) or sympy.Poly(above, *unknown).total_degree() != 1:
+        return None
+    return sympy.expand(above).xreplace(dict(zip(unknown, derivatives, strict=True)))
