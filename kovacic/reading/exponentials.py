@@ -15,9 +15,9 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from math import gcd
 from typing import Any, NamedTuple
@@ -28,7 +28,7 @@ from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotRational
@@ -52,75 +52,42 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     if all(part.is_rational_function(x) for part in rewritten[:3]):
         with suppress(NotRational):  # everything else cancels, or has the factor 0
             return read_source(source_of_parts(rewritten, source), limits)
-    T = sympy.Dummy("T")
-    common = _common_power_of_parts(rewritten, x, T)
-    if common is None:
-        return None
-    in_T = [part.xreplace(common.powers) for part in rewritten[:3]]
-    if any(part.has(x) for part in in_T):
-        said = f"{x} beside exp({common.k * x}): that isn't rational in one exponential function"
-        raise NotRational(said, hint=_HINT)
-    right = _right_side(parts[3], x, common.powers)
-    unknown = source.unknown or UNKNOWN
-    t = new_variable((*in_T, right.in_T, common.k), {x.name, unknown})
-    left = _left_side(in_T, common.k, T, sympy.Function(f"{unknown}_")(t))
-    read = _read_in(t, (left - right.in_T).xreplace({T: t}), limits)
-    h = right.in_x
-    if read.equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
-        h = -parts[3]
-        read = _read_in(t, left.xreplace({T: t}), limits)
-    best = _best(read.equation, common.k, x + common.offset)
-    expression = as_text(best.function)
-    result = replace(
-        _without_denominators(best.monic),
-        h=h and h / parts[0],
-        variable=t.name,
-        unknown=unknown,
-        change=Change(x.name, expression),
-    )
-    said = f"in {t} = {expression}: {result}"
-    return Parsed(result.S, t.name, (said, *notices, *read.notices), result, read.letters)
-
-
-def _left_side(in_T: Sequence[Any], k: Any, T: Any, Y: Any) -> Any:
-    """That of (1), for a function Y of one variable, from a, b and c in T."""
-    a, b, c = in_T
-    (t,) = Y.args
-    return k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y
-
-
-class _ReadEquation(NamedTuple):
-    """An equation, and what the user should know about how it was read."""
-
-    equation: Equation
-    notices: tuple[str, ...]
-    letters: tuple[tuple[str, Any], ...]
-
-
-def _read_in(t: Any, expression: Any, limits: Limits) -> _ReadEquation:
-    """The equation that says that an expression with an unknown function of t is zero."""
-    read = read_source(source_of(expression, t.name, limits, equation=True), limits)
-    assert read.equation is not None
-    return _ReadEquation(read.equation, read.notices, read.letters)
-
-
-def _without_denominators(monic: Monic) -> Equation:
-    """Y'' + p Y' + q Y = f times the common denominator of p and q."""
-    p, q, f = monic
-    a = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
-    return Equation(a, p * a, q * a, f * a)
-
-
-def _common_power_of_parts(parts: list[Any], x: Any, T: Any) -> CommonPower | None:
-    """That of a, b, c and the right-hand side, or of a, b and c alone; None where these three have no exponentials."""
-    exponentials = [{e for e in part.atoms(sympy.exp) if e.has(x)} for part in parts]
+    exponentials = [{e for e in part.atoms(sympy.exp) if e.has(x)} for part in rewritten]
     of_coefficients = set().union(*exponentials[:3])
     if not of_coefficients:
         return None
+    T = sympy.Dummy("T")
     try:
-        return common_power(set().union(*exponentials), x, T)
-    except NotRational:
-        return common_power(of_coefficients, x, T)
+        common = common_power(of_coefficients | exponentials[3], x, T)
+    except NotRational:  # the right-hand side has others
+        common = common_power(of_coefficients, x, T)
+    k = common.k
+    a, b, c = (part.xreplace(common.powers) for part in rewritten[:3])
+    if any(part.has(x) for part in (a, b, c)):
+        raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
+    right, h = _right_side(parts[3], x, common.powers)
+    unknown = source.unknown or UNKNOWN
+    t = new_variable((a, b, c, right, k), {x.name, unknown})
+    Y = sympy.Function(f"{unknown}_")(t)
+    left = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y
+    equation, read = _read_in(t, (left - right).xreplace({T: t}), limits)
+    if equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
+        h = -parts[3]
+        equation, read = _read_in(t, left.xreplace({T: t}), limits)
+    (p, q, f), function = _best(equation, k, x + common.offset)
+    denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
+    coefficients = (denominator, p * denominator, q * denominator, f * denominator)
+    change = Change(x.name, as_text(function))
+    result = Equation(*coefficients, h=h and h / parts[0], variable=t.name, unknown=unknown, change=change)
+    said = f"in {t} = {change.expression}: {result}"
+    return Parsed(result.S, t.name, (said, *notices, *read.notices), result, read.letters)
+
+
+def _read_in(t: Any, expression: Any, limits: Limits) -> tuple[Equation, Parsed]:
+    """The equation that says that an expression with an unknown function of t is zero, and how it was read."""
+    read = read_source(source_of(expression, t.name, limits, equation=True), limits)
+    assert read.equation is not None
+    return read.equation, read
 
 
 def new_variable(parts: Sequence[Any], taken: set[str]) -> Any:
@@ -129,17 +96,9 @@ def new_variable(parts: Sequence[Any], taken: set[str]) -> Any:
     return sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
 
 
-class _RightSide(NamedTuple):
-    """The sum of the terms of a right-hand side that are rational in T, and of the others in x, None if there are none."""
-
-    in_T: Any
-    in_x: Any
-
-
-def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> _RightSide:
-    """The right-hand side -rest; `powers` are the exponentials in T."""
-    in_T = [sympy.Integer(0)]
-    in_x = []
+def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
+    """Of the right-hand side -rest, the terms that are rational in T, and the others in x, None if there are none."""
+    in_T, in_x = [], []
     for term in sympy.Add.make_args(sympy.expand(-rest)):
         rewritten = _in_exponentials(term, x).xreplace(powers)
         free = rewritten.free_symbols | rewritten.atoms(AppliedUndef)
@@ -147,9 +106,7 @@ def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> _RightSide:
             in_T.append(rewritten)
         else:
             in_x.append(term)
-    if not in_x:
-        return _RightSide(sympy.Add(*in_T), None)
-    return _RightSide(sympy.Add(*in_T), sympy.Add(*in_x))
+    return sympy.Add(*in_T), sympy.Add(*in_x) if in_x else None
 
 
 def _in_exponentials(expression: Any, x: Any) -> Any:
@@ -169,72 +126,43 @@ class CommonPower(NamedTuple):
     powers: dict[Any, Any]
 
 
-class _ExponentLine(NamedTuple):
-    """The exponent of exp(rate x + shift)."""
-
-    rate: Any
-    shift: Any
-
-    def left_by(self, offset: Any) -> Any:
-        """The constant c with exp(rate x + shift) = c exp(rate (x + offset))."""
-        return sympy.exp(sympy.expand(self.shift - self.rate * offset))
-
-
 def common_power(exponentials: set[Any], x: Any, T: Any) -> CommonPower:
     """The power of which all are powers; its offset leaves as few constants exp(n) as can be."""
-    lines = {e: _line_of(e, x) for e in sorted(exponentials, key=str)}
-    first = next(iter(lines.values())).rate
-    ratios = {e: sympy.cancel(line.rate / first) for e, line in lines.items()}
+    lines: dict[Any, tuple[Any, Any]] = {}  # of exp(rate x + shift)
+    for e in sorted(exponentials, key=str):
+        argument = sympy.expand(e.exp)
+        rate, shift = argument.coeff(x, 1), argument.coeff(x, 0)
+        if sympy.expand(argument - rate * x - shift) != 0 or rate.has(x):
+            raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
+        lines[e] = rate, shift
+    first = next(iter(lines.values()))[0]
+    ratios = {e: sympy.cancel(rate / first) for e, (rate, _) in lines.items()}
     if not all(ratio.is_Rational for ratio in ratios.values()):
         raise NotRational(f"exponentials of {x} whose rates have no rational quotient", hint=_HINT)
-    unit = _common_unit([*ratios.values()])
+    # The greatest rational number of which all ratios are multiples.
+    below = int(sympy.ilcm(*(ratio.q for ratio in ratios.values()), 1))
+    unit = sympy.Rational(gcd(*(int(ratio.p * below // ratio.q) for ratio in ratios.values())), below)
     k = sympy.expand(first * unit)
     if k.could_extract_minus_sign():
-        k = -k
-        unit = -unit
-    offset = _best_offset([*lines.values()])
+        k, unit = -k, -unit
+
+    def constants(offset: Any) -> dict[Any, Any]:
+        """c with exp(rate x + shift) = c exp(rate (x + offset))."""
+        return {e: sympy.exp(sympy.expand(shift - rate * offset)) for e, (rate, shift) in lines.items()}
+
+    offsets = [sympy.Integer(0), *(sympy.expand(shift / rate) for rate, shift in lines.values())]
+    offset = min(offsets, key=lambda each: sum(c.has(sympy.exp, sympy.E) for c in constants(each).values()))
     powers: dict[Any, Any] = {}
-    for e, line in lines.items():
-        constant = line.left_by(offset)
+    for e, constant in constants(offset).items():
         if not all(power.exp.is_Integer for power in constant.atoms(sympy.exp)):
             raise NotRational(f"{e} has a constant in its exponent", hint=f"write a letter for the factor {constant}")
         powers[e] = constant * T ** (ratios[e] / unit)
     return CommonPower(k, offset, powers)
 
 
-def _line_of(e: Any, x: Any) -> _ExponentLine:
-    """The exponent of an exponential as a polynomial of degree 1 in x."""
-    argument = sympy.expand(e.exp)
-    line = _ExponentLine(rate=argument.coeff(x, 1), shift=argument.coeff(x, 0))
-    if sympy.expand(argument - line.rate * x - line.shift) != 0 or line.rate.has(x):
-        raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
-    return line
-
-
-def _common_unit(ratios: list[Any]) -> Any:
-    """The greatest rational number of which all are multiples."""
-    common = int(sympy.ilcm(*(ratio.q for ratio in ratios), 1))
-    return sympy.Rational(gcd(*(int(ratio.p * common // ratio.q) for ratio in ratios)), common)
-
-
-def _best_offset(lines: list[_ExponentLine]) -> Any:
-    """0, or what the exponents vanish with, whichever leaves the fewest constants; the first one among equals."""
-
-    def constants_left(offset: Any) -> int:
-        return sum(line.left_by(offset).has(sympy.exp, sympy.E) for line in lines)
-
-    offsets = [sympy.Integer(0), *(sympy.expand(line.shift / line.rate) for line in lines)]
-    return min(offsets, key=constants_left)
-
-
 Monic = tuple[RatFunc, RatFunc, RatFunc]
-
-
-class _InVariable(NamedTuple):
-    """The equation in a variable, and this as a function of x."""
-
-    monic: Monic
-    function: Any
+_InVariable = tuple[Monic, Any]
+"""The equation in a variable, and this as a function of x."""
 
 
 @dataclass(frozen=True)
@@ -248,14 +176,16 @@ class _ThetaEquation:
     @property
     def step(self) -> int:
         """The largest g for which everything depends on T^g."""
-        exponents: set[int] = set()
-        for part in (self.P, self.Q, self.F):
-            exponents |= _exponents(part.num) | _exponents(part.den)
-        return gcd(*exponents) or 1
+        polynomials = [poly for part in (self.P, self.Q, self.F) for poly in (part.num, part.den)]
+        return gcd(*(i for poly in polynomials for i, c in enumerate(poly) if c)) or 1
 
     def in_power(self, g: int) -> _ThetaEquation:
         """The equation in T^g."""
-        P, Q, F = (_deflated(part, g) for part in (self.P, self.Q, self.F))
+
+        def deflated(poly: Poly) -> Poly:
+            return self.P.field.poly([poly[i] for i in range(0, poly.degree + 1, g)])
+
+        P, Q, F = (RatFunc(deflated(f.num), deflated(f.den), reduced=True) for f in (self.P, self.Q, self.F))
         return _ThetaEquation(P / g, Q / g**2, F / g**2)
 
     @property
@@ -265,68 +195,37 @@ class _ThetaEquation:
         return (self.P + 1) / T, self.Q / T**2, self.F / T**2
 
 
-def _exponents(poly: Poly) -> set[int]:
-    """The exponents of the terms that occur."""
-    return {i for i, c in enumerate(poly) if c}
-
-
 def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
     """Y'' + p Y' + q Y = f in the variable that has real coefficients if one has, and then the fewest singular points."""
     kappa = sympy.expand(-sympy.I * k)
     is_trigonometric = not kappa.has(sympy.I)
-    rate = k
+    rate = kappa if is_trigonometric else k
     field = equation.a.field
     i = None
     if is_trigonometric:
-        rate = kappa
-        field, i = _with_i(field)
+        i = field.sqrt(field.poly([-1]))
+        if i is None and not isinstance(field, AlgebraicField):  # an algebraic field isn't extended
+            field = AlgebraicField(field, field.poly([1, 0, 1]), "I")
+            i = field.generator
     T = RatFunc(field.poly([0, 1]))
     p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
     form = _ThetaEquation(p * T - 1, q * T * T, f * T * T)
     g = form.step
     exponential = form.in_power(g).monic
-    found = [_InVariable(exponential, sympy.exp(sympy.expand(g * k * x)))]
-    steps = (g, g // 2) if g % 2 == 0 else (g,)
-    for h in steps:
-        angle = sympy.expand(h * rate * x)
-        if is_trigonometric:
-            found += _in_trigonometric(form.in_power(h), i, angle)
-        else:
-            found += _in_hyperbolic(form.in_power(h), angle)
+    found = [(exponential, sympy.exp(sympy.expand(g * k * x)))]
+    waves = ((sympy.cos, 1), (sympy.sin, -1)) if is_trigonometric else ((sympy.cosh, 1), (sympy.sinh, -1))
+    for h in (g, g // 2) if g % 2 == 0 else (g,):
+        for function, sign in waves:
+            quotient = _quotient(form.in_power(h), sign)
+            if quotient is not None and function is sympy.sin:  # (T - 1/T)/2 = i sin
+                quotient = None if i is None else _substituted(quotient, T * i)
+            if quotient is not None:
+                found.append((quotient, function(sympy.expand(h * rate * x))))
     if i is not None:
         tangent = _substituted(exponential, (1 + T * i) / (1 - T * i))
-        found.append(_InVariable(tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
-    over_base = [_InVariable(_over_base(*each.monic), each.function) for each in found]
+        found.append((tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
     angles = [sympy.expand(h * rate * x) for h in (1, g // 2)]
-    return min(over_base, key=partial(_preference, angles))
-
-
-def _with_i(field: Field) -> tuple[Field, Poly | None]:
-    """The field with the imaginary unit, and that; None for it in an algebraic field without one, which isn't extended."""
-    i = field.sqrt(field.poly([-1]))
-    if i is not None or isinstance(field, AlgebraicField):
-        return field, i
-    extended = AlgebraicField(field, field.poly([1, 0, 1]), "I")
-    return extended, extended.generator
-
-
-def _in_trigonometric(form: _ThetaEquation, i: Poly | None, angle: Any) -> Iterator[_InVariable]:
-    """In the cosine and in the sine, (T - 1/T)/2 = i sin, where the equation is one in these."""
-    cosine = _quotient(form, 1)
-    if cosine is not None:
-        yield _InVariable(cosine, sympy.cos(angle))
-    sine = _quotient(form, -1)
-    if sine is not None and i is not None:
-        i_sine = RatFunc(form.P.field.poly([0, 1])) * i
-        yield _InVariable(_substituted(sine, i_sine), sympy.sin(angle))
-
-
-def _in_hyperbolic(form: _ThetaEquation, angle: Any) -> Iterator[_InVariable]:
-    """In the hyperbolic cosine and sine, where the equation is one in these."""
-    for sign, function in ((1, sympy.cosh), (-1, sympy.sinh)):
-        quotient = _quotient(form, sign)
-        if quotient is not None:
-            yield _InVariable(quotient, function(angle))
+    return min(((_over_base(monic), function) for monic, function in found), key=partial(_preference, angles))
 
 
 def _preference(angles: list[Any], found: _InVariable) -> tuple[bool, int, bool]:
@@ -334,11 +233,13 @@ def _preference(angles: list[Any], found: _InVariable) -> tuple[bool, int, bool]
 
     The angle is the given one, or has half of the frequency of everything: 1/sin(x)^2 + 1/cos(x)^2 is in cos(2 x).
     """
-    monic = found.monic
-    function = found.function
-    places = _singular_points(*monic)
+    (p, q, _), function = found
+    # The singular points of the normal form, infinity included.
+    S = p.derivative() / 2 + p * p / 4 - q
+    finite = S.den.degree - S.den.gcd(S.den.derivative()).degree
+    places = int(finite + (bool(S) and S.den.degree - S.num.degree < 4))
     is_real = function.func in (sympy.cos, sympy.sin) and function.args[0] in angles
-    return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
+    return isinstance(p.field, AlgebraicField), places, places == 3 and not is_real
 
 
 def _substituted(equation: Monic, M: RatFunc) -> Monic:
@@ -351,58 +252,32 @@ def _substituted(equation: Monic, M: RatFunc) -> Monic:
 def _quotient(form: _ThetaEquation, sign: int) -> Monic | None:
     """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
     T = RatFunc(form.P.field.poly([0, 1]))
-    parts = [_invariant(part, sign) for part in (form.P * (T * T - sign) / (2 * T), form.Q, form.F)]
-    if None in parts:
-        return None
-    first, second, third = (part for part in parts if part is not None)
+    found = []
+    for part in (form.P * (T * T - sign) / (2 * T), form.Q, form.F):
+        n0, n1 = _reduced(part.num, sign)
+        d0, d1 = _reduced(part.den, sign)
+        if n1 * d0 != n0 * d1:
+            return None
+        found.append(n0 / d0 if d0 else n1 / d1)
+    first, second, third = found
     square = T * T - sign
     return (T + first) / square, second / square, third / square
 
 
-def _invariant(function: RatFunc, sign: int) -> RatFunc | None:
-    """r with function = r((T + sign/T)/2), by T^2 = 2 w T - sign; None where there is none."""
-    n0, n1 = _reduced(function.num, function.field, sign)
-    d0, d1 = _reduced(function.den, function.field, sign)
-    if n1 * d0 != n0 * d1:
-        return None
-    return n0 / d0 if d0 else n1 / d1
-
-
-def _reduced(poly: Poly, field: Field, sign: int) -> tuple[RatFunc, RatFunc]:
+def _reduced(poly: Poly, sign: int) -> tuple[RatFunc, RatFunc]:
     """(low, high) with poly = low + high T modulo T^2 - 2 w T + sign, by Horner's rule: functions of w."""
-    w = RatFunc(field.poly([0, 1]))
-    low = RatFunc(field.poly([]))
-    high = low
+    w = RatFunc(poly.field.poly([0, 1]))
+    low = high = RatFunc(poly.field.poly([]))
     for power in range(poly.degree, -1, -1):
         # (low + high T) T + coefficient
-        before = low
-        low = poly[power] - high * sign
-        high = before + 2 * w * high
+        low, high = poly[power] - high * sign, low + 2 * w * high
     return low, high
 
 
-def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
-    """How many singular points the normal form has, infinity included."""
-    S = p.derivative() / 2 + p * p / 4 - q
-    den = S.den
-    finite = den.degree - den.gcd(den.derivative()).degree
-    return int(finite + (bool(S) and den.degree - S.num.degree < 4))
-
-
-def _over_base(*parts: RatFunc) -> Monic:
+def _over_base(monic: Monic) -> Monic:
     """The functions over the field below, if all of them are defined there."""
-    fields = {lowered(part).field for part in parts if part}
+    fields = {lowered(part).field for part in monic if part}
     if len(fields) != 1:
-        p, q, f = parts
-    else:
-        p, q, f = (over(lowered(part), *fields) for part in parts)
+        return monic
+    p, q, f = (over(lowered(part), *fields) for part in monic)
     return p, q, f
-
-
-def _deflated(function: RatFunc, g: int) -> RatFunc:
-    """f with function = f(T^g)."""
-
-    def every(poly: Poly) -> Poly:
-        return function.field.poly([poly[i] for i in range(0, poly.degree + 1, g)])
-
-    return RatFunc(every(function.num), every(function.den), reduced=True)

@@ -13,11 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 
-from kovacic.equation import UNKNOWN, Change, Equation, Parsed
+from kovacic.equation import UNKNOWN, Change, Parsed
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
@@ -35,97 +35,72 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     The right-hand side is kept as the equation's h.
     """
     x = sympy.Symbol(source.variable)
-    parts, notices = parts_of(source, limits)
-    a, b, c, rest = parts
-    if a == 0:
+    (a, b, c, rest), notices = parts_of(source, limits)
+    # Without functions, what isn't rational is a constant.
+    if a == 0 or all((part / a).is_rational_function(x) for part in (b, c)):
         return None
-    coefficients = (b / a, c / a)
-    if all(coefficient.is_rational_function(x) for coefficient in coefficients):
-        return None  # what isn't rational is a constant
-    form = _ThetaForm(sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a))
+    P, Q = sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a)
+    waves = [wave for wave in (b / a).atoms(*_WAVES) | (c / a).atoms(*_WAVES) if wave.has(x)]
     try:
-        waves = _waves_in(coefficients, x)
-        found = _of_waves(form, waves, source, limits) if waves else _of_power(form, source, limits)
+        found = _of_waves(P, Q, waves, source, limits) if waves else _of_power(P, Q, source, limits)
     except NotRational:
         return None
-    if found is None:
+    if found is None or found.equation is None or found.equation.change is None:
         return None
-    equation = found.equation
-    if rest != 0:
-        equation = replace(equation, h=sympy.expand(-rest / a))
-    said = f"in {equation.variable} = {found.change.expression}: {equation}"
+    equation = replace(found.equation, h=sympy.expand(-rest / a) if rest != 0 else found.equation.h)
+    said = f"in {equation.variable} = {found.equation.change.expression}: {equation}"
     return Parsed(equation.S, equation.variable, (said, *notices, *found.notices), equation, found.letters)
-
-
-class _ThetaForm(NamedTuple):
-    """theta^2 y + P theta y + Q y = 0."""
-
-    P: Expr
-    Q: Expr
-
-
-class _InPower(NamedTuple):
-    """An equation in a power of x, or in a function of one, and what the user should know about how it was read."""
-
-    equation: Equation
-    change: Change
-    notices: tuple[str, ...]
-    letters: tuple[tuple[str, Expr], ...]
 
 
 _WAVES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
 
 
-def _waves_in(coefficients: Sequence[Expr], x: Expr) -> list[Expr]:
-    """The exponentials and waves with x in their arguments."""
-    found: set[Expr] = set()
-    for coefficient in coefficients:
-        found |= coefficient.atoms(*_WAVES)
-    return [wave for wave in found if wave.has(x)]
+def _of_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Parsed | None:
+    """theta^2 y + P theta y + Q y = 0 in T = x^k: with x = exp(s) powers of x are exponentials of s, and T is exp(k s)."""
+    x, s, T = sympy.Symbol(source.variable), sympy.Dummy("s"), sympy.Dummy("T")
 
+    def in_logarithm(part: Expr) -> Expr:
+        powers = {p: sympy.exp(sympy.expand(p.exp * s)) for p in part.atoms(sympy.Pow) if p.base == x}
+        return sympy.powsimp(part.xreplace(powers).xreplace({x: sympy.exp(s)}), combine="exp")
 
-def _of_power(form: _ThetaForm, source: Source, limits: Limits) -> _InPower | None:
-    """In T = x^k: with x = exp(s) for the moment, powers of x are exponentials of s, and T is exp(k s)."""
-    x = sympy.Symbol(source.variable)
-    s = sympy.Dummy("s")
-    T = sympy.Dummy("T")
-    P = _in_logarithm(form.P, x, s)
-    Q = _in_logarithm(form.Q, x, s)
+    P, Q = in_logarithm(P), in_logarithm(Q)
     exponentials = {e for e in P.atoms(sympy.exp) | Q.atoms(sympy.exp) if e.has(s)}
     if not exponentials or P.has(sympy.log) or Q.has(sympy.log):
         return None
-    common = common_power(exponentials, s, T)
-    k = common.k
-    P = P.xreplace(common.powers)
-    Q = Q.xreplace(common.powers)
-    if common.offset != 0 or P.has(s) or Q.has(s):
+    k, offset, powers = common_power(exponentials, s, T)
+    P, Q = P.xreplace(powers), Q.xreplace(powers)
+    if offset != 0 or P.has(s) or Q.has(s):
         return None
-    return _read_in(T, (k**2 * T**2, (k**2 + k * P) * T, Q), x**k, source, limits)
+    left = (k**2 * T**2, (k**2 + k * P) * T, Q, sympy.S.Zero)
+    t = new_variable(left, {x.name, source.unknown})
+    read = read_source(source_of_parts([part.xreplace({T: t}) for part in left], _renamed(source, t.name)), limits)
+    return _with_change(read, source, x**k)
 
 
-def _of_waves(form: _ThetaForm, waves: Sequence[Expr], source: Source, limits: Limits) -> _InPower | None:
+def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: Limits) -> Parsed | None:
     """In u = x^m, and then in exp(c u)."""
     x = sympy.Symbol(source.variable)
     m = _power_in(waves, x)
     if m is None:
         return None
     u = sympy.Symbol("v") if x.name == "u" else sympy.Symbol("u")
-    inner = source_of_parts(_monic_in(form, x, m, u), _renamed(source, u.name))
-    found = in_exponentials(inner, limits)
-    if found is None or found.equation is None or found.equation.change is None:
-        return None
-    change = Change(x.name, as_text(function_of_x(found.equation).subs(u, x**m)))
-    equation = replace(found.equation, unknown=source.unknown or UNKNOWN, change=change)
-    return _InPower(equation, change, found.notices[1:], found.letters)
-
-
-def _monic_in(form: _ThetaForm, x: Expr, m: Expr, u: Expr) -> list[Expr]:
-    """The coefficients of (1) in u = x^m, divided by that of the second derivative."""
     T = sympy.Dummy("T", positive=True)
-    P, Q = (sympy.powdenest(part.subs(x, T ** (1 / m)), force=True) for part in form)
+    P, Q = (sympy.powdenest(part.subs(x, T ** (1 / m)), force=True) for part in (P, Q))
     first = sympy.cancel((m**2 + m * P) / (m**2 * T))
     zeroth = sympy.cancel(Q / (m**2 * T**2))
-    return [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
+    monic = [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
+    found = in_exponentials(source_of_parts(monic, _renamed(source, u.name)), limits)
+    if found is None or found.equation is None or found.equation.change is None:
+        return None
+    return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(u, x**m))
+
+
+def _with_change(read: Parsed, source: Source, value: Expr) -> Parsed | None:
+    """With a variable that is this function of the user's."""
+    if read.equation is None:
+        return None
+    change = Change(source.variable, as_text(value))
+    return replace(read, equation=replace(read.equation, unknown=source.unknown or UNKNOWN, change=change))
 
 
 def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
@@ -134,35 +109,12 @@ def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
     for wave in waves:
         powers = [p for p in wave.args[-1].atoms(sympy.Pow) if p.base == x]
         exponents.update(p.exp for p in powers)
-        beside = wave.args[-1].subs(dict.fromkeys(powers, 0))
-        if beside.has(x):
+        if wave.args[-1].subs(dict.fromkeys(powers, 0)).has(x):
             return None
-    if len(exponents) != 1:
-        return None
-    (m,) = exponents
-    if m.has(x):
-        return None
-    return m
+    m = exponents.pop() if len(exponents) == 1 else x
+    return None if m.has(x) else m
 
 
 def _renamed(source: Source, variable: str) -> Source:
     """The same, for an equation in another variable."""
     return source._replace(variable=variable, unknown=source.unknown or UNKNOWN)
-
-
-def _in_logarithm(part: Expr, x: Expr, s: Expr) -> Expr:
-    """With x = exp(s); powers become exponentials."""
-    powers = {p: sympy.exp(sympy.expand(p.exp * s)) for p in part.atoms(sympy.Pow) if p.base == x}
-    inside = part.xreplace(powers)
-    return sympy.powsimp(inside.xreplace({x: sympy.exp(s)}), combine="exp")
-
-
-def _read_in(T: Expr, left: Sequence[Expr], value: Expr, source: Source, limits: Limits) -> _InPower | None:
-    """The equation in T = value, with rational coefficients."""
-    t = new_variable(left, {source.variable, source.unknown})
-    parts = [part.xreplace({T: t}) for part in (*left, sympy.Integer(0))]
-    read = read_source(source_of_parts(parts, _renamed(source, t.name)), limits)
-    if read.equation is None:
-        return None
-    change = Change(source.variable, as_text(value))
-    return _InPower(replace(read.equation, change=change), change, read.notices, read.letters)
