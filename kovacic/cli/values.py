@@ -44,11 +44,10 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
     """
     from kovacic.enclosure.evaluate import evaluate
     from kovacic.enclosure.precision import AccuracyWarning
-    from kovacic.reading.parser import listed
 
     options.say_reading(equation, given["var"], [*(given["params"] or ())])
-    places = [place for text in points for place in listed(text)]
-    basis = None if frobenius is None else listed(frobenius)
+    places = [place for text in points for place in _listed(text)]
+    basis = None if frobenius is None else _listed(frobenius)
     with (
         options.waiting("computing"),
         warnings.catch_warnings(record=True, action="always", category=AccuracyWarning) as notes,
@@ -62,6 +61,17 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
             print(f"y'({place}) = {dy}")
     for note in notes:
         print(f"kovacic: {note.message}", file=sys.stderr)
+
+
+def _listed(text: str) -> list[str]:
+    """The numbers between commas; those within parentheses, root(2, 3), separate nothing."""
+    parts = [""]
+    for character in text:
+        if character == "," and parts[-1].count("(") <= parts[-1].count(")"):
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]
 
 
 @options.equation_command()

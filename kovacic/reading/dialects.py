@@ -13,7 +13,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from itertools import zip_longest
-from typing import Any
 
 from kovacic.errors import ParseError
 from kovacic.limits import Limits, check_time
@@ -209,21 +208,6 @@ def translated(text: str, scan: Sequence[Token], *, condition: bool = False) -> 
     if latex:
         scan = LATEX.rewritten(_Latex(text, scan).ordinary())
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
-
-
-def plain(text: str) -> Tokens:
-    """What `translated` gives for most texts, in a third of the time: names of one letter, and functions with parentheses."""
-    rows: list[list[Any]] = []
-    for kind, piece, start, end in scanned(text):
-        kind = _KINDS.get(piece) or ("NAME" if kind == "WORD" else kind)
-        if kind == "PRIMES":
-            rows[-1] = ["PRIMED", rows[-1][1] + piece, rows[-1][2], end]
-            continue
-        if kind == "LPAR" and rows and rows[-1][0] in ("NAME", "PRIMED"):
-            rows[-1][0] = "HEAD"
-        rows.append([kind, _PLAIN.get(kind, piece), start, end])
-    kinds, pieces, starts, ends = map(list, zip(*rows, ("$END", "", len(text), len(text)), strict=True))
-    return Tokens(text, kinds, pieces, starts, ends)
 
 
 class _Translation:

@@ -24,7 +24,9 @@ from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, unexpected
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
 _SIGNS = ("PLUS", "MINUS")
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
-_OPERANDS = frozenset({"NUMBER", "NAME", "PRIMED", "HEAD", "LPAR"})
+#: The methods of a reader that say what these mean.
+_ATOMS = {"NUMBER": "number", "NAME": "name", "PRIMED": "derivative"}
+_OPERANDS = frozenset({*_ATOMS, "HEAD", "LPAR"})
 _OPERATORS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_OPERATORS, "RPAR", "COMMA", "EQUAL")
 #: SymPy's functions are recursive.
@@ -174,26 +176,16 @@ class _Parser:
 
     # Where an operand is expected
 
-    def number(self, k: int) -> bool:
+    def atom(self, k: int) -> bool:
+        """A number, a name, or a name with primes."""
         self.at(k, k, k + 1)
-        self.operands.append(_Operand(self.reader.number(self.pieces[k]), k))
-        return False
-
-    def name(self, k: int) -> bool:
-        self.at(k, k, k + 1)
-        self.operands.append(_Operand(self.reader.name(self.pieces[k]), k))
-        return False
-
-    def derivative(self, k: int) -> bool:
-        self.at(k, k, k + 1)
-        self.operands.append(_Operand(self.reader.derivative(self.pieces[k]), k))
+        read = getattr(self.reader, _ATOMS[self.kinds[k]])
+        self.operands.append(_Operand(read(self.pieces[k]), k))
         return False
 
     def sign(self, k: int) -> bool:
         """Of an operand, or of an exponent: x^-2."""
-        after_power = self.pending[-1][0] == _POWER
-        strength = _POWER if after_power else _SIGN
-        self.pending.append((strength, k))
+        self.pending.append((_POWER if self.pending[-1][0] == _POWER else _SIGN, k))
         return True
 
     def head(self, k: int) -> bool:
@@ -206,8 +198,7 @@ class _Parser:
         return True
 
     def parenthesis(self, k: int) -> bool:
-        belongs_to_a_name = k > 0 and self.kinds[k - 1] == "HEAD"
-        if not belongs_to_a_name:
+        if k == 0 or self.kinds[k - 1] != "HEAD":
             self.open(_Group(k))
         return True
 
@@ -245,15 +236,13 @@ class _Parser:
         """The token begins the second factor; a quotient before a derivative is its factor: 1/2m y'' is (1/(2m)) y''."""
         self.reduce(_IMPLICIT, k)
         level, slash = self.pending[-1]
-        if level == _PRODUCT and self.kinds[slash] == "SLASH" and self.is_derivative(k):
+        piece = self.pieces[k]
+        is_derivative = piece.endswith(PRIMES) or (self.kinds[k] == "HEAD" and piece in DERIVATIVES)
+        if level == _PRODUCT and self.kinds[slash] == "SLASH" and is_derivative:
             self.operands[-1].split = 0
             self.reduce(_PRODUCT, k)
         self.pending.append((_IMPLICIT, k))
         return _PREFIX[self.kinds[k]](self, k)
-
-    def is_derivative(self, k: int) -> bool:
-        piece = self.pieces[k]
-        return piece.endswith(PRIMES) or (self.kinds[k] == "HEAD" and piece in DERIVATIVES)
 
     def close(self, k: int) -> bool:
         self.complete(k)
@@ -283,7 +272,9 @@ class _Parser:
         self.complete(k)
         group = self.groups[-1]
         if not group.is_call:
-            if group.is_pair or not self.begins_an_argument(group):
+            # A pair is a parenthesis with which an argument of a call begins.
+            around = self.groups[-2] if group.opened >= 0 else group
+            if group.is_pair or not around.is_call or self.pending[-2] != (_OPEN, around.opened):
                 raise self.syntax_error(k)
             group.is_pair = True
             self.argument_lists += 1
@@ -306,14 +297,6 @@ class _Parser:
             raise self.syntax_error(k)
         self.operands.append(_Operand(Comparison(()), k))
         return False
-
-    def begins_an_argument(self, group: _Group) -> bool:
-        """Is the innermost group a parenthesis with which an argument of a call begins?"""
-        if group.opened < 0:
-            return False
-        around = self.groups[-2]
-        before = self.pending[-2]
-        return around.is_call and before == (_OPEN, around.opened)
 
     def equals(self, k: int) -> bool:
         self.complete(k)
@@ -345,10 +328,14 @@ class _Parser:
         pending = self.pending
         while pending[-1][0] >= strength:
             level, k = pending.pop()
-            if level == _SIGN or (level == _POWER and self.kinds[k] in _SIGNS):
-                self.apply_sign(k, end)
-            else:
+            if level != _SIGN and not (level == _POWER and self.kinds[k] in _SIGNS):
                 self.combine(level, k, end)
+                continue
+            operand = self.operands[-1]
+            self.at(k, operand.begin, end)
+            operand.begin = k
+            if self.kinds[k] == "MINUS":
+                operand.value = self.arithmetic.negate(operand.value)
 
     def add(self, end: int) -> None:
         """Carries out the pending additions, which are one sum: its terms are all known now."""
@@ -365,13 +352,6 @@ class _Parser:
         terms[0].split = 0
         del self.operands[first + 1 :]
 
-    def apply_sign(self, k: int, end: int) -> None:
-        operand = self.operands[-1]
-        self.at(k, operand.begin, end)
-        operand.begin = k
-        if self.kinds[k] == "MINUS":
-            operand.value = self.arithmetic.negate(operand.value)
-
     def combine(self, level: int, k: int, end: int) -> None:
         """A power, a product or a quotient of the last two operands takes their place."""
         right = self.operands.pop()
@@ -383,13 +363,12 @@ class _Parser:
             _check_neighbours(self.tokens, self.reader, left.begin, right.begin)
             left.value = self.arithmetic.multiply(left.value, right.value)
             left.split = left.split or right.begin
-        elif self.kinds[k] == "STAR":
-            left.value = self.arithmetic.multiply(left.value, right.value)
-            left.split = 0
-        elif right.split:
-            raise _ambiguous(self.tokens, self.site, k, right.split)
         else:
-            left.value = self.arithmetic.divide(left.value, right.value)
+            is_product = self.kinds[k] == "STAR"
+            if right.split and not is_product:
+                raise _ambiguous(self.tokens, self.site, k, right.split)
+            operation = self.arithmetic.multiply if is_product else self.arithmetic.divide
+            left.value = operation(left.value, right.value)
             left.split = 0
 
     def syntax_error(self, k: int) -> InputError:
@@ -399,9 +378,7 @@ class _Parser:
 
 #: What a token does where an operand is expected; all others are misplaced there.
 _PREFIX = {
-    "NUMBER": _Parser.number,
-    "NAME": _Parser.name,
-    "PRIMED": _Parser.derivative,
+    **dict.fromkeys(_ATOMS, _Parser.atom),
     "HEAD": _Parser.head,
     "LPAR": _Parser.parenthesis,
     "PLUS": _Parser.sign,
@@ -448,74 +425,60 @@ def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError
     return tokens.error(ParseError, message, site.begin, site.end, hint=hint)
 
 
-class _Fault(NamedTuple):
-    """What is wrong, from the token `begin` up to the token `last`, and what to do about it."""
-
-    message: str
-    begin: int
-    last: int
-    hint: str | None = None
+#: What is wrong, from one token up to another one, and what to do about it.
+_Fault = tuple[str, int, int, str | None]
 
 
 def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
     """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
     kind, piece = tokens.kinds[k], tokens.pieces[k]
     before = tokens.kinds[k - 1] if k else ""
+    fault: _Fault = f"{piece!r} doesn't belong here", k, k, None
     if kind == "$END":
         fault = _incomplete(tokens, k, opened)
     elif kind == "RPAR" and before == "LPAR":
-        hint = "leave them out, or write what belongs there"
-        fault = _Fault("there is nothing between these parentheses", k - 1, k, hint)
+        fault = "there is nothing between these parentheses", k - 1, k, "leave them out, or write what belongs there"
     elif kind == "RPAR" and not opened:
-        fault = _Fault("this parenthesis closes nothing", k, k, "remove it, or open it before")
+        fault = "this parenthesis closes nothing", k, k, "remove it, or open it before"
     elif before in _OPERATORS and kind in _NO_OPERANDS:
         said = f"something is missing between {tokens.pieces[k - 1]!r} and {piece!r}"
-        fault = _Fault(said, k - 1, k, "write the number or name that belongs there, or one of the signs")
+        fault = said, k - 1, k, "write the number or name that belongs there, or one of the signs"
     elif kind == "COMMA":
         fault = _comma(tokens, k)
     elif kind in (*_OPERATORS, "SUPERSCRIPT"):
-        hint = "write the number or name that belongs there"
-        fault = _Fault(f"there is nothing before {piece!r} for it to act on", k, k, hint)
-    else:
-        hint = "an equation has one equals sign, outside all parentheses" if kind == "EQUAL" else ""
-        fault = _Fault(f"{piece!r} doesn't belong here", k, k, hint or None)
-    return tokens.error(ParseError, fault.message, fault.begin, fault.last + 1, hint=fault.hint)
+        fault = (
+            f"there is nothing before {piece!r} for it to act on",
+            k,
+            k,
+            "write the number or name that belongs there",
+        )
+    elif kind == "EQUAL":
+        fault = (*fault[:3], "an equation has one equals sign, outside all parentheses")
+    message, begin, last, hint = fault
+    return tokens.error(ParseError, message, begin, last + 1, hint=hint)
 
 
 def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
     """Of the end of the text."""
     last = end - 1
     if end and tokens.kinds[last] in (*_OPERATORS, "EQUAL", "COMMA"):
-        return _Fault(f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it")
+        return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
     if not opened:
-        return _Fault("the expression isn't complete", end, end)
+        return "the expression isn't complete", end, end, None
     hint = f"add {')' * len(opened)!r} where it ends" if len(opened) < _COUNTED else "count the parentheses"
-    return _Fault("this parenthesis is never closed", opened[-1], opened[-1], hint)
+    return "this parenthesis is never closed", opened[-1], opened[-1], hint
 
 
 def _comma(tokens: Tokens, k: int) -> _Fault:
     """Of a comma outside calls, which may be that of a decimal, or separate values."""
-    message = "a comma doesn't belong here"
+    begin, hint = k, "decimals are written with a point, and one expression is one S"
     if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
-        whole, digits = tokens.pieces[k - 1], tokens.pieces[k + 1]
+        begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]
         grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
-        return _Fault(message, k - 1, k, f"decimals are written with a point: {whole}.{digits}{grouped}")
-    hint = "decimals are written with a point, and one expression is one S"
-    if "EQUAL" in tokens.kinds[:k]:
+        hint = f"decimals are written with a point: {whole}.{digits}{grouped}"
+    elif "EQUAL" in tokens.kinds[:k]:
         hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
-    return _Fault(message, k, k, hint)
-
-
-def listed(text: str, opening: str = "(", closing: str = ")") -> list[str]:
-    """The parts between commas, those within parentheses apart."""
-    parts: list[str] = []
-    start = depth = 0
-    for k, character in enumerate(text):
-        depth += (character in opening) - (character in closing)
-        if character == "," and depth == 0:
-            parts.append(text[start:k].strip())
-            start = k + 1
-    return [*parts, text[start:].strip()]
+    return "a comma doesn't belong here", begin, k, hint
 
 
 def shown(value: Any, width: int = 40) -> str:

@@ -23,9 +23,9 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
-from kovacic.reading.dialects import CLOSING, LAYOUT, OPENING, partners, plain, translated
+from kovacic.reading.dialects import CLOSING, LAYOUT, OPENING, partners, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, scanned
-from kovacic.reading.names import FUNCTION_NAMES, is_function, is_letter
+from kovacic.reading.names import is_function, is_letter
 from kovacic.reading.notations import AROUND, NOTATIONS, SOLVERS, Spaced, pattern
 
 Scan = Sequence[Token]
@@ -104,16 +104,7 @@ def _error(text: str, message: str, scan: Scan, hint: str) -> ParseError:
 
 def taken_apart(text: str) -> Paste:
     """The pieces of a text.  Raises `ParseError` for arguments of a command that say nothing about the equation."""
-    if _PLAIN.fullmatch(text):
-        paste = Paste(text, [PastedPiece("equation", (Token("SIGN", text, 0, len(text)),))])
-        paste.is_equation, paste.equations = "=" in text or "'" in text, [plain(text)]
-        return paste
     return _Apart(text).paste()
-
-
-#: Texts in this package's own notation around which nothing stands: most of them.
-_PLAIN_EXPRESSION = rf"(?:[-+*/^() 0-9]|[A-CF-Za-ce-z](?![^\W\d_])'*|(?:{'|'.join(FUNCTION_NAMES)})(?=\())+"
-_PLAIN = re.compile(rf"(?! *(?:$|\(?\w{{1,2}}\)))(?!.* \(\d+\)$){_PLAIN_EXPRESSION}(?:={_PLAIN_EXPRESSION})?(?<!['])")
 
 
 def conditions_in(text: str) -> tuple[PlacedValue, ...]:
