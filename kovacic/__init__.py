@@ -36,7 +36,7 @@ _NAMES = {
         "ParseError",
         "VerificationFailed",
     ),
-    "general_solution": ("dsolve", "explain", "register", "solve_riccati", "unregister", "validity"),
+    "general_solution": ("answer_to", "dsolve", "explain", "register", "solve_riccati", "unregister", "validity"),
     "limits": ("Limits",),
     "solution": ("Solution", "solve"),
     "solution.conditions": ("conditions",),

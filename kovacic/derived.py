@@ -97,15 +97,20 @@ def special(answer: Answer) -> SpecialFunctions:
 
     symbols = answer.known.symbols() if answer.known else {}
     found = special_functions(answer.S, answer.gauge, answer.variable, Budget(answer.limits), symbols=symbols)
-    if found and symbols:
+    pair = found.pair
+    if pair is None:
+        return found
+    if symbols:
         plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
-        found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
-    return _in_given_symbols(answer, _in_given_variable(answer, found))  # type: ignore[no-any-return]
+        pair = pair.mapped(lambda e: e.xreplace(plain))
+    if answer.change is not None or answer.letters:
+        pair = replace(pair, wronskian=None)
+    return replace(found, pair=_in_given_symbols(answer, _in_given_variable(answer, pair)))
 
 
 def _in_given_symbols(answer: Answer, found: Any) -> Any:
     """`found` with y1 and y2 in what the letters for constants stand for."""
-    if not answer.letters or found.y1 is None:
+    if not answer.letters:
         return found
     from sympy import Symbol
 
@@ -115,7 +120,7 @@ def _in_given_symbols(answer: Answer, found: Any) -> Any:
 
 def _in_given_variable(answer: Answer, found: Any) -> Any:
     """`found` with y1 and y2 in the user's variable."""
-    if answer.equation is None or answer.change is None or found.y1 is None:
+    if answer.equation is None or answer.change is None:
         return found
     from kovacic.reading.change_of_variable import solution_in_x
 

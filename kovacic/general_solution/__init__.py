@@ -7,17 +7,22 @@ which `jumps` writes them.  `riccati_equation` and `riccati` have the solutions 
 among SymPy's own methods.
 """
 
-from kovacic.general_solution.dsolve import dsolve, in_special_functions
+from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, validity
+from kovacic.general_solution.dsolve import answer_to, dsolve, in_special_functions
 from kovacic.general_solution.explained import explain, is_problem
 from kovacic.general_solution.homogeneous import NothingKnown
 from kovacic.general_solution.riccati import RiccatiSolutions, solve_riccati
 from kovacic.general_solution.sympy_hint import register, unregister
-from kovacic.general_solution.validity import Validity, validity
+from kovacic.general_solution.validity import Validity
 
 __all__ = [
+    "FirstOrderAnswer",
     "NothingKnown",
+    "ProblemAnswer",
     "RiccatiSolutions",
+    "SecondOrderAnswer",
     "Validity",
+    "answer_to",
     "dsolve",
     "explain",
     "in_special_functions",

@@ -20,7 +20,6 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.check import value_at as value_of_fraction
 from kovacic.closed_form.jets import jet
@@ -33,7 +32,6 @@ from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import ball, sample_value, samples
-from kovacic.reading.change_of_variable import function_of_x
 
 Expr = Any  # SymPy publishes no types
 _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
@@ -83,7 +81,7 @@ def check_answer(
 
 def _jumps(question: Question, value: Expr) -> bool:
     """Does the answer jump at an ordinary point of the equation?"""
-    a, b, c, f = map(question.own, _coefficients(question))
+    a, b, c, f = map(question.own, question.coefficients)
     parts = [value, b / a, c / a, f / a]
     if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
         parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
@@ -231,7 +229,7 @@ def _is_wrong_in_pieces(question: Question, value: Expr) -> bool:
 def _in_pieces(question: Question, value: Expr) -> _Pieces:
     """At values of the parameters, and with functions for those that are given by their names."""
     x = question.x
-    whole = [value, *(question.own(part) for part in _coefficients(question))]
+    whole = [value, *(question.own(part) for part in question.coefficients)]
     symbols = set().union(*(e.free_symbols for e in whole)) - {x}
     sample = next(islice(samples(symbols), 1, None))
     given = set().union(*(e.atoms(AppliedUndef) for e in whole))
@@ -311,7 +309,7 @@ def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
         if equation.h is not None:
             f += jet(equation.h, x, point)[0]
     else:
-        parts = [question.own(part) for part in _coefficients(question)]
+        parts = [question.own(part) for part in question.coefficients]
         a, b, c, f = (jet(part, x, point)[0] for part in parts)
     return _is_large((a, b, c, f), jet(value, x, point))
 
@@ -324,25 +322,6 @@ def _is_large(coefficients: Sequence[Any], values: Sequence[Any]) -> bool:
     if not all(term.is_finite() for term in terms):
         raise NotImplementedError("a value isn't finite")
     return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
-
-
-def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
-    """a, b, c and the right-hand side, in the variable of the question."""
-    equation = question.given
-    t = sympy.Symbol(equation.variable)
-    atoms = Atoms(t)
-    plain = {sympy.Symbol("pi"): sympy.pi, sympy.Symbol("e"): sympy.E}
-    a, b, c = (atoms.ratio(part).xreplace(plain) for part in (equation.a, equation.b, equation.c))
-    f = atoms.sum(equation.f).xreplace(plain)
-    h = sympy.sympify(equation.h or 0).xreplace(plain)
-    if equation.change is None:
-        return a, b, c, f + h
-    # y_t = y'/t' and y_tt = y''/t'^2 - t'' y'/t'^3.
-    value = function_of_x(equation)
-    slope = value.diff(question.x)
-    of_second, of_first, of_y, right = (part.subs(t, value) for part in (a, b, c, f))
-    in_x = of_second / slope**2
-    return in_x, of_first / slope - in_x * slope.diff(question.x) / slope, of_y, right + in_x * h
 
 
 def _is_violated(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> bool:

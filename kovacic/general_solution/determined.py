@@ -17,13 +17,13 @@ from typing import Any, NamedTuple
 import sympy
 
 from kovacic.errors import InputError
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, Row, determine
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.zero import agree
 
 Expr = Any  # SymPy publishes no types

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -24,10 +24,11 @@ import sympy
 
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
+from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, remember
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
 from kovacic.general_solution.constants import (
-    Determined,
     Outcome,
     ParameterCase,
     can_be,
@@ -38,7 +39,7 @@ from kovacic.general_solution.constants import (
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
-from kovacic.general_solution.homogeneous import DecidedBasis, find_basis, no_solution
+from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
 from kovacic.general_solution.question import (
@@ -52,7 +53,6 @@ from kovacic.general_solution.question import (
 from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.systems import read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
-from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
@@ -198,39 +198,12 @@ def dsolve(
         found, notices = _system(eq, func, ics, limits)
     else:
         one, function = _single(eq, "equation"), _single(func, "function")
-        found, notices = _answered(one, function, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
-        found = [found] if is_list else found
+        answer = answer_to(one, function, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
+        remember(answer)
+        found, notices = [answer.eq] if is_list else answer.eq, answer.notices
     for notice in notices:
         warn_user(notice)
     return found
-
-
-@dataclass(frozen=True)
-class ProblemAnswer:
-    """What `dsolve` returns, and what is to be said beside."""
-
-    eq: Expr
-    notices: list[str]
-
-
-@dataclass(frozen=True)
-class SecondOrderAnswer(ProblemAnswer):
-    """y = C1 y1 + C2 y2 + y0, and what it was found from; what the values make of the constants `names`, if there are any."""
-
-    question: Question
-    found: DecidedBasis
-    basis: Basis
-    particular: Expr
-    names: tuple[Expr, Expr]
-    determined: Determined | None
-
-
-@dataclass(frozen=True)
-class FirstOrderAnswer(ProblemAnswer):
-    """The equation and its conditions, in symbols that know what is assumed."""
-
-    equation: FirstOrderEquation
-    conditions: Sequence[Condition]
 
 
 def _several(text: str, func: Any, ics: Any, parameters: Sequence[str]) -> tuple[Any, Any, Any]:
@@ -295,9 +268,10 @@ def _answered(eq: Any, func: Any, **given: Any) -> tuple[Expr, list[str]]:
     return answer.eq, answer.notices
 
 
+@limited
 def answer_to(
     eq: Any,
-    func: Any,
+    func: Any = None,
     *,
     ics: Any = None,
     var: str | None = None,
@@ -306,7 +280,45 @@ def answer_to(
     limits: Limits = DEFAULT_LIMITS,
     special: bool = False,
 ) -> ProblemAnswer:
-    """The answer with what it rests on.  Raises what `dsolve` raises."""
+    """The answer of `dsolve` as an object: with the pair it is made of, what it needs, and what was checked.
+
+    Parameters
+    ----------
+    eq, func, ics, var, parameters, assume, limits
+        As for `dsolve`; one equation, no system.
+    special : bool
+        Special functions also where there are Liouvillian solutions.
+
+    Returns
+    -------
+    ProblemAnswer
+        Its `eq` is what `dsolve` returns, its `notices` are the warnings of `dsolve`.  Of an equation of second order it is a
+        `SecondOrderAnswer`, unless an eigenvalue problem with an integer was recognised; of first order a `FirstOrderAnswer`.
+
+    Raises
+    ------
+    InputError, NotImplementedError
+        As `dsolve`.
+
+    Examples
+    --------
+    >>> answer = answer_to("y'' + w^2*y = cos(v*x)")
+    >>> answer.basis.y1, answer.basis.y2, answer.basis.wronskian
+    (cos(w*x), sin(w*x), w)
+    >>> print(answer.validity)
+    v + w != 0, v - w != 0, w != 0
+
+    What holds in an exceptional case:
+
+    >>> answer = answer_to("x*y'' + (c - x)*y' - a*y = 0")
+    >>> print(answer.validity)
+    x > 0, sin(pi*c) != 0
+    >>> for case in answer.exceptions:
+    ...     print(case, "|", case.answer.eq.rhs)
+    c = 1 | C1*hyper((a,), (1,), x) + C2*hyper((a, a), (), -1/x)/x**a
+    c is a positive integer | C1*hyper((a,), (c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
+    c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
+    """
     budget = Budget(limits)
     with budget.watched():
         try:
@@ -325,7 +337,7 @@ def answer_to(
             found = found.xreplace({symbol: own for own, symbol in known.items()})
             if has_floats(eq, as_mapping(ics)):
                 found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
-            return FirstOrderAnswer(found, [*equation.guesses, *notices], equation, conditions)
+            return FirstOrderAnswer(found, [*equation.guesses, *notices], equation, conditions, known=known)
         try:
             return _solved(question, budget, special=special)
         except LimitExceeded as limit:
@@ -361,31 +373,33 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
     notices = [*question.guesses]
     family = eigenfunctions(question)
     if family is not None:
-        return ProblemAnswer(written(question, family[0]), notices + family[1])
-    found = find_basis(question, budget, special=special)
-    solution = found.solution
+        return ProblemAnswer(written(question, family[0]), notices + family[1], known=question.renamed)
+    basis = find_basis(question, budget, special=special)
+    solution = basis.solution
+    assert solution is not None
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
-    answer = _determined(question, found) if question.conditions else _general(question, found)
-    return replace(answer, notices=notices + answer.notices)
+    answer = _determined(question, basis) if question.conditions else _general(question, basis)
+    return replace(answer, notices=notices + answer.notices, known=question.renamed)
 
 
-def _general(question: Question, found: DecidedBasis) -> SecondOrderAnswer:
+def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
-    basis = found.basis
     particular = without_homogeneous(particular_solution(basis, None), basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, is_general=True)
-    notices = _by_sign(question, found, particular, constants)
-    notices += check_answer(question, value, natural=found.natural)
-    return SecondOrderAnswer(written(question, value), notices, question, found, basis, particular, constants, None)
+    notices = _by_sign(question, basis, particular, constants)
+    unchecked = check_answer(question, value, natural=basis.natural)
+    rests_on = (question, basis, particular, constants, None)
+    eq = written(question, value)
+    return SecondOrderAnswer(eq, notices + unchecked, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
 
-def _determined(question: Question, found: DecidedBasis) -> SecondOrderAnswer:
+def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     """The same with the constants that the conditions determine.  Raises `InputError` where they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
-    basis = real_basis_at(question, found.basis, found.solution, start)
+    basis = real_basis_at(question, basis, start)
     particular = real_particular_at(question, basis, particular_solution(basis, start), start)
     names = free_constants(question, basis, particular)
     determined = constants_of(question, basis, particular, names, limits)
@@ -396,10 +410,12 @@ def _determined(question: Question, found: DecidedBasis) -> SecondOrderAnswer:
     exceptions = [_said(question, basis, particular, case, value) for case in determined.particular if can_be(case)]
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
-    notices = _by_sign(question, found, particular, None)
-    notices += check_answer(question, value, start, limits, natural=found.natural)
-    notices += [f"this holds unless {said}" for said in exceptions]
-    return SecondOrderAnswer(written(question, value), notices, question, found, basis, particular, names, determined)
+    notices = _by_sign(question, basis, particular, None)
+    unchecked = check_answer(question, value, start, limits, natural=basis.natural)
+    notices += [*unchecked, *(f"this holds unless {said}" for said in exceptions)]
+    rests_on = (question, basis, particular, names, determined)
+    eq = written(question, value)
+    return SecondOrderAnswer(eq, notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
 
 def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:
@@ -412,14 +428,14 @@ def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> Input
     return InputError(said)
 
 
-def _by_sign(question: Question, found: DecidedBasis, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
+def _by_sign(question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
     """Where the solutions are those for a natural number: that, and the others, unless their constants are determined."""
-    if found.natural is None:
+    if basis.natural is None:
         return []
-    holds = f"this holds where {as_text(found.natural)} >= 0"
-    if found.otherwise is None or names is None or particular != 0:
+    holds = f"this holds where {as_text(basis.natural)} >= 0"
+    if basis.otherwise is None or names is None or particular != 0:
         return [f"{holds}: give such values for the solutions elsewhere"]
-    other = written(question, combination(question, found.otherwise, particular, names))
+    other = written(question, combination(question, basis.otherwise, particular, names))
     return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
 

@@ -12,9 +12,10 @@ from typing import Any
 import sympy
 
 from kovacic.errors import InputError, NotLinear
+from kovacic.general_solution.answer import FirstOrderAnswer, SecondOrderAnswer
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined
-from kovacic.general_solution.dsolve import FirstOrderAnswer, SecondOrderAnswer, answer_to
+from kovacic.general_solution.dsolve import answer_to
 from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.riccati_equation import linear_equation
 from kovacic.general_solution.textbook import sums
@@ -118,7 +119,8 @@ def _equation(
 def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     """For an equation of second order."""
     question = answer.question
-    solution = answer.found.solution
+    solution = answer.basis.solution
+    assert solution is not None
     own = partial(_in_question, answer)
     F = own(right_hand_side(question.equation))
     y = question.equation.unknown

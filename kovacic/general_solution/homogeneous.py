@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
 import sympy
@@ -14,21 +14,22 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.klein import Covariants
 from kovacic.decision import Status
-from kovacic.equation import Parsed, parameters_of
+from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.textbook import of_chebyshev, with_waves
-from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import is_power, solution_in_x
+from kovacic.reading.change_of_variable import function_of_x, in_x, is_power, solution_in_x, user_variable
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
 from kovacic.special.search import BySign, by_sign, special_functions
+from kovacic.special.writer import WrittenPair
 
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]
@@ -44,49 +45,48 @@ class NothingKnown(NotImplementedError):
         self.is_proven = is_proven
 
 
-@dataclass(frozen=True)
-class DecidedBasis:
-    """Two independent solutions in the user's variable, and what was decided.
-
-    With `natural`, an integer that depends on parameters, they are such where it isn't negative; where it is,
-    `otherwise` are, if these are known.
-    """
-
-    basis: Basis
-    solution: Solution
-    natural: Expr | None = None
-    otherwise: Basis | None = None
-
-
-def find_basis(question: Question, budget: Budget, *, special: bool = False) -> DecidedBasis:
+def find_basis(question: Question, budget: Budget, *, special: bool = False) -> Basis:
     """Liouvillian solutions if there are any, unless `special`; else special functions.
 
     Raises `NotImplementedError` without.
     """
     solution = decide(question, budget)
     if solution.case is not None and not special:
-        return DecidedBasis(_basis(question, _liouvillian(question, solution, budget)), solution)
+        return _basis(question, solution, WrittenPair(*_liouvillian(question, solution, budget)))
     pair = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(pair, BySign):
-        return DecidedBasis(_basis(question, pair), solution)
-    otherwise = None if pair.negative is None else _basis(question, pair.negative)
-    return DecidedBasis(_basis(question, pair.natural), solution, question.own(pair.integer), otherwise)
+        return _basis(question, solution, pair)
+    basis = _basis(question, solution, pair.natural)
+    otherwise = None if pair.negative is None else _basis(question, solution, pair.negative)
+    return replace(basis, natural=question.own(pair.integer), otherwise=otherwise)
 
 
-def _basis(question: Question, pair: Pair) -> Basis:
+def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     """The solutions in the user's variable."""
-    if is_power(question.equation):  # whose exponent has plain symbols
+    equation = question.equation
+    if is_power(equation):  # whose exponent has plain symbols
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
-        pair = pair[0].xreplace(plain), pair[1].xreplace(plain)
-    y1, y2 = (solution_in_x(question.equation, y).xreplace(NUMBERS) for y in pair)
-    S = question.equation.S
+        pair = pair.mapped(lambda e: e.xreplace(plain))
+    y1, y2 = (solution_in_x(equation, y).xreplace(NUMBERS) for y in pair)
+    basis = Basis(y1, y2, question.x, equation, question.own, _stated(equation, pair), pair.undefined, solution)
+    S = equation.S
     constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
     if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):
         y1, y2 = with_waves(y1, y2)
     if not question.conditions:  # which may be outside of the interval where f is a cosine
         y1, y2 = of_chebyshev(y1, y2)
-    y1, y2 = _real_for_negative_letters(question, y1, y2)
-    return Basis(y1, y2, question.x, question.equation, question.own)
+    return basis.of(*_real_for_negative_letters(question, y1, y2))
+
+
+def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
+    """The Wronskian in the user's variable, of members without the numbers that `solution_in_x` drops."""
+    W = pair.wronskian
+    if W is None or equation.change is None or not pair.y1.has(sympy.Symbol(equation.variable)):
+        return W
+    numbers = [sympy.powsimp(solution_in_x(equation, y) / in_x(equation, y)) for y in pair]
+    if not all(number.is_number for number in numbers):
+        return None
+    return in_x(equation, W) * function_of_x(equation).diff(user_variable(equation)) * sympy.Mul(*numbers)
 
 
 def _real_for_negative_letters(question: Question, y1: Expr, y2: Expr) -> Pair:
@@ -126,7 +126,9 @@ def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair
     return form.y1, form.y2
 
 
-def _in_special_functions(question: Question, solution: Solution, budget: Budget, *, special: bool) -> Pair | BySign:
+def _in_special_functions(
+    question: Question, solution: Solution, budget: Budget, *, special: bool
+) -> WrittenPair | BySign:
     """Special functions, or Mathieu's; analytic at ordinary points, where Bessel's functions of roots would jump.
 
     By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
@@ -134,27 +136,35 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     is_positive = bool(question.function.args[0].is_positive)
     is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
     how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive}
-    found: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
+    found = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
+    pair = found.pair
     is_asked = not question.conditions or bool(limit_points(question))
     is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
-    if not found or is_asked:
+    if pair is None or is_asked:
         halves = by_sign(solution.S, solution.gauge, solution.variable, budget, **how)
         if halves is not None:
             return halves
     equation = question.equation
-    if not found and equation.change is not None:
-        found = mathieu(solution.S, solution.gauge, equation) or found
-    if not found:
+    if pair is None and equation.change is not None:
+        pair = mathieu(solution.S, solution.gauge, equation)
+    if pair is None:
         reason = f"{no_solution(solution, question.assumptions)}; {found}"
         raise NothingKnown(reason, is_proven=solution.status is Status.NONE_EXISTS)
-    y1, y2 = found
     if is_positive and is_asked:
-        y2 = y2.replace(
-            sympy.bessely, lambda nu, z: sympy.besselj(-nu, z) if nu.is_noninteger else sympy.bessely(nu, z)
-        )
-    if special and not are_independent(y1, y2, sympy.Symbol(solution.variable)):
+        pair = _without_second_kind(pair)
+    if special and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
-    return y1, y2
+    return pair
+
+
+def _without_second_kind(pair: WrittenPair) -> WrittenPair:
+    """J_-nu for Y_nu = (J_nu cos(pi nu) - J_-nu)/sin(pi nu), where nu is no integer."""
+    second = [f for f in pair.y2.atoms(sympy.bessely) if f.args[0].is_noninteger]
+    if not second or pair.wronskian is None:
+        return pair
+    nu = second[0].args[0]
+    y2 = pair.y2.xreplace({f: sympy.besselj(-nu, f.args[1]) for f in second})
+    return replace(pair, y2=y2, wronskian=-sympy.sin(sympy.pi * nu) * pair.wronskian)
 
 
 def _joined(solution: Solution, form: Covariants, budget: Budget) -> Pair | None:

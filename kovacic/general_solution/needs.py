@@ -207,13 +207,16 @@ def _of_third_elliptic_integral(e: Expr) -> Expr:
 
 
 def _of_hypergeometric(e: Expr) -> Expr:
-    """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial."""
-    u = e.argument
+    """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial.
+
+    It has poles where a lower parameter is 0, -1, ....
+    """
+    defined = sympy.And(*(sympy.Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols))
     if len(e.ap) <= len(e.bq) or any(a.is_integer and a.is_nonpositive for a in e.ap):
-        return sympy.true
+        return defined
     if len(e.ap) == len(e.bq) + 1:
-        return _argument_below_one(e)
-    return _off_the_cut(-u)
+        return sympy.And(_argument_below_one(e), defined)
+    return sympy.And(_off_the_cut(-e.argument), defined)
 
 
 _OF_FUNCTIONS: dict[Any, Need] = {

@@ -34,12 +34,13 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import in_powers
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
-from kovacic.general_solution.variation import Basis
+from kovacic.general_solution.variation import at_once, with_integrals
 from kovacic.reading.change_of_variable import in_x, slope_squared
 
 Expr = Any  # SymPy publishes no types
@@ -52,7 +53,7 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     right = right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
-    solved = basis.with_integrals if basis.equation.change is not None else partial(_solved, basis)
+    solved = partial(with_integrals if basis.equation.change is not None else _solved, basis)
     if not right.has(DiracDelta, Heaviside):
         return solved(right, start)
     apart = taken_apart(right, basis.x)
@@ -86,11 +87,11 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     terms = sympy.Add.make_args(prepared(right))
     known = _known_terms(basis, terms)
     if not known:
-        return basis.with_integrals(right, start)
+        return with_integrals(basis, right, start)
     total = sympy.Add(*known.values())
     rest = sympy.Add(*(term for term in terms if term not in known))
     if rest != 0:
-        total += basis.with_integrals(rest, start)
+        total += with_integrals(basis, rest, start)
     return total
 
 
@@ -112,7 +113,7 @@ def _at_once(basis: Basis, right: Expr) -> Expr | None:
     found = _by_coefficients(equation, right, x)
     if found is not None:
         return found
-    return basis.at_once(right)
+    return at_once(basis, right)
 
 
 def _polynomial_for(equation: Equation, right: RatFunc | None) -> Poly | None:

@@ -7,19 +7,18 @@ the other.  At a singular point and at infinity, a condition is one on a limit, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import sympy
 
 from kovacic.errors import InputError
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach
 from kovacic.general_solution.poles import is_singular, poles_between, rational_poles
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import negative_arguments, real_basis, real_particular
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.variation import Basis, starting_at
-from kovacic.solution import Solution
+from kovacic.general_solution.variation import starting_at
 
 Expr = Any  # SymPy publishes no types
 _INFINITIES = (sympy.oo, -sympy.oo)
@@ -147,18 +146,18 @@ def _keeps_entire(e: Expr, x: Expr) -> bool:
     return e == x or is_sum_or_product or isinstance(e, _ENTIRE)
 
 
-def real_basis_at(question: Question, basis: Basis, solution: Solution, start: Expr) -> Basis:
+def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
     """Solutions that are real at `start`, with integrals that begin there.
 
     Raises `InputError` where the points of the conditions lie on two sides of a singular point.
     """
     check_between(question, (basis.y1, basis.y2))
     x = question.x
-    if question.equation.change is not None:
-        return replace(basis, y1=starting_at(basis.y1, x, start), y2=starting_at(basis.y2, x, start))
-    _check_one_side((basis.y1, basis.y2), question)
-    y1, y2 = real_basis(solution, basis.y1, basis.y2, x, start)
-    return replace(basis, y1=starting_at(y1, x, start), y2=starting_at(y2, x, start))
+    if question.equation.change is None:
+        _check_one_side((basis.y1, basis.y2), question)
+        assert basis.solution is not None
+        basis = basis.of(*real_basis(basis.solution, basis.y1, basis.y2, x, start))
+    return basis.of(starting_at(basis.y1, x, start), starting_at(basis.y2, x, start))
 
 
 def real_particular_at(question: Question, basis: Basis, particular: Expr, start: Expr) -> Expr:

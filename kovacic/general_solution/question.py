@@ -22,6 +22,7 @@ from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.pieces import Paste, taken_apart
 from kovacic.reading.read import declared, read_input
 from kovacic.reading.symbolic import function_of, functions_in
@@ -59,6 +60,25 @@ class Question:
     def parameters(self) -> dict[str, Expr]:
         """The user's symbols without that of the variable, and letters."""
         return {name: symbol for name, symbol in self.symbols.items() if name != self.x.name}
+
+    @cached_property
+    def coefficients(self) -> tuple[Expr, Expr, Expr, Expr]:
+        """a, b, c and the right-hand side of the equation as it was read, in x."""
+        equation = self.given
+        t = sympy.Symbol(equation.variable)
+        atoms = Atoms(t)
+        plain = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
+        a, b, c = (atoms.ratio(part).xreplace(plain) for part in (equation.a, equation.b, equation.c))
+        f = atoms.sum(equation.f).xreplace(plain)
+        h = sympy.sympify(equation.h or 0).xreplace(plain)
+        if equation.change is None:
+            return a, b, c, f + h
+        # y_t = y'/t' and y_tt = y''/t'^2 - t'' y'/t'^3.
+        value = function_of_x(equation)
+        slope = value.diff(self.x)
+        of_second, of_first, of_y, right = (part.subs(t, value) for part in (a, b, c, f))
+        in_x = of_second / slope**2
+        return in_x, of_first / slope - in_x * slope.diff(self.x) / slope, of_y, right + in_x * h
 
     def own(self, expression: Expr) -> Expr:
         """The expression in the user's symbols for the parameters, with what letters stand for."""

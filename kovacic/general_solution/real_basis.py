@@ -14,8 +14,9 @@ from sympy.functions.special.bessel import BesselBase
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent, is_numerical_solution
 from kovacic.equation import Equation
+from kovacic.general_solution.basis import rates
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.variation import is_solution, rates
+from kovacic.general_solution.variation import is_solution
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types

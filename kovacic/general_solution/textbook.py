@@ -225,8 +225,9 @@ def _with_single_roots(product: Expr) -> Expr:
         u = root.base
         for other in [factor for factor in product.args if factor.is_Pow and factor.exp == -1]:
             number = sympy.cancel(other.base / u)
-            if number.is_Rational and number != 1:
-                return _with_single_roots(product / other * (1 / number) / u)
+            found = product / other * (1 / number) / u
+            if number.is_Rational and number != 1 and found != product:  # 1/(-a) stays -1/a
+                return _with_single_roots(found)
     return product
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import sympy
 
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.variation import Basis
 
 Expr = Any  # SymPy publishes no types
 #: Digits of a float that is given back.

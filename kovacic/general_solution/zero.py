@@ -76,9 +76,9 @@ def when_zero(value: Expr) -> Zero:
 
 def _where_not_always(value: Expr) -> Zero:
     """A number that isn't zero never is; what has parameters may be for other values of these."""
-    parts = _by_parity(value)
-    is_nowhere_zero_by_parity = bool(parts) and all(map(is_nowhere_zero, parts))
-    if value.free_symbols and not is_nowhere_zero_by_parity:
+    parts = by_parity(value)
+    is_nowhere_zeroby_parity = bool(parts) and all(map(is_nowhere_zero, parts))
+    if value.free_symbols and not is_nowhere_zeroby_parity:
         return Zero.SOMETIMES
     return Zero.NEVER
 
@@ -129,7 +129,7 @@ _WITHOUT_ZEROS: tuple[tuple[tuple[Any, ...], Callable[[Expr], Any]], ...] = (
 )
 
 
-def _by_parity(value: Expr) -> list[Expr]:
+def by_parity(value: Expr) -> list[Expr]:
     """The value for even and for odd n, where n/2 for an integer n occurs in a wave or a gamma function; else nothing."""
     halved = _integers_of_unknown_parity(value)
     if len(halved) != 1:

@@ -2,7 +2,7 @@
 
 q f'^2 f = S + ... shows f up to its constant term: it is a cubic root of -9 t/q, where t'^2/t = -S + ... at all poles.
 
-Reference: DLMF 9.2.
+Reference: DLMF 9.2, 9.2.7 (the Wronskian).
 """
 
 from __future__ import annotations
@@ -29,8 +29,7 @@ from kovacic.special.pullback import Pullback, StandardEquation, standard_part, 
 from kovacic.special.values import StandardForm, ValueAndSlope, rational
 
 if TYPE_CHECKING:
-    from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Writer
+    from kovacic.special.writer import Writer, WrittenPair
 
 
 @dataclass(frozen=True)
@@ -62,12 +61,12 @@ class Airy(StandardEquation):
             if c is not None:
                 yield Pullback(Airy(q), f + c)
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair:
         import sympy
 
         z = writer.root(self.q, 3) * writer.argument(f)
         before = writer.factor(f, ())
-        return writer.pair((before, sympy.airyai(z)), (before, sympy.airybi(z)))
+        return writer.pair((before, sympy.airyai(z)), (before, sympy.airybi(z)), z.diff(writer.atoms.x) / sympy.pi)
 
     @property
     def parameters(self) -> list[fmpq]:

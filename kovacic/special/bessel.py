@@ -9,7 +9,7 @@ every nu.  For nu = N + 1/2 with a symbolic natural number N there are spherical
 Values: z^((1 +- nu)/2) 0F1(; 1 +- nu; -r z).  Where the exponents differ by an integer the second is sqrt(z) Y_nu(2 sqrt(r z)),
 or sqrt(z) K_nu(2 sqrt(-r z)).
 
-Reference: DLMF 10.2, 10.13, 10.25, 10.39, 10.47.
+Reference: DLMF 10.2, 10.13, 10.25, 10.39, 10.47; 10.5.2, 10.28.2, 10.50.1 (Wronskians).
 """
 
 from __future__ import annotations
@@ -45,8 +45,7 @@ from kovacic.special.values import (
 )
 
 if TYPE_CHECKING:
-    from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Writer
+    from kovacic.special.writer import Writer, WrittenPair
 
 
 @dataclass(frozen=True)
@@ -77,7 +76,7 @@ class Bessel(StandardEquation):
         for f, nu_squared in zeros(problem, polar, shifted=shifted):
             yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f)
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair:
         return written(writer, 4 * self.M + 1, f * self.r, singular)
 
     @property
@@ -150,7 +149,7 @@ def _scale(f: RatFunc, place: Place) -> Poly | None:
 # ------------------------------------------------------------------------------------------ written
 
 
-def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None) -> WrittenPair:
     """u = sqrt(t) J_nu(2 sqrt t), or with I, K and -t where the constant factor of t is negative.
 
     Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
@@ -163,19 +162,21 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
             (writer.factor(t, [((m + 1) * HALF, t)]), writer.hypergeometric((), (m + 1,), writer.argument(-t)))
             for m in (nu, -nu)
         )
-        return writer.pair(first, second)
+        # t^((1 + nu)/2) and t^((1 - nu)/2) are the leading terms at t = 0.
+        return writer.pair(first, second, -writer.constant(nu) * writer.rate(t), (nu,))
     modified = writer.is_negative(t.num.lc)
     four_t = t * -4 if modified else t * 4
     z = writer.root_of(four_t)
     degree = next((m - HALF for m in (nu, -nu) if writer.is_degree(m - HALF)), None)
-    kinds, order, power = (sympy.besselj, sympy.bessely), nu, HALF
+    rate = writer.rate(t) / 2  # z'/z
+    kinds, order, power, bracket = (sympy.besselj, sympy.bessely), nu, HALF, 2 * rate / sympy.pi
     if modified:
-        kinds = (sympy.besseli, sympy.besselk)
+        kinds, bracket = (sympy.besseli, sympy.besselk), -rate
     elif degree is not None:  # J_nu = sqrt(2 z/pi) j_n
-        kinds, order, power = (sympy.jn, sympy.yn), degree, Fraction(3, 4)
+        kinds, order, power, bracket = (sympy.jn, sympy.yn), degree, Fraction(3, 4), rate / z
     before = writer.factor(t, [(Number(nu.part * 0 + power), t)])
     first, second = ((before, kind(writer.constant(order), z, evaluate=False)) for kind in kinds)
-    return writer.pair(first, second)
+    return writer.pair(first, second, bracket)
 
 
 # ------------------------------------------------------------------------------------------ values

@@ -177,9 +177,10 @@ class _Equation:
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None where the two aren't known to be independent."""
-        pair = written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
-        if pair is None:
+        found = written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
+        if found is None:
             return None
+        pair = found.y1, found.y2
         pairs = [pair]
         if self.decision.case == 1 and isinstance(self.structure, Triangular):
             y1 = self._written(replace(self.structure, primitive=OpenPrimitive(""))).y1

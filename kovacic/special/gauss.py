@@ -64,7 +64,7 @@ from kovacic.special.values import (
 
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Writer, WrittenFactor, WrittenTerm
+    from kovacic.special.writer import Writer, WrittenFactor, WrittenPair, WrittenTerm
 
 
 #: Sets of exponent differences for which coverings are sought, and ramification points of f that may be among apparent ones.
@@ -116,7 +116,7 @@ class Gauss(StandardEquation):
         for covering in coverings(points, apparent, problem.budget):
             yield Pullback(Gauss(covering.zeros, covering.ones, covering.poles), covering.f)
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair | None:
         forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
         first = forms[0]
         if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
@@ -129,13 +129,13 @@ class Gauss(StandardEquation):
                     return _jacobi(signed)
             even = next((signed for signed in signed_forms if signed.alpha == signed.beta), None)
             if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
-                # Their Wronskian is 1 at the middle, for all values of the letters; they are real between the two points.
-                return writer.pair(*_even_and_odd(even), around_zero=True)
+                # Independent for all values of the letters; real between the two points.
+                return writer.pair(*_even_and_odd(even), even.bracket_of_parity(), around_zero=True)
         if any(writer.is_integer(form.degree) for form in first.signs):
             return _reducible(writer, forms)
         if not writer.is_integer(first.alpha):
-            return writer.pair(first.term, first.turned.term)
-        return writer.pair(first.regular.term, first.swapped.regular.term)
+            return _at_one_point(first)
+        return _at_two_points(first.regular, first.swapped.regular)
 
     def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
         """Degrees of polynomials, and the exponent differences."""
@@ -247,11 +247,41 @@ class _GaussForm:
         return self.writer.factor(self.f, powers)
 
     @property
-    def term(self) -> WrittenTerm:
-        """u, with the sign of beta that leaves fewer factors."""
+    def shorter(self) -> _GaussForm:
+        """The same solution u with the sign of beta that leaves fewer factors [DLMF 15.8.1]."""
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
-        form = min(forms, key=lambda form: form.factor.size)
-        return form.factor, _named(form)
+        return min(forms, key=lambda form: form.factor.size)
+
+    @property
+    def middle(self) -> Expr | None:
+        """The x with f = 1/2, where f is a polynomial of degree 1: between the points at which it is 0 and 1."""
+        num = self.f.num
+        if not self.f.is_polynomial or num.degree != 1:
+            return None
+        return self.writer.constant((HALF - num[0]) / num[1])
+
+    @property
+    def term(self) -> WrittenTerm:
+        """u, or a multiple."""
+        return self.factor, _named(self)[1]
+
+    def bracket(self, other: _GaussForm, W: Expr) -> Expr:
+        """That of u and the solution of another form in f, or in 1 - f, whose Wronskian in z = f is W."""
+        writer = self.writer
+        alpha, beta = (other.alpha, other.beta) if other.f == self.f else (other.beta, other.alpha)
+        at_zero, at_one = (
+            writer.constant((e + d - 2) * HALF) for e, d in ((self.alpha, alpha), (self.beta, beta))
+        )  # minus the sums of the exponents
+        z, w = writer.argument(self.f), writer.argument(1 - self.f)
+        multiple = _named(self)[0] * _named(other)[0]
+        return W * multiple * z**at_zero * w**at_one * z.diff(writer.atoms.x)
+
+    def bracket_of_parity(self, W: Expr = 1) -> Expr:
+        """That of solutions with the Wronskian W in t = 1 - 2 f at t = 0, and the factors of the even and the odd one."""
+        writer = self.writer
+        t = writer.argument(1 - 2 * self.f)
+        square = writer.argument(4 * self.f * (1 - self.f))  # 1 - t^2
+        return W * square ** writer.constant(self.alpha - 1) * t.diff(writer.atoms.x)
 
     @property
     def swapped(self) -> _GaussForm:
@@ -263,6 +293,11 @@ class _GaussForm:
         """The sign of alpha for which 1 - alpha isn't an integer <= 0, as far as that is known."""
         is_pole = self.writer.is_integer(self.alpha) and not self.writer.is_natural(-self.alpha)
         return self.turned if is_pole else self
+
+    @property
+    def upper(self) -> list[Number]:
+        """The upper parameters."""
+        return [(1 - self.alpha - self.beta + sign * self.gamma) * HALF for sign in (-1, 1)]
 
     @property
     def degree(self) -> Number:
@@ -279,78 +314,118 @@ class _GaussForm:
         return not f.is_polynomial, uneven, natural, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
-def _named(form: _GaussForm) -> Expr:
-    """2F1, or a multiple: the complete elliptic integrals K, E and Legendre's function P_nu, where SymPy keeps it as it is."""
+def _named(form: _GaussForm) -> tuple[Expr, Expr]:
+    """c and c 2F1, where it has a name: the complete elliptic integrals K, E and Legendre's P_nu, if SymPy keeps it."""
     import sympy
 
     writer = form.writer
-    top = [(1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (-1, 1)]
+    top = form.upper
     a, b, c = (writer.constant(value) for value in (*top, 1 - form.alpha))
     z = writer.argument(form.f)
     half = sympy.S.Half
     if c == 1 and {a, b} == {half}:
-        return sympy.elliptic_k(z)
+        return sympy.pi / 2, sympy.elliptic_k(z)
     if c == 1 and {a, b} == {half, -half}:
-        return sympy.elliptic_e(z)
+        return sympy.pi / 2, sympy.elliptic_e(z)
     if c == 1 and sympy.expand(a + b) == 1:
         degree = -b if (-a).could_extract_minus_sign() else -a
         P = sympy.legendre(degree, sympy.expand(1 - 2 * z))
         if isinstance(P, sympy.legendre):
-            return P
-    return writer.hypergeometric(top, (1 - form.alpha,), z)
+            return sympy.S.One, P
+    return sympy.S.One, writer.hypergeometric(top, (1 - form.alpha,), z)
 
 
-def _reducible(writer: Writer, forms: list[_GaussForm]) -> tuple[Expr, Expr] | None:
+def _at_one_point(form: _GaussForm) -> WrittenPair:
+    """u and the solution with -alpha: their leading terms are z^((1 - alpha)/2) and z^((1 + alpha)/2)."""
+    first, second = form.shorter, form.turned.shorter
+    bracket = first.bracket(second, form.writer.constant(form.alpha))
+    return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
+
+
+def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
+    """u at z = 0 and the one at 1, of Wronskian -gamma(1 - alpha) gamma(1 - beta)/(gamma(a) gamma(b)) [DLMF 15.10.17]."""
+    import sympy
+
+    writer = form.writer
+    own = replace(form, beta=other.alpha)  # u doesn't depend on the sign of beta
+    a, b, alpha, beta = map(writer.constant, (*own.upper, own.alpha, own.beta))
+    W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
+    first, second = form.shorter, other.shorter
+    bracket = first.bracket(second, W)
+    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
+
+
+def _reducible(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
     """Where the assumptions make the equation reducible; None where it isn't known which pair is independent."""
     free = next((form for form in forms if not writer.is_integer(form.alpha)), None)
     if free is not None:
-        return writer.pair(free.term, free.turned.term)
+        return _at_one_point(free)
     signed_forms = [signed for form in forms for signed in form.signs]
     even = next((form for form in signed_forms if form.alpha == form.beta), None)
     if even is not None:
-        return writer.pair(*_even_and_odd(even))
+        return writer.pair(*_even_and_odd(even), even.bracket_of_parity())
     regular = next((form for form in signed_forms if _is_irreducible_at(form)), None)
     if regular is None:
         return None
-    return writer.pair(regular.term, regular.swapped.term)
+    return _at_two_points(regular, regular.swapped)
 
 
 def _is_irreducible_at(form: _GaussForm) -> bool:
     """Are -alpha and -beta natural, and the upper parameters positive where they are integers?"""
     writer = form.writer
-    upper = [(1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (1, -1)]
     are_natural = writer.is_natural(-form.alpha) and writer.is_natural(-form.beta)
-    return are_natural and all(writer.is_natural(value - 1) or not writer.is_integer(value) for value in upper)
+    return are_natural and all(writer.is_natural(value - 1) or not writer.is_integer(value) for value in form.upper)
 
 
-def _jacobi(form: _GaussForm) -> tuple[Expr, Expr]:
+def _jacobi(form: _GaussForm) -> WrittenPair:
     """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
     import sympy
 
     writer = form.writer
+    if form.alpha == form.beta:
+        return _gegenbauer(form)
     f = form.f
     N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
     t = writer.argument(1 - 2 * f)
-    if form.alpha == form.beta:
-        even, odd = _even_and_odd(form)
-        second = form.factor, writer.by_parity(N, odd[1], even[1])
-        if a and writer.is_natural(-form.alpha):
-            polynomial = sympy.assoc_legendre(sympy.expand(N + a), a, t)
-            plain = replace(form, alpha=form.alpha * 0, beta=form.beta * 0)
-            return writer.pair((plain.factor, writer.without_constant(polynomial)), second)
-        if writer.is_natural(form.alpha - HALF):  # Gegenbauer's polynomials of an index 0, -1, ... are 0
-            polynomial = _named(form)
-        else:
-            polynomial = sympy.gegenbauer(N, a + sympy.S.Half, t) if a else sympy.legendre(N, t)
-    else:
-        # For b = -a SymPy would write an associated Legendre function of the order -a, which needn't be an integer.
-        is_opposite = form.alpha == -form.beta
-        polynomial = _named(form) if is_opposite else sympy.jacobi(N, a, b, t)
-        if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
-            second = _GaussForm(writer, 1 / f, -form.gamma, form.beta, form.alpha).term
-        else:
-            second = form.turned.term
-    return writer.pair((form.factor, writer.without_constant(polynomial)), second)
+    # For b = -a SymPy would write an associated Legendre function of the order -a, which needn't be an integer.
+    multiple, polynomial = _named(form)
+    if form.alpha != -form.beta:
+        polynomial = sympy.jacobi(N, a, b, t)
+        multiple = sympy.gamma(N + a + 1) / (sympy.gamma(N + 1) * sympy.gamma(a + 1))
+    first = form.factor, polynomial
+    if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
+        return writer.pair(first, _GaussForm(writer, 1 / f, -form.gamma, form.beta, form.alpha).shorter.term)
+    second = form.turned.shorter
+    bracket = form.bracket(second, multiple / _named(form)[0] * writer.constant(form.alpha))
+    return writer.pair(first, second.term, bracket, (form.alpha,))
+
+
+def _gegenbauer(form: _GaussForm) -> WrittenPair:
+    """C_N^(l)(1 - 2 f), l = 1/2 - alpha, or what is a multiple of it, and the solution of the other parity."""
+    import sympy
+
+    writer = form.writer
+    N, a = (writer.constant(value) for value in (form.degree, -form.alpha))
+    t = writer.argument(1 - 2 * form.f)
+    even, odd = _even_and_odd(form)
+    second = form.factor, writer.by_parity(N, odd[1], even[1])
+    if writer.is_natural(form.alpha - HALF):  # Gegenbauer's polynomials of an index 0, -1, ... are 0
+        return writer.pair((form.factor, _named(form)[1]), second)
+    # C(0) = cos(pi N/2) gamma(l + N/2)/(gamma(l) gamma(N/2 + 1)), C'(0) = 2 l C_(N-1)^(l+1)(0)  [DLMF 18.5.10, 18.9.19]
+    index = a + sympy.S.Half
+    even_value = sympy.gamma(index + N / 2) / sympy.gamma(N / 2 + 1)
+    slope = 2 * sympy.gamma(index + (N + 1) / 2) / sympy.gamma((N + 1) / 2)
+    bracket = form.bracket_of_parity(writer.wronskian_by_parity(N, even_value, slope) / sympy.gamma(index))
+    before = form.factor
+    polynomial = sympy.gegenbauer(N, index, t) if a else sympy.legendre(N, t)
+    if a and writer.is_natural(-form.alpha):
+        # P_(N+m)^m = (-1)^m (2 m)!/(2^m m!) (1 - t^2)^(m/2) C_N^(m + 1/2)  [DLMF 14.6.1, 18.9.19]
+        polynomial = sympy.assoc_legendre(sympy.expand(N + a), a, t)
+        before = replace(form, alpha=form.alpha * 0, beta=form.beta * 0).factor
+        scale = (-1) ** a * sympy.factorial(2 * a) / (2**a * sympy.factorial(a))
+        bracket *= scale * writer.argument(4 * form.f * (1 - form.f)) ** (a / 2)
+    shown = writer.without_constant(polynomial)  # P_N(-z) is (-1)^N P_N(z)
+    return writer.pair((before, shown), second, bracket * shown / polynomial)
 
 
 def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:

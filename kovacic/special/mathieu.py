@@ -13,17 +13,18 @@ Reference: DLMF 28.2, 28.20.
 from __future__ import annotations
 
 import sympy
-from sympy import I, atan, cancel, mathieuc, mathieus, pi, tan
+from sympy import I, atan, cancel, mathieuc, mathieus, mathieusprime, pi, tan
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.reading.change_of_variable import function_of_x, user_variable
+from kovacic.special.writer import WrittenPair
 
 
-def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr] | None:
-    """Two solutions, functions of x; None where f isn't such a wave.  Their Wronskian isn't zero: an even and an odd one.
+def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | None:
+    """An even and an odd solution, functions of x; None where f isn't such a wave.
 
     >>> import kovacic
     >>> print(kovacic.dsolve("y'' + (a - 2*q*cos(2*x))*y = 0"))
@@ -60,7 +61,8 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr]
     factor = display(product(gauge + half_of_slope), Atoms(t)).subs(t, T)
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
     z = sympy.expand((unit * angle - shift) / 2)
-    return factor * mathieuc(a, q, z), factor * mathieus(a, q, z)
+    W = factor**2 * z.diff(x) * mathieuc(a, q, 0) * mathieusprime(a, q, 0)  # Mathieu's equation has no w'
+    return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), W)
 
 
 def _size_and_shift(cosine: Expr, sine: Expr) -> tuple[Expr, Expr]:

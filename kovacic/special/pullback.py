@@ -24,11 +24,10 @@ from kovacic.limits import count_work
 if TYPE_CHECKING:
     from flint import fmpq, fmpq_poly
 
-    from kovacic.closed_form.atoms import Expr
     from kovacic.special.numbers import Number
     from kovacic.special.prices import Cost
     from kovacic.special.values import StandardForm
-    from kovacic.special.writer import Writer
+    from kovacic.special.writer import Writer, WrittenPair
 
 #: What a trial of a function f costs, in units of work, about.
 TRIAL = 30
@@ -66,8 +65,10 @@ class StandardEquation(ABC):
         """
 
     @abstractmethod
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
-        """Two independent solutions pulled back by f; None where the assumptions leave open which are independent.
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair | None:
+        """Two independent solutions pulled back by f, with their Wronskian.
+
+        None where the assumptions leave open which are independent.
 
         With `singular`, solutions are analytic wherever this denominator of S isn't zero, even where f is.
         """

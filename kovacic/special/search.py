@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from kovacic.algebra.ratfunc import RatFunc
@@ -18,7 +18,7 @@ from kovacic.special.pullback import Pullback, StandardEquation
 if TYPE_CHECKING:
     from kovacic.algebra.poly import Poly
     from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Writer
+    from kovacic.special.writer import Writer, WrittenPair
 
 #: What is sought where none of them is found.
 GAUGED = "a v + b v' over these"
@@ -42,6 +42,8 @@ class SpecialFunctions:
         Why a search ended early.
     y1, y2 : sympy.Expr or None
         The solutions.
+    pair : WrittenPair or None
+        Both, with their Wronskian and what makes one of them undefined.
     transform : GaugeTransform or None
         Where the solutions are a v + b v' for solutions v of the pull-back: a and b, verified exactly.
 
@@ -58,14 +60,21 @@ class SpecialFunctions:
     pullback: Pullback | None
     searched: tuple[str, ...]
     stopped: str | None = None
-    y1: Any = None
-    y2: Any = None
+    pair: WrittenPair | None = field(default=None, repr=False)
     transform: GaugeTransform | None = None
+
+    @property
+    def y1(self) -> Any:
+        return None if self.pair is None else self.pair.y1
+
+    @property
+    def y2(self) -> Any:
+        return None if self.pair is None else self.pair.y2
 
     @property
     def solutions(self) -> tuple[Any, ...]:
         """(y1, y2), or () where nothing was found."""
-        return () if self.pullback is None else (self.y1, self.y2)
+        return () if self.pair is None else tuple(self.pair)
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self.solutions)
@@ -172,8 +181,8 @@ def special_functions(
         said = "the assumptions don't tell which solutions are independent"
         return SpecialFunctions(None, searched, said)
     if isinstance(source, GaugeTransform):
-        return SpecialFunctions(source.pullback, searched, None, *found, source)
-    return SpecialFunctions(source, searched, None, *found)
+        return SpecialFunctions(source.pullback, searched, None, found, source)
+    return SpecialFunctions(source, searched, None, found)
 
 
 def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
@@ -200,7 +209,7 @@ def written_pair(
     symbols: Mapping[str, Any],
     *,
     joined: bool,
-) -> tuple[Expr, Expr] | None:
+) -> WrittenPair | None:
     """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.
 
     Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
@@ -232,8 +241,8 @@ class BySign:
     """Solutions where an integer that depends on parameters isn't negative, and where it is; None where none are known."""
 
     integer: Any
-    natural: tuple[Any, Any]
-    negative: tuple[Any, Any] | None
+    natural: WrittenPair
+    negative: WrittenPair | None
 
 
 def by_sign(
@@ -247,7 +256,7 @@ def by_sign(
     >>> n, l = sympy.symbols("n l", integer=True, positive=True)
     >>> answer = kovacic.solve("x^2*y'' + 2*x*y' + (2*x - x^2/n^2 - l*(l + 1))*y = 0", var="x")
     >>> found = by_sign(answer.S, answer.gauge, "x", Budget(), symbols={"n": n, "l": l}, joined=False)
-    >>> print(found.integer, "|", found.natural[0])
+    >>> print(found.integer, "|", found.natural.y1)
     -l + n - 1 | x**l*exp(-x/n)*assoc_laguerre(-l + n - 1, 2*l + 1, 2*x/n)
     """
     if not any(symbol.is_integer for symbol in symbols.values()):
@@ -305,14 +314,13 @@ def _own_symbols(writer: Writer) -> dict[Any, Any]:
     return {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
 
 
-def _in_own_symbols(pair: tuple[Expr, Expr], writer: Writer) -> tuple[Expr, Expr]:
+def _in_own_symbols(pair: WrittenPair, writer: Writer) -> WrittenPair:
     """Both solutions in the user's symbols."""
     own = _own_symbols(writer)
-    y1, y2 = pair
-    return y1.xreplace(own), y2.xreplace(own)
+    return pair.mapped(lambda e: e.xreplace(own))
 
 
-def _assuming(writer: Writer, value: Any, pullback: Pullback, singular: Poly | None) -> tuple[Expr, Expr] | None:
+def _assuming(writer: Writer, value: Any, pullback: Pullback, singular: Poly | None) -> WrittenPair | None:
     """The solutions where the value is natural."""
     informed = writer.assuming(value)
     return None if informed is None else pullback.equation.written(informed, pullback.f, singular)

@@ -17,7 +17,7 @@ Values, rho^2 = q, with U where the exponents differ by an integer:
 
     e^(-rho z) 1F1(1/2 +- mu - kappa; 1 +- 2 mu; 2 rho z),      else e^(-rho z) U(1/2 + mu - kappa, 1 + 2 mu, 2 rho z).
 
-Reference: DLMF 12.7, 13.2, 13.6, 13.14, 18.5.
+Reference: DLMF 12.7, 13.2, 13.6, 13.14 (13.14.25-30: Wronskians), 18.5.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ from kovacic.special.values import (
 
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Writer, WrittenFactor, WrittenTerm
+    from kovacic.special.writer import Writer, WrittenFactor, WrittenPair, WrittenTerm
 
 #: Irregular places up to which all signs are tried where no residue tells them.
 _MOST_SIGNS = 10
@@ -104,7 +104,7 @@ class Whittaker(StandardEquation):
                     near = _near_zero(q, r) if shifted else []
                     yield from (Pullback(Whittaker(q, value, M), f) for value in dict.fromkeys([*near, r]))
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair:
         if not self.r:
             return bessel.written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4), singular)
         form = _WhittakerForm.of(self, writer, f)
@@ -216,6 +216,17 @@ class _WhittakerForm:
         """M_mu."""
         return self.factor(mu + HALF), self.writer.hypergeometric((mu - self.kappa + HALF,), (2 * mu + 1,), self.z)
 
+    def bracket(self, mu: Number, multiple: Expr = 1) -> Expr:
+        """That of a multiple of M_mu and M_-mu, whose Wronskian in z is -2 mu."""
+        import sympy
+
+        return -2 * self.writer.constant(mu) * multiple * sympy.exp(self.z) * self.writer.rate(self.f)
+
+    @property
+    def slope(self) -> Expr:
+        """dz/dx."""
+        return self.z.diff(self.writer.atoms.x)
+
     @property
     def tricomi(self) -> WrittenTerm:
         """W."""
@@ -223,20 +234,25 @@ class _WhittakerForm:
         return self.factor(self.kappa), self.writer.hypergeometric(top, (), -1 / self.z)
 
 
-def _kummer_or_tricomi(form: _WhittakerForm) -> tuple[Expr, Expr]:
+def _kummer_or_tricomi(form: _WhittakerForm) -> WrittenPair:
     """M_mu and M_-mu, or with W where 2 mu is an integer."""
+    import sympy
+
     writer = form.writer
     mu = form.mu
     if not writer.is_integer(2 * mu):
-        return writer.pair(form.kummer(mu), form.kummer(-mu))
+        return writer.pair(form.kummer(mu), form.kummer(-mu), form.bracket(mu), (2 * mu,))
     natural = next((m for m in (mu, -mu) if writer.is_natural(2 * m)), None)
     reducible = any(writer.is_integer(form.kappa + m - HALF) for m in (mu, -mu))
     if natural is None or reducible:
-        return writer.pair(form.turned.tricomi, form.tricomi)
-    return writer.pair(form.kummer(natural), form.tricomi)
+        return writer.pair(form.turned.tricomi, form.tricomi, -form.slope)  # exp(z/2), exp(-z/2) at infinity
+    m, kappa = map(writer.constant, (natural, form.kappa))
+    W = -sympy.gamma(1 + 2 * m) / sympy.gamma(m - kappa + sympy.S.Half)
+    power = form.z ** sympy.expand(-m - kappa - sympy.S.Half)
+    return writer.pair(form.kummer(natural), form.tricomi, W * sympy.exp(form.z) * power * form.slope)
 
 
-def _hermite(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
+def _hermite(form: _WhittakerForm) -> WrittenPair | None:
     import sympy
 
     writer = form.writer
@@ -250,10 +266,14 @@ def _hermite(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
     even = writer.even((-N / 2,), form.z)
     odd = writer.odd(((1 - N) / 2,), root, form.z)
     before = form.factor(form.mu)
-    return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)))
+    # H_N = 2^N cos(pi N/2) gamma((N+1)/2)/sqrt(pi) even + 2^(N+1) sin(pi N/2) gamma(N/2+1)/sqrt(pi) odd [DLMF 18.5.13]
+    scale = 2**N / sympy.sqrt(sympy.pi)
+    W = writer.wronskian_by_parity(N, scale * sympy.gamma((N + 1) / 2), 2 * scale * sympy.gamma(N / 2 + 1))
+    bracket = W * sympy.exp(form.z) * root.diff(writer.atoms.x)
+    return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)), bracket)
 
 
-def _laguerre(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
+def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
     import sympy
 
     writer = form.writer
@@ -264,8 +284,11 @@ def _laguerre(form: _WhittakerForm) -> tuple[Expr, Expr] | None:
             N = writer.constant(degree)
             a = writer.constant(2 * mu)
             polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
-            second = form.turned.tricomi if integer else form.kummer(-mu)
-            return writer.pair((form.factor(mu + HALF), polynomial), second)
+            first = form.factor(mu + HALF), polynomial
+            if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity
+                return writer.pair(first, form.turned.tricomi, (-form.z) ** N / sympy.factorial(N) * form.slope)
+            multiple = sympy.gamma(N + a + 1) / sympy.gamma(N + 1) / sympy.gamma(a + 1)
+            return writer.pair(first, form.kummer(-mu), form.bracket(mu, multiple), (2 * mu,))
     return None
 
 

@@ -6,7 +6,7 @@ with square roots, stand beside it (`WrittenFactor`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol
@@ -35,6 +35,45 @@ class WrittenFactor:
     def size(self) -> int:
         """The number of factors."""
         return len(self.product.powers) + len(self.product.roots) + bool(self.product.exponential) + len(self.others)
+
+
+@dataclass(frozen=True)
+class WrittenPair:
+    """Two solutions, and what is known of them for all values of the letters; iterating gives y1 and y2.
+
+    Attributes
+    ----------
+    y1, y2 : sympy.Expr
+        The solutions.
+    wronskian : sympy.Expr or None
+        y1 y2' - y1' y2; None where it isn't known in closed form.
+    undefined : tuple of sympy.Expr
+        Where one of these is zero a member has no value.
+    """
+
+    y1: Expr
+    y2: Expr
+    wronskian: Expr | None = None
+    undefined: tuple[Expr, ...] = ()
+
+    def __iter__(self) -> Iterator[Expr]:
+        return iter((self.y1, self.y2))
+
+    def mapped(self, function: Callable[[Expr], Expr]) -> WrittenPair:
+        """All expressions mapped.
+
+        Parameters
+        ----------
+        function : callable
+            From an expression to one, as a substitution of letters.
+
+        Returns
+        -------
+        WrittenPair
+            The pair of the images.
+        """
+        W = None if self.wronskian is None else function(self.wronskian)
+        return WrittenPair(function(self.y1), function(self.y2), W, tuple(map(function, self.undefined)))
 
 
 class Combined(Protocol):
@@ -115,17 +154,33 @@ class Writer:
                 others.append(exp(self.constant(Number(number.part * 0, number.roots)) * self.argument(function)))
         return WrittenFactor(product(rate), tuple(others))
 
-    def pair(self, first: WrittenTerm, second: WrittenTerm, *, around_zero: bool = False) -> tuple[Expr, Expr]:
-        """The two solutions, the one with fewer factors first; with `around_zero` roots of x^2 - a are those of a - x^2."""
+    def pair(
+        self,
+        first: WrittenTerm,
+        second: WrittenTerm,
+        bracket: Expr | None = None,
+        undefined: Iterable[Number] = (),
+        *,
+        around_zero: bool = False,
+        real_at: Expr | None = None,
+    ) -> WrittenPair:
+        """The solutions P1 F1 and P2 F2, the one with fewer factors first.
+
+        `bracket` is (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2: times
+        P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
+        With `around_zero` roots of x^2 - a are those of a - x^2; with `real_at` the powers are real at that point.
+        """
         if self.transform is not None:
-            return self._combined(self.transform, *first), self._combined(self.transform, *second)
+            return WrittenPair(self._combined(self.transform, *first), self._combined(self.transform, *second))
+        P, Q = (Mul(display(f.product, self.atoms, around_zero=around_zero), *f.others) for f, _ in (first, second))
+        if real_at is not None:
+            P, Q = (_real_at(factor, self.atoms.x, real_at) for factor in (P, Q))
+        y, z = P * first[1], Q * second[1]
+        excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
+        W = None if bracket is None else P * Q * bracket
         if second[0].size < first[0].size:
-            first, second = second, first
-        y1, y2 = (
-            Mul(display(f.product, self.atoms, around_zero=around_zero), *f.others, function)
-            for f, function in (first, second)
-        )
-        return y1, y2
+            return WrittenPair(z, y, None if W is None else -W, excluded)
+        return WrittenPair(y, z, W, excluded)
 
     def _combined(self, transform: Combined, before: WrittenFactor, function: Expr) -> Expr:
         """P sqrt(m) ((a + b P'/P) F + b F') for v = P F, F' = s F + t F1 with another function F1."""
@@ -233,6 +288,10 @@ class Writer:
         """A rational function: a polynomial in full, else a fraction of products."""
         return self.atoms.poly(f.num) if f.is_polynomial else self.atoms.factored(f)
 
+    def rate(self, f: RatFunc) -> Expr:
+        """f'/f."""
+        return self.atoms.factored(f.derivative() / f)
+
     def multiple(self, number: Number, f: RatFunc) -> Expr:
         """A constant times a rational function."""
         return self.constant(number) * self.argument(f) if number.roots else self.argument(f * number.part)
@@ -260,9 +319,27 @@ class Writer:
         """For a polynomial of degree N that is even or odd as N is: the solution of the other parity."""
         return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
 
+    def wronskian_by_parity(self, N: Expr, even: Expr, odd: Expr) -> Expr:
+        """That of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`, if E and O have 1, 0 and 0, 1 in the middle."""
+        return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
+
     def without_constant(self, polynomial: Expr) -> Expr:
         """Without the (-1)**N of P_N(-z)."""
         return polynomial.as_independent(self.atoms.x, as_Add=False)[1]
+
+
+def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:
+    """With (-u)^e for u^e where u is negative at the point."""
+    powers = (p for p in factor.atoms(sympy.Pow) if not p.exp.is_Integer and p.base.subs(x, point).is_negative)
+    return factor.xreplace({p: (-p.base) ** p.exp for p in powers})
+
+
+def _sine_of_letters(number: Expr) -> Expr:
+    """sin(pi l), which is zero where the number is an integer, for l with letters alone: the number up to integers."""
+    rest, letters = number.as_independent(*number.free_symbols, as_Add=True)
+    if not rest.is_Integer:
+        letters = number
+    return sympy.sin(sympy.pi * (-letters if letters.could_extract_minus_sign() else letters))
 
 
 def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:

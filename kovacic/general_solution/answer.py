@@ -1,0 +1,254 @@
+"""What `dsolve` knows and an `Eq` can't carry: the pair, a particular solution, where they hold, and what holds elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import sympy
+
+from kovacic.errors import InputError
+from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.constants import Determined, condition_of
+from kovacic.general_solution.first_order import FirstOrderEquation
+from kovacic.general_solution.question import Question
+from kovacic.general_solution.validity import Validity, needed_for
+from kovacic.parametric.assumptions import read_assumptions
+
+Expr = Any  # SymPy publishes no types
+#: Answers by their equations, and how many of them.
+_GIVEN: dict[Expr, ProblemAnswer] = {}
+_MOST_GIVEN = 100
+
+
+@dataclass(frozen=True)
+class Exceptional:
+    """Particular values of a letter, for which the two solutions of an answer are no pair.
+
+    Attributes
+    ----------
+    where : str
+        Which values: "c = 1", "c is a positive integer".
+    values : mapping
+        A letter and its value.
+    assume : mapping
+        What to assume of a letter, as for `dsolve`, where it is no single value.
+    """
+
+    where: str
+    values: Mapping[Expr, Expr] = field(default_factory=dict)
+    assume: Mapping[str, str] = field(default_factory=dict)
+    _ask: Callable[[Exceptional], ProblemAnswer] | None = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def answer(self) -> ProblemAnswer | None:
+        """What holds there; None where it isn't found."""
+        if self._ask is None or not (self.values or self.assume):
+            return None
+        with suppress(InputError, NotImplementedError):
+            return self._ask(self)
+        return None
+
+    def __str__(self) -> str:
+        return self.where
+
+
+@dataclass(frozen=True)
+class ProblemAnswer:
+    """The answer to an equation with its right-hand side and its values.
+
+    Attributes
+    ----------
+    eq : sympy.Eq
+        y(x) = ..., what `dsolve` returns.
+    notices : list of str
+        What is to be said beside: the warnings of `dsolve`.
+    unchecked : tuple of str
+        Why the answer couldn't be put into the equation, or into a condition; empty where it was.
+    known : mapping
+        Symbols that know what was assumed, for the user's own.
+    """
+
+    eq: Expr
+    notices: list[str]
+    unchecked: tuple[str, ...] = field(default=(), kw_only=True)
+    known: Mapping[Expr, Expr] = field(default_factory=dict, kw_only=True)
+
+    @property
+    def own(self) -> dict[Expr, Expr]:
+        """The user's symbols for those that know what was assumed."""
+        return {symbol: user for user, symbol in self.known.items()}
+
+    @property
+    def pair_exceptions(self) -> tuple[Expr, ...]:
+        """Where one of these is zero, the two solutions in the answer are dependent or undefined."""
+        return ()
+
+    @property
+    def exceptions(self) -> tuple[Exceptional, ...]:
+        """The values of letters for which the general solution isn't made of this pair, and what holds there."""
+        return ()
+
+    @cached_property
+    def validity(self) -> Validity:
+        """Where the formula is real and valid: relations, and exceptional values of parameters."""
+        eq = self.eq.xreplace(self.known)
+        found = needed_for(eq.rhs, eq.lhs.args[0], self.pair_exceptions)
+        return Validity(
+            tuple(relation.xreplace(self.own) for relation in found.real),
+            tuple(e.xreplace(self.own) for e in found.exceptions),
+            found.of_real_numbers,
+        )
+
+
+@dataclass(frozen=True)
+class SecondOrderAnswer(ProblemAnswer):
+    """y = C1 y1 + C2 y2 + y0.
+
+    Attributes
+    ----------
+    question : Question
+        The equation, its conditions, and the user's symbols.
+    basis : Basis
+        y1 and y2 with their Wronskian, and `exceptions`: for which letters they are no basis.
+    particular : sympy.Expr
+        y0.
+    names : tuple of sympy.Symbol
+        C1 and C2.
+    determined : Determined or None
+        What the conditions make of C1 and C2, for generic letters and for particular ones; None without conditions.
+    ask : callable
+        Answers another question about the same function: `answer_to`.
+    """
+
+    question: Question
+    basis: Basis
+    particular: Expr
+    names: tuple[Expr, Expr]
+    determined: Determined | None
+    ask: Callable[..., ProblemAnswer] = field(kw_only=True, repr=False, compare=False)
+
+    @property
+    def pair(self) -> tuple[Expr, Expr]:
+        """y1 and y2 in the user's symbols."""
+        y1, y2 = (self.question.own(y).xreplace(self.own) for y in (self.basis.y1, self.basis.y2))
+        return y1, y2
+
+    @property
+    def pair_exceptions(self) -> tuple[Expr, ...]:
+        if self.determined is None:
+            return self.basis.exceptions
+        # With given values a constant that vanishes is a denominator of the answer.
+        members = self.basis.y1.atoms(sympy.Function) | self.basis.y2.atoms(sympy.Function)
+        occur = members & self.eq.rhs.atoms(sympy.Function)
+        return tuple(map(self.question.own, self.basis.undefined)) if occur else ()
+
+    @cached_property
+    def exceptions(self) -> tuple[Exceptional, ...]:
+        if self.determined is not None:
+            return ()
+        zeros = dict.fromkeys([*self.basis.dependent, *self.basis.exceptions])
+        cases = (case for zero in zeros for case in _cases(zero.xreplace(self.own)))
+        return tuple(replace(case, _ask=self._there) for case in cases)
+
+    def _there(self, case: Exceptional) -> ProblemAnswer:
+        """For particular values of letters, or with something more assumed of them."""
+        x = self.question.function.args[0].xreplace(self.own)
+        y = self.question.function.func(x)
+        a, b, c, f = (
+            self.question.own(e).xreplace({self.question.x: x, **self.own}) for e in self.question.coefficients
+        )
+        equation = a * y.diff(x, 2) + b * y.diff(x) + c * y - f
+        return self.ask(equation.subs(case.values), y, assume=case.assume)
+
+
+@dataclass(frozen=True)
+class FirstOrderAnswer(ProblemAnswer):
+    """That of an equation of first order, linear or Riccati's, which is here with its conditions."""
+
+    equation: FirstOrderEquation
+    conditions: Sequence[Condition]
+
+
+def _cases(zero: Expr) -> Iterator[Exceptional]:
+    """Where an expression in letters is zero: a value of one of them; its integers, where it is sin(pi l)."""
+    inner = zero.args[0] / sympy.pi if isinstance(zero, sympy.sin) else None
+    if inner is not None and inner.is_Symbol:
+        for said in ("positive integer", "nonpositive integer"):
+            yield Exceptional(f"{inner} is a {said}", assume={inner.name: said})
+        return
+    for letter in sorted(zero.free_symbols, key=str):
+        slope = zero.diff(letter)
+        if slope.is_number and slope.is_nonzero:
+            value = sympy.expand(letter - zero / slope)
+            yield Exceptional(f"{letter} = {value}", values={letter: value})
+            return
+    yield Exceptional(condition_of(zero))
+
+
+def remember(answer: ProblemAnswer) -> None:
+    """Keep an answer of which only the equation is returned, for `validity`."""
+    _GIVEN[answer.eq] = answer
+    while len(_GIVEN) > _MOST_GIVEN:
+        del _GIVEN[next(iter(_GIVEN))]
+
+
+def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity:
+    """What a solution needs to be real and valid: an interval, and exceptional values of parameters.
+
+    The relations are read off the formula, part by part: arguments of roots, of logarithms and of other functions with a cut
+    lie beside that, and denominators aren't zero.  Roots are SymPy's: x^(1/3) is complex for x < 0.  They are sufficient for
+    real symbols; where complex parts cancel, they aren't necessary.  Where the two solutions are dependent, or one of them is
+    undefined, is known to the answer that the formula is from.
+    What is assumed of symbols is used; `real` is `false` alone where it makes a part complex.  That gamma(a) and other
+    functions of parameters alone may have poles isn't said.
+
+    Parameters
+    ----------
+    solution : ProblemAnswer or sympy.Eq
+        What `answer_to` or `dsolve` returns.  Of an `Eq` that `dsolve` didn't return lately the formula alone is known.
+    assume : mapping, optional
+        What was assumed of parameters, as given to `dsolve`, whose answer has the user's own symbols: {"k": "positive"}.
+        What it excludes isn't said; names that don't occur in the solution are passed over.
+
+    Returns
+    -------
+    Validity
+        `real`, relations, and `exceptions`, expressions in the parameters that must not be zero.  It is false where nothing
+        is needed.
+
+    Raises
+    ------
+    InputError
+        For what isn't such an equation.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> print(kovacic.validity(kovacic.dsolve("x^2*y'' + x*y' - y = log(x)")))
+    x > 0
+    >>> print(kovacic.validity(kovacic.dsolve("y'' + w^2*y = cos(v*x)")))
+    v + w != 0, v - w != 0, w != 0
+    >>> bool(kovacic.validity(kovacic.dsolve("y'' + y = x")))
+    False
+    >>> bool(kovacic.validity(kovacic.dsolve("y'' + k^2*y = 0"), assume={"k": "positive"}))
+    False
+    """
+    if isinstance(solution, ProblemAnswer):
+        return solution.validity
+    function = getattr(solution, "lhs", None)
+    value = getattr(solution, "rhs", None)
+    arguments: tuple[Any, ...] = getattr(function, "args", ())
+    if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
+        raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
+    own = {symbol.name: symbol for symbol in value.free_symbols}
+    said = {name: what for name, what in (assume or {}).items() if str(name) in own}
+    known = read_assumptions(said, sympy.Tuple(*own.values()), tuple(own)).symbols()
+    symbols = {own[name]: symbol for name, symbol in known.items()}
+    given = _GIVEN.get(solution)
+    exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
+    return needed_for(value.xreplace(symbols), arguments[0].xreplace(symbols), exceptions)

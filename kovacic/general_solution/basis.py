@@ -1,0 +1,235 @@
+"""`Basis`: two independent solutions that know their Wronskian, its constant, and for which letters they are no basis.
+
+By Abel, y1 y2' - y1' y2 = c w(x) with w = exp(-int b/a dx): a pair carries its constant c in the letters.  Special functions
+come with theirs from `special`; in elementary functions c is the quotient at one ordinary point, and with integrals that
+cancel the definition says it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import sympy
+from flint import acb, arb, fmpq
+from sympy import cos, expand, sin
+from sympy.simplify.fu import TR8
+
+from kovacic.algebra.precision import working_digits
+from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.product import product
+from kovacic.equation import Equation
+from kovacic.general_solution.constants import vanishing_factors
+from kovacic.general_solution.integrands import NUMBERS, radicands
+from kovacic.general_solution.substitution import finite_value, slope
+from kovacic.general_solution.zero import by_parity, is_nowhere_zero
+from kovacic.limits import check_time
+from kovacic.reading.change_of_variable import function_of_x, in_x
+from kovacic.solution import Solution
+
+Expr = Any  # SymPy publishes no types
+#: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
+_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
+#: Functions whose values at points aren't known in closed form.
+_UNKNOWN = (sympy.RootSum, sympy.Integral)
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Two solutions of the homogeneous equation in x, which is that of `equation` unless this has another variable.
+
+    Attributes
+    ----------
+    y1, y2, x : sympy.Expr
+        The members, and their variable.
+    equation : Equation
+        It gives w(x), the part of the Wronskian that depends on x.
+    own
+        Puts the user's symbols, with what is known of them, into an expression.
+    stated : sympy.Expr or None
+        The Wronskian as the maker of the pair knows it.
+    undefined : tuple of sympy.Expr
+        Where one of these is zero a member has no value.
+    solution : Solution or None
+        What the engine decided.
+    natural : sympy.Expr or None
+        An integer that depends on parameters: these are the solutions where it isn't negative.
+    otherwise : Basis or None
+        Those where it is negative, if they are known.
+    """
+
+    y1: Expr
+    y2: Expr
+    x: Expr
+    equation: Equation
+    own: Callable[[Expr], Expr] = sympy.sympify
+    stated: Expr | None = None
+    undefined: tuple[Expr, ...] = ()
+    solution: Solution | None = None
+    natural: Expr | None = None
+    otherwise: Basis | None = None
+
+    @cached_property
+    def wronskian(self) -> Expr:
+        """W = y1 y2' - y1' y2."""
+        if self.stated is not None:
+            constant, rest = self.stated.as_independent(self.x, as_Add=False)
+            if rest.is_rational_function(self.x):
+                rest = sympy.cancel(rest)
+            return _simplified(constant) * sympy.powsimp(rest)
+        if not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
+            W = self._from_a_point()
+            if W is not None and self._is_wronskian(W):
+                return W
+        return self.by_definition
+
+    @property
+    def constant(self) -> Expr:
+        """The c of W = c w(x), up to a number."""
+        return self.wronskian.as_independent(self.x, as_Add=False)[0]
+
+    @cached_property
+    def dependent(self) -> tuple[Expr, ...]:
+        """Expressions in the letters: where one is zero, so is the constant of the Wronskian."""
+        is_known = self.natural is None and not self.wronskian.has(*_UNKNOWN)  # that was chosen for independent members
+        return tuple(vanishing(self.own(self.constant))) if is_known else ()
+
+    @cached_property
+    def exceptions(self) -> tuple[Expr, ...]:
+        """Where one of these is zero the members are dependent, or one of them is undefined."""
+        undefined = map(self.own, self.undefined) if self.natural is None else ()
+        return without_implied([*self.dependent, *undefined])
+
+    def of(self, y1: Expr, y2: Expr) -> Basis:
+        """Other members; where they are the same, what is stated of them stays."""
+        if (y1, y2) == (self.y1, self.y2):
+            return self
+        return replace(self, y1=y1, y2=y2, stated=None, undefined=())
+
+    @cached_property
+    def rates(self) -> tuple[Expr, Expr]:
+        """B and C of y'' + B y' + C y = 0 in x: t' b/a - t''/t' and t'^2 c/a, where the equation is one in t = t(x)."""
+        b, c = rates(self.equation, sympy.Symbol(self.equation.variable))
+        if self.equation.change is None:
+            return b, c
+        slope = function_of_x(self.equation).diff(self.x)
+        b = in_x(self.equation, b)
+        c = in_x(self.equation, c)
+        return b * slope - slope.diff(self.x) / slope, c * slope**2
+
+    @cached_property
+    def by_definition(self) -> Expr:
+        """The Wronskian wherever the solutions are defined, on any branch; without integrals that cancel."""
+        W = self.y1 * slope(self.y2, self.x) - slope(self.y1, self.x) * self.y2
+        for integral in W.atoms(sympy.Integral):
+            check_time()
+            letter = sympy.Dummy()
+            linear = W.xreplace({integral: letter})
+            if expand(linear.diff(letter)) == 0:
+                W = linear.xreplace({letter: sympy.Integer(0)})
+        if radicands(W) and not W.has(*_UNKNOWN, sympy.Function):
+            return sympy.factor(sympy.cancel(sympy.together(W)))
+        return W
+
+    @property
+    def _kernel(self) -> Expr:
+        """w(x), real about 0 where c is found: (1 - x)^e for (x - 1)^e."""
+        t = sympy.Symbol(self.equation.variable)
+        w = display(product(self.equation.gauge * 2), Atoms(t), around_zero=True).xreplace(NUMBERS)
+        w = w.xreplace({p: (-p.base) ** p.exp for p in w.atoms(sympy.Pow) if _is_negative_root(p, t)})
+        if self.equation.change is None:
+            return w
+        return in_x(self.equation, w) * function_of_x(self.equation).diff(self.x)
+
+    def _from_a_point(self) -> Expr | None:
+        """c w(x) with c = W/w at the first of some points where it is elementary; None without such a point."""
+        w = self._kernel
+        for point in map(sympy.Integer, (0, 1, -1, 2)):
+            check_time()
+            W = finite_value(self.by_definition, self.x, point)
+            below = finite_value(w, self.x, point)
+            if W is None or not below:
+                continue
+            c = with_single_waves(expand(W / below))
+            if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
+                return _simplified(c) * w
+        return None
+
+    def _is_wronskian(self, W: Expr) -> bool:
+        """Is the constant the same wherever roots have other branches?"""
+        if not any(_has_branches(y, self.x) for y in (self.y1, self.y2)):
+            return True
+        with working_digits(2 * DIGITS), suppress(NotImplementedError):
+            return all(self._is_wronskian_at(W, point) for point in points())
+        return False
+
+    def _is_wronskian_at(self, W: Expr, point: Any) -> bool:
+        (u, du, _), (v, dv, _), (w, _, _) = (jet(e, self.x, point) for e in (self.y1, self.y2, W))
+        return bool(abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)))
+
+
+def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
+    """b/a and c/a."""
+    b, c = (Atoms(x).ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
+    return b, c
+
+
+def points() -> Iterator[Any]:
+    """Those in each quadrant and on the axis."""
+    return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
+
+
+def with_single_waves(e: Expr) -> Expr:
+    """Products of waves as sums of waves."""
+    if not e.has(sin, cos):
+        return e
+    return expand(TR8(e))
+
+
+def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
+    """Without c + m != 0, and 1/gamma(c + m) != 0, for integers m beside sin(pi c) != 0."""
+    exceptions = tuple(dict.fromkeys(exceptions))
+    periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
+    arguments = {e: (1 / e).args[0] if isinstance(1 / e, sympy.gamma) else e for e in exceptions}
+    numbers = {e: [sympy.expand(c - sign * u) for c in periodic for sign in (1, -1)] for e, u in arguments.items()}
+    return tuple(e for e in exceptions if not any(number.is_Integer for number in numbers[e]))
+
+
+def vanishing(nonzero: Expr) -> Iterator[Expr]:
+    """The factors with letters that may be zero, without powers and signs."""
+    for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(nonzero))):
+        base = factor
+        while base.is_Pow and base.exp.is_positive:
+            base = base.base
+        if base.free_symbols and not all(map(_is_nonzero, by_parity(base) or [base])):
+            yield -base if base.could_extract_minus_sign() else base
+
+
+def _is_nonzero(e: Expr) -> bool:
+    """True if no factor has zeros, as gamma functions have none."""
+    factors = [factor for factor in sympy.Mul.make_args(e) if not isinstance(factor, sympy.gamma)]
+    return all(map(is_nowhere_zero, factors))
+
+
+def _simplified(c: Expr) -> Expr:
+    """A constant in a short form: gamma functions and waves stay."""
+    if c.has(sympy.Function):
+        return sympy.factor_terms(c)
+    if c.free_symbols and c.is_rational_function():
+        return sympy.factor(sympy.cancel(c))
+    return sympy.radsimp(c)
+
+
+def _is_negative_root(p: Expr, x: Expr) -> bool:
+    """Is it a power of something that is negative at 0, with an exponent that isn't an integer?"""
+    return bool(not p.exp.is_integer and p.base.subs(x, 0).is_negative)
+
+
+def _has_branches(y: Expr, x: Expr) -> bool:
+    """Are there powers of functions of x whose exponents aren't integers?"""
+    return any(p.base.has(x) and not p.exp.is_Integer for p in y.atoms(sympy.Pow))
