@@ -1,4 +1,4 @@
-"""Which energies?  The discrete spectrum of -y'' + V y = E y, with the wave functions in the user's variable.
+"""The discrete spectrum of -y'' + V y = E y, with the wave functions in the user's variable.
 
 In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api` first.  One step a module:
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import sympy
 
 from kovacic.bound_states.closed_forms import closed_forms
-from kovacic.bound_states.darboux import DarbouxStep, step
+from kovacic.bound_states.darboux import step
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.families import (
-    Ends,
-    LevelFamily,
     Transcendental,
     constant_families,
     hermite_families,
@@ -23,13 +22,13 @@ from kovacic.bound_states.families import (
     no_families,
 )
 from kovacic.bound_states.first_levels import check_first_levels
-from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, Uncovered, frames
+from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, frames
 from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.numeric import unsolved, with_numbers
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
-from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, read_question
+from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, Uncovered, read_question
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.repulsive import REASON, is_repulsive
 from kovacic.equation import ENERGY
@@ -43,7 +42,7 @@ from kovacic.reading.read import declared
 from kovacic.reading.symbolic import written_expression
 from kovacic.writing.formula import caret
 
-_CLASSES: tuple[tuple[Callable[[SingularFrame, Ends, Any], Iterator[LevelFamily]], str], ...] = (
+_CLASSES: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Iterator[Levels]], str], ...] = (
     (constant_families, "a constant potential"),
     (hermite_families, "Hermite's polynomials"),
     (laguerre_families, "Whittaker's equation"),
@@ -96,7 +95,7 @@ def spectrum(
     max_degree : int
         Of a quasi-exactly solvable potential, the levels with a polynomial of at most this degree are given; 2 by default.
     levels : int, optional
-        So many of the lowest levels are computed as proven numbers, `numeric` of the answer: for a potential without
+        The number of lowest levels to be computed as proven numbers, `numeric` of the answer: for a potential without
         parameters, which may then be any elementary function, abs(x), cosh(x) - x^2.
     digits : int
         Proven digits of these.
@@ -141,14 +140,22 @@ def spectrum(
     """
     check_mapping(assume)
     V, var = without_left_side(V, var)
-    given = _Given(domain, energy, boundary, whole(max_degree, "max_degree"), limits, declared(parameters, assume))
+    ask = partial(
+        _spectrum,
+        max_degree=whole(max_degree, "max_degree"),
+        domain=domain,
+        energy=energy,
+        boundary=boundary,
+        limits=limits,
+        names=declared(parameters, assume),
+    )
     if is_equation(V):
         read = read_schroedinger(V, var, energy, limits)
         positive = {name: "positive" for name in read.positive if sympy.Symbol(name) in read.scaled.free_symbols}
-        found = _spectrum(read.scaled, read.variable, {**positive, **(assume or {})}, given, read.kinetic)
+        found = ask(read.scaled, var=read.variable, assume={**positive, **(assume or {})}, kinetic=read.kinetic)
         return with_numbers(read.physical(found), levels, digits, limits)
     try:
-        found = _spectrum(V, var, assume, given)
+        found = ask(V, var=var, assume=assume)
     except NotRational as reason:
         if levels is None:
             hint = "the lowest levels of other potentials are computed as proven numbers"
@@ -157,37 +164,12 @@ def spectrum(
     return with_numbers(found, levels, digits, limits)
 
 
-@dataclass(frozen=True)
-class _Given:
-    """What was given beside the potential."""
-
-    domain: Sequence[Any]
-    energy: str
-    boundary: str | None
-    max_degree: int
-    limits: Limits
-    names: Sequence[str]
-
-
-def _spectrum(
-    V: Any, var: Any, assume: Mapping[Any, Any] | None, given: _Given, kinetic: Any = sympy.S.One
-) -> Spectrum:
-    """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V."""
+def _spectrum(V: Any, *, assume: Mapping[Any, Any] | None, limits: Limits, max_degree: int, **given: Any) -> Spectrum:
+    """The spectrum of -y'' + V y = E y for what `read_question` reads; sentences about V speak of kinetic * V."""
     V, roots = with_named_roots(V)
     if roots:
         assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}
-    limits = given.limits
-    question = read_question(
-        V,
-        given.domain,
-        energy=given.energy,
-        var=var,
-        assume=assume,
-        boundary=given.boundary,
-        limits=limits,
-        kinetic=kinetic,
-        names=given.names,
-    )
+    question = read_question(V, assume=assume, limits=limits, **given)
     meanings = {**dict(question.parsed.letters), **roots}
     budget = Budget(limits)
     with budget.watched():
@@ -199,7 +181,7 @@ def _spectrum(
         else:
             found = _answered(examined, budget)
         if not (found.complete or found.needs_boundary_condition):
-            found = _with_closed_forms(found, examined, given.max_degree, limits)
+            found = _with_closed_forms(found, examined, max_degree, limits)
         if not meanings:
             with suppress(LimitExceeded):  # as far as time allows
                 check_first_levels(found, question.known)
@@ -242,9 +224,14 @@ class _Examined:
 def _examined(question: SpectralProblem) -> _Examined:
     """With Friedrichs' condition where one is needed and none was given, if the operator is bounded below.
 
-    Raises `Uncovered` where the ends can't be examined, or t isn't real, and `InputError` for a pole inside the domain.
+    Raises `Uncovered` where the ends can't be examined, or t isn't real, `InputError` for a pole inside the domain, and
+    `LimitExceeded` where it would take too long.
     """
-    real = _in_real_variable(question)
+    _check_branch_point(question)
+    original = Original.of(question.parsed.equation, question.x, question.signs)
+    terms = question.parsed.S.num.degree + question.parsed.S.den.degree
+    check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
+    real = on_real_circle(potential_in_t(question, original))
     is_endless = any(at.is_infinite for at in question.domain)
     if real.original.is_periodic and is_endless:
         check_poles(real, question.signs)
@@ -298,7 +285,12 @@ def _answered(examined: _Examined, budget: Budget) -> Spectrum:
             return examined.spectrum(complete=True, reason=NO_LEVELS)
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
         return examined.spectrum(reason=f"undecided: {reason}")
+    is_circular = Original.of(question.parsed.equation, question.x, question.signs).is_circular
     try:
+        if is_circular:
+            raise Uncovered(
+                "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
+            )
         families, name = _families(question, budget)
     except Transcendental as equation:
         return examined.spectrum(reason=f"undecided: the levels are the solutions of {equation}")
@@ -306,26 +298,25 @@ def _answered(examined: _Examined, budget: Budget) -> Spectrum:
         is_settled = not examined.excluded and not question.boundary.is_mixed
         if is_settled and is_repulsive(examined.real, examined.ends, question.signs):
             return examined.spectrum(complete=True, reason=REASON)
-        transformed = _transformed(examined, budget)
-        return transformed or examined.spectrum(reason=_why_no_formula(examined, uncovered))
-    found = (_levels(question, family) for family in families)
-    levels = [one for one in found if sympy.false not in one.conditions and one.members != ()]
+        why = _why_no_formula(examined) or (f"undecided: {uncovered}" if is_circular else "")
+        return _transformed(examined, budget) or examined.spectrum(reason=why)
+    levels = [one for one in families if sympy.false not in one.conditions and one.members != ()]
     reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
     return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
 
 
-def _why_no_formula(examined: _Examined, why: Uncovered) -> str:
-    """What there is instead of a formula at an ordinary point, or why there is none; "" where there may be single levels."""
+def _why_no_formula(examined: _Examined) -> str:
+    """What there is instead of a formula at an ordinary point; "" where there may be single levels."""
     question = examined.question
     wall = next((end.at for end in examined.ends if end.is_ordinary), None)
-    if wall is not None:
-        where = f"{question.variable} = {caret(str(question.plain(wall)))}"
-        meets = "fulfils the condition" if any(question.boundary.wishes) else "vanishes"
-        return (
-            f"undecided: the levels are the energies for which a solution {meets} at {where}, an ordinary point; a formula "
-            "is known where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
-        )
-    return f"undecided: {why}" if _is_circular(question) else ""
+    if wall is None:
+        return ""
+    where = f"{question.variable} = {caret(str(question.plain(wall)))}"
+    meets = "fulfils the condition" if any(question.boundary.wishes) else "vanishes"
+    return (
+        f"undecided: the levels are the energies for which a solution {meets} at {where}, an ordinary point; a formula "
+        "is known where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
+    )
 
 
 def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, limits: Limits) -> Spectrum:
@@ -343,7 +334,7 @@ def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, li
 
 
 def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
-    """By Darboux' transformation from a potential with fewer apparent singularities; None where there is none."""
+    """By Darboux' transformation from a potential with fewer apparent singularities, or None."""
     question = examined.question
     found = step(question, examined.ends, budget)
     if found is None:
@@ -361,49 +352,23 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     are_kept = all(question.signs.sign(gap) is not None for gap in gaps)
     if not (simpler.complete and are_kept and all(end.circle is False for end in other.ends)):
         return None
+    # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0) times that of y; and E0 with y0.
+    W = question.plain(sympy.factor(found.W))
+    x, E = sympy.symbols([question.variable, question.energy])
+    levels = []
+    for one in simpler.levels:
+        wave = W * one.wave + sympy.Derivative(one.wave, x)
+        norm = None if one.norm is None else (one.energy - E0) * one.norm
+        levels.append(replace(one, wave=wave, zeros=one.zeros + int(found.is_level), norm=norm))
+    lowest = question.plain(found.wave)
+    states = () if question.parameters else (BoundState(0, E0, lowest, 0),)
     shown = caret(as_text(question.plain(sympy.factor(question.kinetic * simpler_V))))
     return examined.spectrum(
-        levels=_transformed_levels(found, simpler, question),
-        algebraic=_lowest_level(found, question),
+        levels=tuple(levels),
+        algebraic=(Algebraic(0, sympy.Integer(0), E - E0, lowest, (), states),) if found.is_level else (),
         complete=True,
         reason=f"Darboux' transformation of V = {shown}; {simpler.reason}",
     )
-
-
-def _transformed_levels(found: DarbouxStep, simpler: Spectrum, question: SpectralProblem) -> tuple[Levels, ...]:
-    """Those of the simpler potential with y' + W y for y, whose norm^2 is (E - E0) times that of y."""
-    x = sympy.Symbol(question.variable)
-    W = question.plain(sympy.factor(found.W))
-    E0 = question.plain(found.energy)
-    levels = []
-    for one in simpler.levels:
-        norm = None
-        if one.norm is not None:
-            norm = (one.energy - E0) * one.norm
-        wave = W * one.wave + sympy.Derivative(one.wave, x)
-        levels.append(replace(one, wave=wave, zeros=one.zeros + int(found.is_level), norm=norm))
-    return tuple(levels)
-
-
-def _lowest_level(found: DarbouxStep, question: SpectralProblem) -> tuple[Algebraic, ...]:
-    """E0 with y0, if that is a level."""
-    if not found.is_level:
-        return ()
-    energy = question.plain(found.energy)
-    wave = question.plain(found.wave)
-    states = () if question.parameters else (BoundState(0, energy, wave, 0),)
-    E = sympy.Symbol(question.energy)
-    return (Algebraic(0, sympy.Integer(0), E - energy, wave, (), states),)
-
-
-def _in_real_variable(question: SpectralProblem) -> RealPotential:
-    """V as a function of a real t.  Raises `LimitExceeded` where examining it would take too long."""
-    parsed = question.parsed
-    _check_branch_point(question)
-    original = Original.of(parsed.equation, question.x, question.signs)
-    terms = parsed.S.num.degree + parsed.S.den.degree
-    check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
-    return on_real_circle(potential_in_t(question, original))
 
 
 def _check_branch_point(question: SpectralProblem) -> None:
@@ -423,41 +388,13 @@ def _check_branch_point(question: SpectralProblem) -> None:
         )
 
 
-def _is_circular(question: SpectralProblem) -> bool:
-    return Original.of(question.parsed.equation, question.x, question.signs).is_circular
-
-
-def _families(question: SpectralProblem, budget: Budget) -> tuple[list[LevelFamily], str]:
+def _families(question: SpectralProblem, budget: Budget) -> tuple[list[Levels], str]:
     """Those of the first coordinate and standard equation that fit, and its name."""
-    if _is_circular(question):
-        raise Uncovered(
-            "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
-        )
-    demands = Ends.of(question)
     reasons = []
     for frame in frames(question, budget):
         for families, name in _CLASSES:
             try:
-                return [*families(frame, demands, question.E)], name
+                return [*families(frame, question)], name
             except Uncovered as reason:
                 reasons.append(str(reason))
     raise Uncovered("; ".join(dict.fromkeys(reasons)))
-
-
-def _levels(question: SpectralProblem, family: LevelFamily) -> Levels:
-    """In the user's symbols, with the square roots for which symbols stand."""
-    radicals = dict(family.radicals)
-
-    def written(expression: Any) -> Any:
-        return question.plain(sympy.sympify(expression).xreplace(radicals))
-
-    conditions = [written(condition) for condition in tidied(family.conditions, question.signs, radicals)]
-    norm = None if family.norm is None else written(family.norm)
-    return Levels(
-        question.plain(question.signs.n),
-        written(family.energy),
-        written(family.wave),
-        tuple(c for c in conditions if c != sympy.true),
-        written(family.zeros),
-        norm,
-    )

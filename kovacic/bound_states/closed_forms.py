@@ -18,7 +18,6 @@ M. Razavy, Amer. J. Phys. 48 (1980) 285; M. F. Manning, J. Chem. Phys. 3 (1935) 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from typing import Any, NamedTuple
@@ -26,11 +25,11 @@ from typing import Any, NamedTuple
 import sympy
 
 from kovacic.bound_states.ends import End, leading
-from kovacic.bound_states.families import Ends, possible
-from kovacic.bound_states.frame import Original, RealPotential, Spot, Uncovered, range_of
+from kovacic.bound_states.families import possible
+from kovacic.bound_states.frame import Original, RealPotential, monotonic_range
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.norms import norm_of
-from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.question import SpectralProblem, above
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import LimitExceeded
@@ -130,10 +129,8 @@ class _Window(NamedTuple):
         high = min(thresholds, default=None)
         if real is None or question.boundary.is_mixed:
             return cls(None, high)
-        low = None
-        with suppress(Uncovered):
-            if not real.original.turning_points(question.domain, question.signs):
-                low = _number_below(real.V, real.t, range_of(real.original, question.domain, question.signs))
+        bounds = monotonic_range(real.original, question.domain, question.signs)
+        low = None if bounds is None else _number_below(real.V, real.t, bounds)
         return cls(low, high)
 
     def has_zero_of(self, polynomial: Any, E: Any) -> bool:
@@ -240,10 +237,14 @@ class _ClosedFormSearch:
                 levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
                 if here:
                     continue
-                if any(self._excludes(fit) for fit in fits):
+                # A solution that is the only square integrable one at one end, and isn't square integrable at the other.
+                first, last = (end.circle is False for end in self.ends) if self.ends else (False, False)
+                if (first and [True, False] in fits) or (last and [False, True] in fits):
                     excluded.append(polynomial)
-                elif not self._is_without_closed_form(polynomial):
-                    complete = False
+                    continue
+                linear = sympy.degree(polynomial, self.E) == 1
+                value = {self.question.energy: -polynomial.subs(self.E, 0)}
+                complete = complete and linear and self.conditions.case_at(value) is None
         return ClosedForms(self.conditions, tuple(levels), complete, tuple(excluded), higher)
 
     def _listed(self, statement: Statement) -> _Listed:
@@ -292,21 +293,10 @@ class _ClosedFormSearch:
         roots = sympy.Poly(polynomial, self.E).real_roots()
         found: list[bool | None] = []
         for end in self.ends:
-            demands = demands_at(end, solution.y, self.question)
-            verdicts = {all(bool(demand.subs(E, root)) for demand in demands) for root in roots}
+            demand = demand_at(end, solution.y, self.question)
+            verdicts = {bool(demand.subs(E, root)) for root in roots}
             found.append(verdicts.pop() if len(verdicts) == 1 else None)
         return found
-
-    def _excludes(self, fit: list[bool | None]) -> bool:
-        """True if a solution is the only square integrable one at one end, and isn't square integrable at the other."""
-        first, last = self.ends
-        return (fit == [True, False] and first.circle is False) or (fit == [False, True] and last.circle is False)
-
-    def _is_without_closed_form(self, polynomial: Any) -> bool:
-        """True if there is no Liouvillian solution at its zero."""
-        if sympy.degree(polynomial, self.E) > 1:
-            return False
-        return self.conditions.case_at({self.question.energy: -polynomial.subs(self.E, 0)}) is None
 
     def with_parameters(self) -> ClosedForms:
         """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
@@ -337,7 +327,7 @@ class _ClosedFormSearch:
             polynomial = -polynomial
         signs = self.question.signs
         bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-        demands = [demand for end in self.ends for demand in demands_at(end, solution.y, self.question)]
+        demands = [demand_at(end, solution.y, self.question) for end in self.ends]
         if sympy.degree(polynomial, self.E) == 1:
             (energy,) = sympy.solve(polynomial, self.E)
             solution = replace(solution, y=solution.y.subs(self.E, energy))
@@ -354,10 +344,6 @@ class _ClosedFormSearch:
         question = self.question
         parsed = question.parsed
         original = Original.of(parsed.equation, question.x, question.signs)
-        bounds = None
-        with suppress(Uncovered):
-            if not original.turning_points(question.domain, question.signs):
-                bounds = range_of(original, question.domain, question.signs)
         level = Algebraic(
             int(solution.degree),
             constraint,
@@ -365,7 +351,7 @@ class _ClosedFormSearch:
             solution.y if parsed.equation is None else translated(solution.y, parsed.equation),
             tuple(map(question.plain, tidied(conditions, question.signs))),
             P=_polynomial_in(solution.y, sympy.Symbol(parsed.variable), self.ends),
-            range=bounds,
+            range=monotonic_range(original, question.domain, question.signs),
         )
         if question.parameters:
             return level
@@ -389,7 +375,7 @@ def _zero_where(statement: Statement) -> Any:
 def _function_for(statement: Statement, number: int | None, constants: dict[Any, Any]) -> Any:
     """A function of E that vanishes where the statement holds for a number: Delta_d where the exponents give d for all E.
 
-    None where Delta_d isn't known.
+    None if Delta_d is unknown.
     """
     if not isinstance(statement, Natural) or number is None:
         return _zero_where(statement).subs(constants)
@@ -412,8 +398,8 @@ def _vanish(functions: Sequence[Any], polynomial: Any, E: Any) -> bool:
     return all(sympy.rem(sympy.numer(sympy.together(f)), polynomial, E) == 0 for f in functions)
 
 
-def demands_at(end: End, v: Any, question: SpectralProblem) -> list[Any]:
-    """When a function v of t, whose v'/v is rational, is the square integrable one at an end: relations in real symbols."""
+def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
+    """When a function v of t, whose v'/v is rational, is the square integrable one at an end, in real symbols."""
     signs = question.signs
     t = sympy.Symbol(question.parsed.variable)
     u = sympy.Dummy("u")
@@ -423,10 +409,9 @@ def demands_at(end: End, v: Any, question: SpectralProblem) -> list[Any]:
     order, strength = leading(signs.real(sympy.together(local)), u)
     if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
         decay = strength * end.direction ** (-order - 1)
-        return [sympy.false if decay.is_real is False else sympy.Gt(decay, 0)]
+        return above(decay, 0, strict=True)
     exponent = strength if order == -1 else sympy.Integer(0)
-    spot = Spot(end.point, None, sympy.Integer(end.mu), ("right" if end.is_right else "left",))
-    return Ends.of(question).conditions(end.domain, spot, sympy.simplify(2 * exponent - 1))
+    return question.demand(int(end.is_right), sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
 
 
 def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any] | None:

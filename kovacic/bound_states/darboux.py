@@ -23,7 +23,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.closed_forms import demands_at
+from kovacic.bound_states.closed_forms import demand_at
 from kovacic.bound_states.ends import End
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.engine.places import analyse
@@ -33,7 +33,7 @@ from kovacic.parametric.darboux import transformation
 
 @dataclass(frozen=True)
 class DarbouxStep:
-    """W, E0, y0, and is y0 square integrable?  In real symbols, y0 in the user's variable."""
+    """W, E0, y0, and whether y0 is square integrable; in real symbols, y0 in the user's variable."""
 
     W: Any
     energy: Any
@@ -42,7 +42,7 @@ class DarbouxStep:
 
 
 def step(question: SpectralProblem, ends: Sequence[End], budget: Budget) -> DarbouxStep | None:
-    """The transformation that lowers the apparent singularities of a V in x; None where none is known to apply."""
+    """The transformation that lowers the apparent singularities of a V in x; None if none is known to apply."""
     if question.parsed.equation is not None or not all(end.circle is False for end in ends):
         return None
     found = transformation(analyse(question.parsed.S, budget))
@@ -55,7 +55,7 @@ def step(question: SpectralProblem, ends: Sequence[End], budget: Budget) -> Darb
     if energy.has(x):
         return None
     wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
-    known = [signs.holds(demand) for end in ends for demand in demands_at(end, wave, question)]
+    known = [signs.holds(demand_at(end, wave, question)) for end in ends]
     if None in known:
         return None
     return DarbouxStep(W.xreplace({x: question.x}), energy, wave, all(known))

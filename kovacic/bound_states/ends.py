@@ -13,26 +13,25 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.energies import exact_root
-from kovacic.bound_states.frame import SLOPES, Original, RealPotential, Uncovered, is_between
-from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.frame import Original, RealPotential, is_between
+from kovacic.bound_states.question import SpectralProblem, Uncovered
 from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
 from kovacic.numbers.numerals import as_text
 from kovacic.writing.formula import caret
 
-_DECAYS = "V -> oo, one solution decays"
 #: How far from an end, in theta, the sign of a local coordinate is read off.
 _STEP = sympy.Rational(1, 1000)
 
 
 @dataclass(frozen=True)
 class End:
-    """One end: where both solutions are square integrable (`circle`, a relation, True or False), and what is said about it.
+    """One end: where both solutions are square integrable (`circle`, a relation, True or False), and a sentence about it.
 
     `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
     the solutions oscillate at a regular end, which has the same effect.  `threshold` is where
-    the continuous spectrum begins at an infinite end; None where it doesn't.  The end is t = `point`, with
+    the continuous spectrum begins at an infinite end, None if it doesn't.  The end is t = `point`, with
     (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_ordinary` where the exponents are
     those at an ordinary point, and `is_regular` where V has a value.
     """
@@ -43,7 +42,6 @@ class End:
     oscillates: bool = False
     oscillation: Any = False
     threshold: Any = None
-    domain: tuple[Any, Any] = (-sympy.oo, sympy.oo)
     is_right: bool = True
     point: Any = sympy.oo
     mu: int = 4
@@ -63,48 +61,31 @@ def potential_in_t(question: SpectralProblem, original: Original) -> RealPotenti
         return RealPotential(sympy.cancel(S + question.E), original, t, question.kinetic)
     quotient = equation.c / equation.a
     c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
-    V = sympy.cancel(question.E - SLOPES[original.kind](t) * original.rate**2 * c)
+    V = sympy.cancel(question.E - original.slope_squared(t) * c)
     return RealPotential(V, original, t, question.kinetic)
 
 
 def check_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
     """Raises `InputError` where V has a pole inside the domain, and `Uncovered` where that isn't known."""
-    x = real.original.x
-    inside = _poles_inside(real, domain, signs)
-    if not inside:
-        return
-    message = f"V isn't regular at {x} = {caret(as_text(inside[0]))}, inside the domain"
-    hint = "choose a domain without a pole inside"
-    last = _last(inside, signs)
-    if last is None:
-        raise InputError(message, hint=hint)
-    python, shell = domain_as_given(last, domain[1])
-    raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
-
-
-def _poles_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
-    """The values of x inside the domain at which V has a pole."""
     original = real.original
     denominator = sympy.Poly(sympy.denom(real.V), real.t)
     points = real_zeros(denominator, signs)
     if original.kind == "tan" and sympy.degree(sympy.numer(real.V), real.t) > denominator.degree():
         points.append(sympy.oo)
     if not points:
-        return []
+        return
     first, last = (original.theta_at(end, signs) for end in domain)
-    inside = []
-    for point in points:
-        found = [a for a in _angles(original.kind, point, (first, last)) if is_between(a, first, last, signs)]
-        inside += [(angle - original.offset) / original.rate for angle in found]
-    return inside
-
-
-def _last(points: list[Any], signs: Signs) -> Any:
-    """The largest of them, None where that isn't known."""
-    for point in points:
-        if all(signs.is_nonnegative(point - other) for other in points):
-            return point
-    return None
+    angles = [angle for point in points for angle in _angles(original.kind, point, (first, last))]
+    inside = [(a - original.offset) / original.rate for a in angles if is_between(a, first, last, signs)]
+    if not inside:
+        return
+    message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
+    hint = "choose a domain without a pole inside"
+    largest = [point for point in inside if all(signs.is_nonnegative(point - other) for other in inside)]
+    if not largest:
+        raise InputError(message, hint=hint)
+    python, shell = domain_as_given(largest[0], domain[1])
+    raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
 
 
 def domain_as_given(first: Any, last: Any) -> tuple[str, str]:
@@ -118,7 +99,7 @@ def domain_as_given(first: Any, last: Any) -> tuple[str, str]:
 
 
 def _as_given(end: Any) -> str:
-    """An integer as it is, everything else as text in quotes."""
+    """An integer, or anything else as text in quotes."""
     shown = end if end.is_infinite else sympy.simplify(end)
     text = caret(as_text(shown))
     return text if shown.is_Integer else f'"{text}"'
@@ -148,21 +129,15 @@ def _angles(kind: str, point: Any, ends: tuple[Any, Any]) -> list[Any]:
     if kind == "cosh":
         angle = sympy.acosh(point)
         return [] if angle.is_real is False else [angle, -angle]
-    in_a_period = _angles_in_a_period(kind, point)
+    inverse = {"cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[kind]
+    angle = sympy.pi / 2 if point == sympy.oo else inverse(point)
+    if angle.is_real is False:
+        return []
+    other = {"cos": -angle, "sin": sympy.pi - angle, "tan": angle + sympy.pi}[kind]
     period = 2 * sympy.pi
     lowest = sympy.floor(min(ends) / period) - 1
     number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
-    return [angle + period * (lowest + k) for angle in in_a_period for k in range(number)]
-
-
-def _angles_in_a_period(kind: str, point: Any) -> list[Any]:
-    """The two real angles in a period 2 pi at which the sine, cosine or tangent has a value, or one, or none."""
-    inverse = {"cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[kind]
-    first = sympy.pi / 2 if point == sympy.oo else inverse(point)
-    if first.is_real is False:
-        return []
-    second = {"cos": -first, "sin": sympy.pi - first, "tan": first + sympy.pi}[kind]
-    return [*dict.fromkeys((first, second))]
+    return [a + period * (lowest + k) for a in dict.fromkeys((angle, other)) for k in range(number)]
 
 
 @dataclass(frozen=True)
@@ -170,7 +145,7 @@ class _Place:
     """An end of the domain as a point t = `point` with the local coordinate u: t = point + u, or 1/u.
 
     `slope` is (du/dx)^2 ~ u^mu, and V ~ strength u^(-pole).  `direction` is the sign of u inside the domain, and
-    `distance` that of x from the end, as it is written.
+    `distance` the printed distance of x from the end.
     """
 
     at: Any
@@ -186,7 +161,7 @@ class _Place:
 
     @property
     def where(self) -> str:
-        """The end, as it is said."""
+        """The end in a sentence."""
         shown = str(self.at) if self.at.is_infinite else caret(as_text(self.at))
         return f"{self.x} -> {shown}"
 
@@ -205,42 +180,33 @@ def end_of(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_rig
         end = _unbounded(place, signs)
     else:
         end = _finite(place, signs)
-    is_regular = place.at.is_finite and place.pole <= 0
-    found = replace(end, domain=domain, is_right=is_right, point=place.point, mu=place.mu, direction=place.direction)
-    return replace(found, is_regular=is_regular)
+    return replace(
+        end,
+        is_right=is_right,
+        point=place.point,
+        mu=place.mu,
+        direction=place.direction,
+        is_regular=place.at.is_finite and place.pole <= 0,
+    )
 
 
 def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_right: bool) -> _Place:
     """The end in its local coordinate."""
     original = real.original
-    first, last = domain
-    if is_right:
-        at = last
-        other = first
-        distance = last - original.x
-    else:
-        at = first
-        other = last
-        distance = original.x - first
+    at, other = (domain[1], domain[0]) if is_right else domain
     point = original.at(at, signs)
     u = sympy.Dummy("u")
-    if point == sympy.oo:
-        t = 1 / u
-        dt_du_squared = u**-4
-    else:
-        t = point + u
-        dt_du_squared = sympy.Integer(1)
-    slope = sympy.cancel(SLOPES[original.kind](t) * original.rate**2 / dt_du_squared)
-    mu, _ = leading(slope, u)
+    t, dt_du_squared = (1 / u, u**-4) if point == sympy.oo else (point + u, sympy.Integer(1))
+    slope = sympy.cancel(original.slope_squared(t) / dt_du_squared)
     order, strength = leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
     return _Place(
         at,
         original.x,
-        distance=distance,
+        distance=at - original.x if is_right else original.x - at,
         point=point,
         u=u,
         slope=slope,
-        mu=mu,
+        mu=leading(slope, u)[0],
         pole=-order,
         strength=strength,
         direction=_side(original, at, other, point, signs),
@@ -263,64 +229,47 @@ def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> 
     if kind == "cosh" or (kind == "exp" and point in (0, sympy.oo)):
         return 1  # t > 0, and t > 1 for the hyperbolic cosine
     is_left = at == -sympy.oo or other == sympy.oo or (at != sympy.oo and signs.sign(other - at) == 1)
-    if kind in ("x", "exp", "sinh"):
-        return _side_of_monotonic(original, at, signs, is_left=is_left)
-    return _side_of_periodic(original, at, point, signs, is_left=is_left)
-
-
-def _side_of_monotonic(original: Original, at: Any, signs: Signs, *, is_left: bool) -> int:
-    """For t that grows with theta: u > 0 beside a left end, and at a right one that is infinite; < 0 for a negative rate."""
-    sign = signs.sign(original.rate)
-    if sign is None:
-        raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
-    is_above = is_left != at.is_infinite
-    return sign if is_above else -sign
-
-
-def _side_of_periodic(original: Original, at: Any, point: Any, signs: Signs, *, is_left: bool) -> int:
-    """For a sine, cosine or tangent by its value a small step inside the domain."""
+    if kind in ("x", "exp", "sinh"):  # t grows with theta: u > 0 beside a left end, and at a right one that is infinite
+        sign = signs.sign(original.rate)
+        if sign is None:
+            raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
+        return sign if is_left != at.is_infinite else -sign
     angle = original.theta_at(at, signs)
     if not angle.is_number:
         raise Uncovered(f"the end {at} isn't a multiple of pi/({original.rate})")
-    step = _STEP if is_left else -_STEP
-    t = getattr(sympy, original.kind)(angle + step)
+    t = getattr(sympy, kind)(angle + (_STEP if is_left else -_STEP))
     u = 1 / t if point == sympy.oo else t - point
     return 1 if u > 0 else -1
 
 
 def _infinite(place: _Place, signs: Signs, kinetic: Any) -> End:
-    """An infinite end: by what V tends to, and whether x is infinite soon enough for it."""
-    at = place.at
-    where = place.where
-    strength = place.inside
-    if place.pole < 0 or strength == 0:
-        return End(at, False, f"{where}: V -> 0, continuous spectrum from 0", threshold=sympy.Integer(0))
+    """An infinite end, by what V tends to."""
+    if place.pole < 0 or place.inside == 0:
+        said = f"{place.where}: V -> 0, continuous spectrum from 0"
+        return End(place.at, False, said, threshold=sympy.Integer(0))
     if place.pole == 0:
-        shown = caret(as_text(sympy.factor(kinetic * strength)))
-        return End(at, False, f"{where}: V -> {shown}, continuous spectrum from there", threshold=strength)
-    if place.mu < place.pole + 2:
-        return _unbounded(place, signs)
-    sign = signs.sign(strength)
-    if sign == 1:
-        return End(at, False, f"{where}: {_DECAYS}")
-    if sign == -1:
-        return End(at, False, f"{where}: V -> -oo, no solution is square integrable", oscillates=True)
-    return End(at, False, f"{where}: at most one solution is square integrable")
+        shown = caret(as_text(sympy.factor(kinetic * place.inside)))
+        said = f"{place.where}: V -> {shown}, continuous spectrum from there"
+        return End(place.at, False, said, threshold=place.inside)
+    return _unbounded(place, signs)
 
 
 def _unbounded(place: _Place, signs: Signs) -> End:
-    """Where V -> oo, or V -> -oo so fast that int |V|^(-1/2) dx is finite."""
+    """Where V -> oo or V -> -oo; in the second case int |V|^(-1/2) dx may be finite, at a finite end or where V falls fast."""
     at = place.at
     where = place.where
-    strength = place.inside
-    sign = signs.sign(strength)
+    sign = signs.sign(place.inside)
+    is_fast = at.is_finite or place.mu < place.pole + 2
     if sign == 1:
-        return End(at, False, f"{where}: {_DECAYS}")
+        return End(at, False, f"{where}: V -> oo, one solution decays")
+    if not is_fast:
+        said = "at most one solution" if sign is None else "V -> -oo, no solution"
+        return End(at, False, f"{where}: {said} is square integrable", oscillates=sign == -1)
     if sign == -1:
         said = "V -> -oo so fast that both solutions are square integrable (limit circle)"
         return End(at, True, f"{where}: {said}", oscillates=True)
-    said = f"one solution decays where {caret(as_text(strength))} > 0"
-    return End(at, sympy.Lt(strength, 0), f"{where}: {said}", oscillates=True)
+    said = f"one solution decays where {caret(as_text(place.inside))} > 0"
+    return End(at, sympy.Lt(place.inside, 0), f"{where}: {said}", oscillates=True)
 
 
 def _finite(place: _Place, signs: Signs) -> End:
@@ -329,17 +278,21 @@ def _finite(place: _Place, signs: Signs) -> End:
     where = place.where
     if place.mu >= 2:
         raise Uncovered(f"the coordinate isn't regular at {where}")
-    square = _nu_squared(place)
+    # u ~ (x - a)^p with p = 2/(2 - mu), so that with (du/dx)^2 ~ C u^mu it is (x - a)^p (C/p^2)^(p/2).
+    square = sympy.Rational(1, 4)
+    if place.pole == 2 - place.mu:
+        _, C = leading(place.slope, place.u)
+        square = sympy.factor(sympy.factor(4 * place.strength / (C * (2 - place.mu) ** 2)) + square)
     circle = _less_than_1(square, signs)
     known = signs.holds(circle)
+    powers = _powers(place.distance, square)
     if known is False:
-        powers = _powers(place.distance, square)
         return End(at, False, f"{where}: y ~ {powers}, the smaller one is square integrable")
     if signs.is_nonnegative(square) is False:
         shown = caret(as_text(-sympy.Symbol("c") / place.distance**2))
         said = f"V ~ {shown} with c > 1/4, the solutions oscillate (limit circle)"
         return End(at, True, f"{where}: {said}", oscillates=True)
-    said = f"y ~ {_powers(place.distance, square)}, both are square integrable (limit circle)"
+    said = f"y ~ {powers}, both are square integrable (limit circle)"
     is_ordinary = square == sympy.Rational(1, 4)
     oscillation = False if signs.is_nonnegative(square) else sympy.Lt(square, 0)
     if known:
@@ -347,19 +300,6 @@ def _finite(place: _Place, signs: Signs) -> End:
     condition = tidied([circle], signs)[0]
     relation = f"{caret(as_text(condition.lhs))} {condition.rel_op} {caret(as_text(condition.rhs))}"
     return End(at, circle, f"{where}: {said} where {relation}", oscillation=oscillation)
-
-
-def _nu_squared(place: _Place) -> Any:
-    """nu^2, from V ~ strength u^(mu - 2) and (du/dx)^2 ~ C u^mu.
-
-    u ~ (x - a)^p with p = 2/(2 - mu), so that u is (x - a)^p (C/p^2)^(p/2).
-    """
-    p = sympy.Rational(2, 2 - place.mu)
-    coefficient = sympy.Integer(0)
-    if place.pole == 2 - place.mu:
-        _, C = leading(place.slope, place.u)
-        coefficient = sympy.factor(place.strength * p**2 / C)
-    return sympy.factor(coefficient + sympy.Rational(1, 4))
 
 
 def _less_than_1(square: Any, signs: Signs) -> Any:

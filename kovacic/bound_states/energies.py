@@ -7,12 +7,12 @@ unknowns with a sign, rho^2 = D(E), and E is eliminated: D is linear in E, and s
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import sympy
 
-from kovacic.bound_states.frame import Uncovered
+from kovacic.bound_states.question import Uncovered
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,11 @@ class Root:
     value: Any
     unknown: bool = False
     radicals: tuple[tuple[Any, Any], ...] = ()
+
+    @property
+    def signed(self) -> list[Any]:
+        """The root with both of its signs; an unknown has its own one."""
+        return [self.value] if self.unknown or self.value == 0 else [self.value, -self.value]
 
     @classmethod
     def of(cls, square: Any, E: Any) -> Root:
@@ -53,45 +58,27 @@ class Root:
 
 
 def exact_root(square: Any) -> Any:
-    """A root without radicals of what isn't a number, over Q(i) where i occurs; None where there is none."""
+    """A root without radicals of what isn't a number, over Q(i) where I occurs, or None.
+
+    That of a number is p + i q with p > 0, for what isn't real: its conjugate is p - i q, and SymPy sees that p is real.
+    """
     if square.is_number:
-        return _root_of_number(sympy.expand(square))
+        value = sympy.expand(square)
+        re, im = value.as_real_imag()
+        if im == 0:
+            return sympy.sqrt(value)
+        p = sympy.sqrtdenest(sympy.sqrt((sympy.sqrt(re**2 + im**2) + re) / 2))
+        return p + sympy.I * sympy.radsimp(im / (2 * p))
     is_complex = square.has(sympy.I)
-    num, den = sympy.fraction(sympy.together(square))
     root = sympy.Integer(1)
-    for part, sign in ((num, 1), (den, -1)):
-        factored = _factored(part, is_complex=is_complex)
-        if any(multiplicity % 2 for _, multiplicity in factored.factors):
+    for part, sign in zip(sympy.fraction(sympy.together(square)), (1, -1), strict=True):
+        constant, factors = sympy.factor_list(part, extension=sympy.I) if is_complex else sympy.factor_list(part)
+        if any(multiplicity % 2 for _, multiplicity in factors):
             return None
-        root *= factored.root_of_constant**sign
-        for factor, multiplicity in factored.factors:
+        root *= (sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) if is_complex else sympy.sqrt(constant)) ** sign
+        for factor, multiplicity in factors:
             root *= factor ** (sign * multiplicity // 2)
     return sympy.expand(root) if root.has(sympy.I) else root
-
-
-class _Factored(NamedTuple):
-    """The root of the constant factor of a polynomial, and its other factors with their multiplicities."""
-
-    root_of_constant: Any
-    factors: list[tuple[Any, int]]
-
-
-def _factored(polynomial: Any, *, is_complex: bool) -> _Factored:
-    """Over Q or Q(i)."""
-    if is_complex:
-        constant, factors = sympy.factor_list(polynomial, extension=sympy.I)
-        return _Factored(sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))), factors)
-    constant, factors = sympy.factor_list(polynomial)
-    return _Factored(sympy.sqrt(constant), factors)
-
-
-def _root_of_number(square: Any) -> Any:
-    """p + i q with p > 0, for what isn't real: its conjugate is p - i q, and SymPy sees that p is real."""
-    re, im = square.as_real_imag()
-    if im == 0:
-        return sympy.sqrt(square)
-    p = sympy.sqrtdenest(sympy.sqrt((sympy.sqrt(re**2 + im**2) + re) / 2))
-    return p + sympy.I * sympy.radsimp(im / (2 * p))
 
 
 def conjugate(value: Any) -> Any:
@@ -113,47 +100,24 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
     Raises `Uncovered` where that needs a polynomial equation of a degree above 2.
     """
     unknown = [root for root in roots if root.unknown and equation.has(root.value)]
+    if len(unknown) > 2:
+        raise Uncovered("more than two exponents depend on the energy")
     if not unknown:
         if equation.has(E):
             yield from (Solved(shortest(energy), {}) for energy in _zeros(equation, E))
-    elif len(unknown) == 1:
-        yield from _solved_with_root(equation, unknown[0], E)
-    elif len(unknown) == 2:
-        yield from _solved_with_two_roots(equation, unknown[0], unknown[1], E)
-    else:
-        raise Uncovered("more than two exponents depend on the energy")
-
-
-def _solved_with_root(equation: Any, root: Root, E: Any) -> Iterator[Solved]:
-    """By E = E(rho)."""
+        return
+    root, *others = unknown
     rho = root.value
-    E_of_rho = _energy_of(root, E)
-    for value in _zeros(equation.subs(E, E_of_rho), rho):
-        yield _at(value, rho, E_of_rho)
-
-
-def _solved_with_two_roots(equation: Any, root: Root, other: Root, E: Any) -> Iterator[Solved]:
-    """By E = E(rho), and sigma = sigma(rho) for the other root, whose square is D(E(rho))."""
-    rho = root.value
-    sigma = other.value
-    E_of_rho = _energy_of(root, E)
-    sigma_of_rho = _only_zero(equation.subs(E, E_of_rho), sigma, "the exponents satisfy no linear equation")
-    for value in _zeros(other.square.subs(E, E_of_rho) - sigma_of_rho**2, rho):
-        found = _at(value, rho, E_of_rho)
-        yield replace(found, values={**found.values, sigma: shortest(sigma_of_rho.subs(rho, value))})
-
-
-def _energy_of(root: Root, E: Any) -> Any:
-    """E as a function of the root."""
-    equation = root.square - root.value**2
-    return _only_zero(equation, E, "an exponent isn't the root of a linear function of the energy")
-
-
-def _at(value: Any, rho: Any, E_of_rho: Any) -> Solved:
-    """The energy where the root rho has a value."""
-    short = shortest(value)
-    energy = shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value))
-    return Solved(energy, {rho: short})
+    E_of_rho = _only_zero(root.square - rho**2, E, "an exponent isn't the root of a linear function of the energy")
+    equation = equation.subs(E, E_of_rho)
+    sigma_of_rho: Any = None
+    for other in others:  # sigma = sigma(rho) for the other root, whose square is D(E(rho))
+        sigma_of_rho = _only_zero(equation, other.value, "the exponents satisfy no linear equation")
+        equation = other.square.subs(E, E_of_rho) - sigma_of_rho**2
+    for value in _zeros(equation, rho):
+        short = shortest(value)
+        values = {rho: short, **{other.value: shortest(sigma_of_rho.subs(rho, value)) for other in others}}
+        yield Solved(shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values)
 
 
 def _only_zero(equation: Any, unknown: Any, otherwise: str) -> Any:
@@ -180,13 +144,8 @@ def shortest(*forms: Any) -> Any:
     candidates = [*known]
     for form in known:
         candidates += _written(form)
-    return min(candidates, key=_length)
-
-
-def _length(form: Any) -> tuple[bool, int, int, str]:
-    """What is longer is larger; what has I in it, larger than all without."""
-    text = str(form)
-    return form.has(sympy.I), sympy.count_ops(form), len(text), text
+    texts = {form: str(form) for form in candidates}
+    return min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(texts[form]), texts[form]))
 
 
 def _written(form: Any) -> Iterator[Any]:
@@ -194,18 +153,12 @@ def _written(form: Any) -> Iterator[Any]:
     factored = sympy.factor(form)
     expanded = sympy.expand(form)
     yield from (factored, expanded, sympy.factor_terms(expanded))
-    n = _number_in(form)
-    if n is not None and form.is_rational_function(n):
+    numbers = [symbol for symbol in form.free_symbols if isinstance(symbol, sympy.Dummy) and symbol.is_integer]
+    if numbers and form.is_rational_function(numbers[0]):
+        n = numbers[0]
         fractions = sympy.Add.make_args(sympy.apart(factored, n))
-        yield sympy.Add(*(_factored_in(n, part) for part in fractions))
-
-
-def _number_in(form: Any) -> Any:
-    """The number n of a level; None where the form doesn't depend on it."""
-    for symbol in form.free_symbols:
-        if isinstance(symbol, sympy.Dummy) and symbol.is_integer:
-            return symbol
-    return None
+        # A fraction c/(b n - a)^k as +-c/(a - b n)^k where that has fewer signs, its numerator as a product.
+        yield sympy.Add(*(sympy.factor(part) if part.has(n) else part for part in fractions))
 
 
 def _real_part(form: Any) -> Any:
@@ -218,8 +171,3 @@ def _real_part(form: Any) -> Any:
     return real.replace(
         lambda e: e.is_Pow and e.exp == 2 and e.base.could_extract_minus_sign(), lambda e: (-e.base) ** 2
     )
-
-
-def _factored_in(n: Any, part: Any) -> Any:
-    """A partial fraction c/(b n - a)^k as +-c/(a - b n)^k where that has fewer signs, its numerator as a product."""
-    return sympy.factor(part) if part.has(n) else part

@@ -27,86 +27,100 @@ References: R. Dutt, A. Khare & U. P. Sukhatme, Amer. J. Phys. 56 (1988) 163; F.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from itertools import combinations, product
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 
 from kovacic.bound_states.energies import Root, conjugate, solved
-from kovacic.bound_states.frame import SingularFrame, Spot, Uncovered, end_with_role
-from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.frame import SingularFrame, Spot
+from kovacic.bound_states.levels import Levels
+from kovacic.bound_states.question import SpectralProblem, Uncovered, above
+from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.waves import Wave, jacobi_wave, laguerre_wave
 from kovacic.numbers.numerals import as_text
 from kovacic.sturm_liouville.families import family
 from kovacic.sturm_liouville.problem import Robin
 from kovacic.writing.formula import caret
 
 
-@dataclass(frozen=True)
-class LevelFamily:
-    """Levels E_n with solutions y_n, square integrable where the `conditions` hold; up to a factor.
-
-    `zeros` is the number of zeros of y_n inside the domain: n, 2 n or 2 n + 1.  `radicals` are symbols for square roots.
-    """
-
-    energy: Any
-    wave: Any
-    conditions: tuple[Any, ...]
-    zeros: Any
-    norm: Any = None
-    radicals: tuple[tuple[Any, Any], ...] = ()
-
-
-@dataclass(frozen=True)
-class Ends:
-    """What is demanded of the exponents at the ends; `friedrichs` admits the smaller one of two square integrable solutions.
-
-    `wishes` are the conditions that were given at the left and the right end.
-    """
-
-    signs: Signs
-    friedrichs: bool
-    wishes: tuple[Robin | None, Robin | None] = (None, None)
-
-    @classmethod
-    def of(cls, question: SpectralProblem) -> Ends:
-        return cls(question.signs, question.friedrichs, question.boundary.wishes)
-
-    def conditions(self, domain: tuple[Any, Any], spot: Spot, delta: Any) -> list[Any]:
-        """When the solution with the exponent (1 + delta)/2 is the only square integrable one, or the one that is meant."""
-        return [self._condition(domain, role, spot, delta) for role in spot.end_roles]
-
-    def _condition(self, domain: tuple[Any, Any], role: str, spot: Spot, delta: Any) -> Any:
-        end = end_with_role(domain, role)
-        wish = self.wishes[role == "right"]
-        if wish is not None and not wish.is_zero:
-            # y' = 0 for the smaller exponent, where z - c ~ (x - a)^2 and y is a function of it.
-            if wish.alpha != 0 or spot.p != 2:
-                raise Uncovered("the boundary condition isn't one on exponents")
-            return _above(-delta, 0, strict=False)
-        if end.is_infinite and spot.mu < 2:
-            raise Uncovered(f"the end {end} is a finite point of the coordinate")
-        if end.is_infinite:
-            return _above(delta, spot.mu - 2, strict=True)
-        if spot.mu >= 2:
-            raise Uncovered(f"the end {end} is at infinity in the coordinate")
-        least = 0 if self.friedrichs or wish is not None else 2 / spot.p
-        return _above(delta, least, strict=False)
+def jacobi_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
+    """Equation (1)."""
+    if len(frame.spots) != 3 or any(spot.square is None for spot in frame.spots):
+        raise Uncovered("the equation hasn't three singular points, all of them regular")
+    _check_ends(frame)
+    roots = [Root.of(spot.square, question.E) for spot in frame.spots]
+    for signed in _choices(roots):
+        equation = sympy.expand(-1 - sympy.Add(*signed) - 2 * question.signs.n)
+        for found in solved(equation, roots, question.E):
+            deltas = [delta.xreplace(found.values) for delta in signed]
+            conditions = _are_real(roots)
+            for spot, delta in zip(frame.spots, deltas, strict=True):
+                conditions += _demands(question, spot, delta)
+            if possible(conditions, question.signs):
+                wave = jacobi_wave(frame, roots, deltas, question.signs)
+                zeros = _zeros(frame, deltas, question.signs)
+                yield _levels(question, found.energy, wave, conditions, zeros, roots)
 
 
-def _above(delta: Any, least: Any, *, strict: bool) -> Any:
-    """delta > least, or >=."""
-    if delta.is_number and delta.is_real is False:
-        return sympy.false
-    relation = sympy.Gt if strict else sympy.Ge
-    return relation(delta, least)
+def laguerre_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
+    """Equation (2), from S_z = q + r/z + b/z^2."""
+    z, signs = frame.z, question.signs
+    square = sympy.cancel(frame.S * z**2)
+    if not _is_polynomial_of_degree(2, square, z):
+        raise Uncovered("the equation isn't Whittaker's")
+    _check_ends(frame)
+    q, r, b = sympy.Poly(square, z).all_coeffs()
+    at_origin = [spot for spot in frame.spots if spot.point == 0]
+    origin = at_origin[0] if at_origin else Spot(sympy.Integer(0), 1 + 4 * b, 0)
+    at_infinity = [spot for spot in frame.spots if spot.point == sympy.oo]
+    root_of_q = Root.of(sympy.factor(q), question.E)
+    root_at_0 = Root.of(sympy.factor(1 + 4 * b), question.E)
+    roots = [root_of_q, root_at_0]
+    for kappa, delta in product(root_of_q.signed, root_at_0.signed):
+        equation = -r / (2 * kappa) - (1 + delta) / 2 - signs.n
+        for found in solved(equation, roots, question.E):
+            rate = kappa.xreplace(found.values)
+            difference = delta.xreplace(found.values)
+            decay = [above(_direction(frame, side) * rate, 0, strict=True) for s in at_infinity for side in s.sides]
+            conditions = [*_are_real([root_of_q], positive=True), *_are_real([root_at_0]), *decay]
+            conditions += _demands(question, origin, difference)
+            if possible(conditions, signs):
+                wave = laguerre_wave(frame, origin, rate, difference, signs)
+                zeros = _zeros(frame, [difference], signs, [origin])
+                yield _levels(question, found.energy, wave, conditions, zeros, roots)
 
 
-def _radicals(roots: list[Root]) -> tuple[tuple[Any, Any], ...]:
-    """The symbols for square roots, and what they mean."""
-    return tuple(radical for root in roots for radical in root.radicals)
+def _demands(question: SpectralProblem, spot: Spot, delta: Any) -> list[Any]:
+    """What is demanded of a signed exponent difference at the ends of the domain that are there."""
+    return [question.demand(side, spot.mu, delta) for side in spot.sides]
+
+
+def _levels(
+    question: SpectralProblem,
+    energy: Any,
+    wave: Wave,
+    conditions: Sequence[Any],
+    zeros: Any,
+    roots: Sequence[Root] = (),
+) -> Levels:
+    """In the user's symbols, with the square roots for which symbols stand."""
+    radicals = dict(radical for root in roots for radical in root.radicals)
+
+    def written(expression: Any) -> Any:
+        return question.plain(sympy.sympify(expression).xreplace(radicals))
+
+    tidy = [written(condition) for condition in tidied(conditions, question.signs, radicals)]
+    return Levels(
+        question.plain(question.signs.n),
+        written(energy),
+        written(wave.y),
+        tuple(condition for condition in tidy if condition != sympy.true),
+        written(zeros),
+        None if wave.norm is None else written(wave.norm),
+    )
 
 
 def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
@@ -116,42 +130,8 @@ def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
     return [relation(square, 0) for square in squares if not square.has(sympy.I)]
 
 
-def jacobi_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
-    """Equation (1)."""
-    if len(frame.spots) != 3 or not frame.is_fuchsian:
-        raise Uncovered("the equation hasn't three singular points, all of them regular")
-    _check_ends(frame)
-    roots = [Root.of(spot.square, E) for spot in frame.spots]
-    for deltas in _choices(frame.spots, roots):
-        equation = sympy.expand(-1 - sympy.Add(*deltas) - 2 * ends.signs.n)
-        for found in solved(equation, roots, E):
-            values = [delta.xreplace(found.values) for delta in deltas]
-            conditions = [*_are_real(roots), *_at_the_spots(frame, ends, values)]
-            if possible(conditions, ends.signs):
-                yield _jacobi_family(frame, roots, values, energy=found.energy, conditions=conditions, signs=ends.signs)
-
-
-def _at_the_spots(frame: SingularFrame, ends: Ends, deltas: list[Any]) -> list[Any]:
-    """What is demanded of the exponent differences at the points of the frame."""
-    conditions: list[Any] = []
-    for spot, delta in zip(frame.spots, deltas, strict=True):
-        conditions += ends.conditions(frame.domain, spot, delta)
-    return conditions
-
-
-def _jacobi_family(
-    frame: SingularFrame, roots: list[Root], deltas: list[Any], *, energy: Any, conditions: list[Any], signs: Signs
-) -> LevelFamily:
-    """The family with these exponent differences."""
-    from kovacic.bound_states.waves import jacobi_wave
-
-    wave = jacobi_wave(frame, roots, deltas, signs)
-    zeros = _zeros(frame, deltas, signs)
-    return LevelFamily(energy, wave.y, tuple(conditions), zeros, wave.norm, _radicals(roots))
-
-
-def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
-    """The roots with their signs: those of unknowns are part of them, but for unknowns with the same square.
+def _choices(roots: list[Root]) -> Iterator[list[Any]]:
+    """The roots with their signs; those of unknowns are part of them.
 
     A pair of complex conjugate roots has one sign, since n is real.
     """
@@ -160,51 +140,17 @@ def _choices(spots: tuple[Spot, ...], roots: list[Root]) -> Iterator[list[Any]]:
         return  # n isn't real
     if len(are_complex) == 3:
         raise Uncovered("no exponent is real")
-    options = [_signed(k, spots, roots) for k in range(len(roots))]
-    if not are_complex:
-        yield from map(list, product(*options))
-        return
-    first, second = are_complex
-    options[second] = [None]  # the conjugate of the first one
-    for chosen in product(*options):
-        choice = [*chosen]
-        choice[second] = conjugate(choice[first])
+    for choice in map(list, product(*(root.signed for root in roots))):
+        if are_complex:
+            first, second = are_complex
+            if choice[second] != roots[second].value:  # each pair once
+                continue
+            choice[second] = conjugate(choice[first])
         yield choice
 
 
-def _signed(k: int, spots: tuple[Spot, ...], roots: list[Root]) -> list[Any]:
-    """The root of number k with each of its signs: an unknown with that of an earlier one of the same square.
-
-    At two ends both of them are positive.
-    """
-    root = roots[k]
-    if not root.unknown:
-        return _with_signs(root)
-    earlier = _earlier_with_the_square(k, roots)
-    if earlier is None:
-        return [root.value]
-    known = roots[earlier].value
-    are_ends = spots[k].roles and spots[earlier].roles
-    return [known] if are_ends else [known, -known]
-
-
-def _earlier_with_the_square(k: int, roots: list[Root]) -> int | None:
-    """The first unknown root before that of number k with its square; None where there is none."""
-    for j in range(k):
-        if roots[j].unknown and roots[j].square == roots[k].square:
-            return j
-    return None
-
-
-def _with_signs(root: Root) -> list[Any]:
-    """The root with both of its signs; an unknown has its own one."""
-    if root.unknown or root.value == 0:
-        return [root.value]
-    return [root.value, -root.value]
-
-
 def possible(conditions: list[Any], signs: Signs) -> bool:
-    """Is none of the conditions false for all values, nor the sum of two of them?"""
+    """False if one of the conditions is false for all values, or the sum of two of them."""
     if any(signs.holds(condition) is False for condition in conditions):
         return False
     relations = [condition for condition in dict.fromkeys(conditions) if condition not in (True, False)]
@@ -215,110 +161,41 @@ def possible(conditions: list[Any], signs: Signs) -> bool:
 
 def _check_ends(frame: SingularFrame) -> None:
     """Both ends are singular points in z, or one and the middle of the domain, where V is regular: even and odd solutions."""
-    roles = {role for spot in frame.spots for role in spot.roles}
-    needed = {"left", "right"} if frame.fold is None else {"fold", "right"}
-    if roles != needed:
+    sides = sorted(side for spot in frame.spots for side in spot.sides)
+    folds = [spot for spot in frame.spots if spot.is_fold]
+    if sides != ([0, 1] if frame.fold is None else [1]) or len(folds) != (frame.fold is not None):
         raise Uncovered("an end of the domain is an ordinary point of the equation")
-    for spot in frame.spots:
-        if spot.is_fold and sympy.simplify(spot.square * spot.p**2 - 1) != 0:
-            raise Uncovered(f"V isn't regular at {frame.x} = {frame.fold}, inside the domain")
+    for spot in folds:
+        if sympy.simplify(4 * spot.square - (2 - spot.mu) ** 2) != 0:  # y ~ (x - a)^(1/2 +- delta/(2 - mu))
+            raise Uncovered(f"V isn't regular at {frame.original.x} = {frame.fold}, inside the domain")
 
 
-def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs) -> Any:
-    """The number of zeros inside the domain, with the differences at the points of the frame."""
-    for spot, delta in zip(frame.spots, deltas, strict=True):
+def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs, spots: Sequence[Spot] = ()) -> Any:
+    """The number of zeros inside the domain: n; twice as many about the middle, and one there for an odd solution."""
+    for spot, delta in zip(spots or frame.spots, deltas, strict=True):
         if spot.is_fold:
-            return _zeros_for(spot, delta, signs)
+            return 2 * signs.n + int(bool(delta.is_positive))
     return signs.n
 
 
-def _zeros_for(spot: Spot, delta: Any, signs: Signs) -> Any:
-    """n; twice as many, and maybe one in the middle, where this point is the middle of the domain."""
-    if not spot.is_fold:
-        return signs.n
-    is_odd = bool(delta.is_positive)
-    return 2 * signs.n + int(is_odd)
-
-
-def laguerre_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
-    """Equation (2)."""
-    S = _whittaker(frame)
-    _check_ends(frame)
-    square_at_0 = 1 + 4 * S.b
-    origin = _spot_at(0, frame) or Spot(sympy.Integer(0), square_at_0, 0)
-    root_of_q = Root.of(sympy.factor(S.q), E)
-    root_at_0 = Root.of(sympy.factor(square_at_0), E)
-    roots = [root_of_q, root_at_0]
-    for kappa, delta in product(_with_signs(root_of_q), _with_signs(root_at_0)):
-        equation = -S.r / (2 * kappa) - (1 + delta) / 2 - ends.signs.n
-        for found in solved(equation, roots, E):
-            rate = kappa.xreplace(found.values)
-            difference = delta.xreplace(found.values)
-            conditions = [
-                *_are_real([root_of_q], positive=True),
-                *_are_real([root_at_0]),
-                *_decay(frame, rate),
-                *ends.conditions(frame.domain, origin, difference),
-            ]
-            if possible(conditions, ends.signs):
-                from kovacic.bound_states.waves import laguerre_wave
-
-                wave = laguerre_wave(frame, origin, rate, difference, ends.signs)
-                zeros = _zeros_for(origin, difference, ends.signs)
-                yield LevelFamily(found.energy, wave.y, tuple(conditions), zeros, wave.norm, _radicals(roots))
-
-
-class _Whittaker(NamedTuple):
-    """S_z = q + r/z + b/z^2."""
-
-    q: Any
-    r: Any
-    b: Any
-
-
-def _whittaker(frame: SingularFrame) -> _Whittaker:
-    """Raises `Uncovered` where S_z isn't of that form."""
-    z = frame.z
-    square = sympy.cancel(frame.S * z**2)
-    if not _is_polynomial_of_degree(2, square, z):
-        raise Uncovered("the equation isn't Whittaker's")
-    parts = sympy.Poly(square, z)
-    return _Whittaker(q=parts.coeff_monomial(z**2), r=parts.coeff_monomial(z), b=parts.coeff_monomial(1))
-
-
 def _is_polynomial_of_degree(k: int, quotient: Any, z: Any) -> bool:
-    """Is a quotient in lowest terms a polynomial in z, and of this degree?"""
+    """True for a quotient in lowest terms that is a polynomial in z of this degree."""
     if sympy.denom(quotient).has(z):
         return False
     return bool(sympy.degree(sympy.numer(quotient), z) == k)
 
 
-def _spot_at(point: Any, frame: SingularFrame) -> Spot | None:
-    """The singular point there; None where there is none."""
-    return next((spot for spot in frame.spots if spot.point == point), None)
-
-
-def _decay(frame: SingularFrame, kappa: Any) -> list[Any]:
-    """When exp(-kappa z) decays at the end where z is infinite."""
-    at_infinity = _spot_at(sympy.oo, frame)
-    if at_infinity is None:
-        return []
-    return [_above(_direction(frame, role) * kappa, 0, strict=True) for role in at_infinity.end_roles]
-
-
-def _direction(frame: SingularFrame, role: str) -> int:
+def _direction(frame: SingularFrame, side: int) -> int:
     """The sign of z near an end at which it is infinite."""
-    if frame.m % 2 == 0 or frame.original.kind in ("exp", "cosh"):
+    if frame.is_even or frame.original.kind in ("exp", "cosh"):
         return 1
     if frame.original.kind != "x":
-        raise Uncovered(f"the sign of z = {frame.z_of_x} isn't known")
-    outwards = 1 if role == "right" else -1
-    if end_with_role(frame.domain, role).is_infinite:
-        return outwards
-    return -outwards  # z = 1/(x - end)
+        raise Uncovered(f"the sign of z = {frame.coordinate} isn't known")
+    outwards = 1 if side == 1 else -1
+    return outwards if frame.domain[side].is_infinite else -outwards  # z = 1/(x - end)
 
 
-def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
+def no_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
     """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
@@ -326,9 +203,9 @@ def no_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamil
     """
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
-    points = {spot.point for spot in frame.ends}
+    points = {spot.point for spot in frame.spots if spot.sides}
     is_bessel = _is_polynomial_of_degree(1, square, z) and points == {0, sympy.oo}
-    if not is_bessel or sympy.diff(square, z).has(E):
+    if not is_bessel or sympy.diff(square, z).has(question.E):
         raise Uncovered("the equation isn't Bessel's")
     yield from ()
 
@@ -337,30 +214,30 @@ class Transcendental(Exception):
     """The equation for the energies, which has no solution in closed form, as a text."""
 
 
-def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
+def constant_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
     """A constant V: waves between two walls; beside an infinite end one solution decays, for E < V.
 
     It has no zero, and fulfils alpha y + beta y' = 0 for one E at most.  Raises `Transcendental` where the numbers of the waves
     have no formula.
     """
-    if frame.S.has(frame.z) or frame.m != 1 or not frame.is_in_x:
+    if frame.S.has(frame.z) or not frame.is_in_x:
         raise Uncovered("V isn't constant")
     first, last = frame.domain
-    n = ends.signs.n
-    V = sympy.expand(frame.S + E)
+    x, n = question.x, question.signs.n
+    V = sympy.expand(frame.S + question.E)
     dirichlet = Robin(sympy.S.One, sympy.S.Zero)
-    left, right = (wish or dirichlet for wish in ends.wishes)
+    left, right = (wish or dirichlet for wish in question.boundary.wishes)
     if first.is_infinite or last.is_infinite:
         wish, inwards = (left, 1) if last.is_infinite else (right, -1)
         is_line = first.is_infinite and last.is_infinite
         rate = sympy.S.Zero if is_line or wish.is_zero else inwards * wish.alpha / wish.beta
         if rate.is_positive:  # y = exp(-rate distance)
-            distance = inwards * (frame.x - (first if inwards == 1 else last))
+            distance = inwards * (x - (first if inwards == 1 else last))
             wave = sympy.exp(-rate * distance)
-            yield LevelFamily(V - rate**2, wave, (sympy.Lt(n, 1),), zeros=n, norm=1 / (2 * rate))
+            yield _levels(question, V - rate**2, Wave(wave, 1 / (2 * rate)), [sympy.Lt(n, 1)], n)
         return
     number = sympy.Dummy("number", integer=True, positive=True)
-    found = family(frame.x, sympy.S.Zero, -V, sympy.S.One, E, (first, last), (left, right), n=number)
+    found = family(x, sympy.S.Zero, -V, sympy.S.One, question.E, (first, last), (left, right), n=number)
     if found is None:
         raise Uncovered("no formula is known for these conditions")
     if found.equation is not None:
@@ -369,31 +246,22 @@ def constant_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[Leve
     (wave,) = found.functions
     norm = (last - first) / 2 if left.is_zero or right.is_zero else None
     energy = found.value.xreplace(shifted)
-    yield LevelFamily(energy, wave.xreplace(shifted), (sympy.Gt(last - first, 0),), zeros=n, norm=norm)
+    yield _levels(question, energy, Wave(wave.xreplace(shifted), norm), [sympy.Gt(last - first, 0)], n)
 
 
-def hermite_families(frame: SingularFrame, ends: Ends, E: Any) -> Iterator[LevelFamily]:
-    """The oscillator on the whole line."""
-    alpha, beta, gamma = _quadratic_on_the_line(frame)
-    root = Root.of(sympy.factor(alpha), E)
-    n = ends.signs.n
-    least = gamma - beta**2 / (4 * alpha)
-    shifted = frame.x + sympy.factor(beta / (2 * alpha))
+def hermite_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
+    """The oscillator on the whole line: S = alpha x^2 + beta x + gamma."""
+    is_quadratic = frame.S.is_polynomial(frame.z) and sympy.degree(frame.S, frame.z) == 2
+    if not (is_quadratic and frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)):
+        raise Uncovered("the equation isn't that of the oscillator on the whole line")
+    alpha, beta, gamma = sympy.Poly(frame.S, frame.z).all_coeffs()
+    root = Root.of(sympy.factor(alpha), question.E)
+    n = question.signs.n
+    shifted = question.x + sympy.factor(beta / (2 * alpha))
     for kappa in (root.value, -root.value):
-        for found in solved(least + kappa * (2 * n + 1), [root], E):
-            conditions = [*_are_real([root], positive=True), _above(kappa, 0, strict=True)]
-            if possible(conditions, ends.signs):
+        for found in solved(gamma - beta**2 / (4 * alpha) + kappa * (2 * n + 1), [root], question.E):
+            conditions = [*_are_real([root], positive=True), above(kappa, 0, strict=True)]
+            if possible(conditions, question.signs):
                 wave = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
                 norm = 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
-                yield LevelFamily(found.energy, wave, tuple(conditions), n, norm, root.radicals)
-
-
-def _quadratic_on_the_line(frame: SingularFrame) -> tuple[Any, Any, Any]:
-    """alpha, beta and gamma of S = alpha x^2 + beta x + gamma.  Raises `Uncovered` for another S or domain."""
-    z = frame.z
-    is_quadratic = frame.S.is_polynomial(z) and sympy.degree(frame.S, z) == 2
-    is_on_line = frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)
-    if not is_quadratic or not is_on_line:
-        raise Uncovered("the equation isn't that of the oscillator on the whole line")
-    S = sympy.Poly(frame.S, z)
-    return S.coeff_monomial(z**2), S.coeff_monomial(z), S.coeff_monomial(1)
+                yield _levels(question, found.energy, Wave(wave, norm), conditions, n, [root])

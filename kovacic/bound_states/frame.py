@@ -13,37 +13,22 @@ At z = oo the coordinate is 1/z, and the sum of all mu is 4.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from fractions import Fraction
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
 
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.question import SpectralProblem, Uncovered
 from kovacic.bound_states.signs import Signs
-from kovacic.engine.places import Kind, Place, Problem, analyse
+from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation
 from kovacic.limits import Budget
 from kovacic.parametric import riemann
-from kovacic.parametric.theorems import symmetries
+from kovacic.parametric.theorems import roots_of, symmetries
+from kovacic.reading.change_of_variable import SQUARES
 from kovacic.reading.symbolic import written_expression
 from kovacic.writing.formula import caret
-
-#: (dt/dtheta)^2 as a function of t, for t a function of theta = k x + c.
-SLOPES = {
-    "x": lambda t: sympy.Integer(1),
-    "exp": lambda t: t**2,
-    "sinh": lambda t: 1 + t**2,
-    "cosh": lambda t: t**2 - 1,
-    "sin": lambda t: 1 - t**2,
-    "cos": lambda t: 1 - t**2,
-    "tan": lambda t: (1 + t**2) ** 2,
-}
-
-
-class Uncovered(Exception):
-    """Why a problem isn't treated, in a sentence."""
 
 
 @dataclass(frozen=True)
@@ -61,15 +46,14 @@ class Original:
         if equation is None or equation.change is None:
             return cls(x)
         t = signs.real(written_expression(equation.change.expression)).xreplace({sympy.Symbol(x.name): x})
-        kind = t.func.__name__
-        if kind not in SLOPES:
+        if t.func not in SQUARES:
             raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
         theta = sympy.expand(t.args[0])
-        return cls(x, kind, theta.coeff(x, 1), theta.coeff(x, 0))
+        return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
 
     @property
     def is_circular(self) -> bool:
-        """Is t = exp(i theta) with a real theta?"""
+        """True for t = exp(i theta) with a real theta."""
         return self.kind == "exp" and self.rate.has(sympy.I)
 
     @property
@@ -84,6 +68,12 @@ class Original:
     def t(self) -> Any:
         return self.theta if self.kind == "x" else getattr(sympy, self.kind)(self.theta)
 
+    def slope_squared(self, t: Any) -> Any:
+        """(dt/dx)^2 as a function of t."""
+        if self.kind == "x":
+            return sympy.Integer(1)
+        return SQUARES[getattr(sympy, self.kind)](t) * self.rate**2
+
     def theta_at(self, end: Any, signs: Signs) -> Any:
         """The argument at an end of the domain."""
         if not end.is_infinite:
@@ -96,19 +86,15 @@ class Original:
     def at(self, end: Any, signs: Signs) -> Any:
         """t at an end of the domain, a number or oo (both of its ends are one point)."""
         theta = self.theta_at(end, signs)
-        if not theta.is_infinite:
-            return self._at_angle(theta)
-        if self.kind in ("sin", "cos", "tan"):
-            raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {end}")
-        is_zero = self.kind == "exp" and theta == -sympy.oo
-        return sympy.Integer(0) if is_zero else sympy.oo
-
-    def _at_angle(self, theta: Any) -> Any:
-        """The value of t, the pole of a tangent as oo."""
+        if theta.is_infinite:
+            if self.kind in ("sin", "cos", "tan"):
+                raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {end}")
+            is_zero = self.kind == "exp" and theta == -sympy.oo
+            return sympy.Integer(0) if is_zero else sympy.oo
         if self.kind == "x":
             return theta
         value = sympy.simplify(getattr(sympy, self.kind)(theta))
-        return sympy.oo if value.is_infinite else value
+        return sympy.oo if value.is_infinite else value  # the pole of a tangent
 
     def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
         """Where dt/dx vanishes inside the domain."""
@@ -143,7 +129,7 @@ class RealPotential:
 
 
 def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
-    """Does it lie between the ends, and isn't one of them?"""
+    """True strictly between the ends.  Raises `Uncovered` if that isn't known."""
     from_first, to_last = (sympy.simplify(difference) for difference in (value - first, last - value))
     if 0 in (from_first, to_last):
         return False
@@ -155,296 +141,207 @@ def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
 
 @dataclass(frozen=True)
 class Spot:
-    """A singular point of v'' = S_z v: where, delta^2 (None: irregular), mu, and which ends of the half domain are there."""
+    """A singular point of v'' = S_z v: where, delta^2 (None: irregular), mu, and what of the domain is there.
+
+    `sides` are 0 for its left end and 1 for the right one; it `is_fold` where the middle of the domain is there.
+    """
 
     point: Any
     square: Any
     mu: Any
-    roles: tuple[str, ...] = ()
+    sides: tuple[int, ...] = ()
+    is_fold: bool = False
 
     @property
-    def p(self) -> Any:
-        """z - c ~ (x - a)^p, for mu < 2."""
-        return 2 / (2 - self.mu)
+    def is_used(self) -> bool:
+        return self.is_fold or bool(self.sides)
 
-    @property
-    def is_fold(self) -> bool:
-        """Is it the middle of the domain?"""
-        return "fold" in self.roles
-
-    @property
-    def end_roles(self) -> list[str]:
-        """The roles of the ends of the whole domain that are there."""
-        return [role for role in self.roles if role != "fold"]
-
-
-def end_with_role(domain: tuple[Any, Any], role: str) -> Any:
-    """The end of the domain that is at its "left" or "right"."""
-    left, right = domain
-    return right if role == "right" else left
+    def exponent(self, delta: Any) -> Any:
+        """That of y for a signed exponent difference, by (1)."""
+        return (1 + delta) / 2 - self.mu / 4
 
 
 @dataclass(frozen=True)
 class SingularFrame:
-    """A coordinate z = s^m with the singular points, and the ends of the domain among them.
+    """A coordinate z with the singular points, and the ends of the domain among them; (dz/dx)^2 = `slope`.
 
-    `fold` is the x about which the domain and the equation are symmetric, where z doesn't tell x from its mirror image, and the
-    problem is that on the right half; None where z is a coordinate.  `limits_of_t` are the least and the largest value of t
-    on this half, each None where it isn't known.
+    `coordinate` is z = s^m as a function of t, S and `slope` are functions of the symbol `z`.  `fold` is the x about which the
+    domain and the equation are symmetric, where z doesn't tell x from its mirror image, and the problem is that on the right
+    half; None if z is a coordinate.  `limits_of_t` are the least and the largest value of t on this half, each None if it is
+    unknown.
     """
 
     original: Original
-    base: Any
-    m: int
+    t: Any
+    coordinate: Any
     S: Any
     z: Any
-    constant: Any
+    slope: Any
     spots: tuple[Spot, ...]
     domain: tuple[Any, Any]
     fold: Any
-    problem: Problem = field(repr=False)
-    problem_variable: str = "t"
     limits_of_t: tuple[Any, Any] = (None, None)
 
     @property
-    def x(self) -> Any:
-        return self.original.x
-
-    @property
     def is_in_x(self) -> bool:
-        """Is z a power of the user's variable?"""
-        return self.original.kind == "x" and self.base == sympy.Symbol(self.problem_variable)
+        """True for the user's own variable."""
+        return self.original.kind == "x" and self.coordinate == self.t
 
     @property
-    def ends(self) -> list[Spot]:
-        return [spot for spot in self.spots if {"left", "right"} & {*spot.roles}]
-
-    @property
-    def is_fuchsian(self) -> bool:
-        return all(spot.square is not None for spot in self.spots)
-
-    @property
-    def slope(self) -> Any:
-        """(dz/dx)^2 as a function of z."""
-        return self.constant * sympy.Mul(*((self.z - s.point) ** s.mu for s in self.spots if s.point != sympy.oo))
-
-    @property
-    def z_of_x(self) -> Any:
-        t = sympy.Symbol(self.problem_variable)
-        return (self.base**self.m).xreplace({t: self.original.t})
-
-
-@dataclass(frozen=True)
-class _Coordinate:
-    """z = s^m, s = `base`, a Moebius function of t."""
-
-    base: Any
-    m: int
-    t: Any
-
-    def at(self, t: Any) -> Any:
-        """z at a value of t, or oo."""
-        num, den = sympy.fraction(sympy.together(self.base))
-        if t == sympy.oo:
-            return _at_infinity(num, den, self.t) ** self.m
-        below = sympy.simplify(den.xreplace({self.t: t}))
-        if below == 0:
-            return sympy.oo
-        return sympy.simplify(num.xreplace({self.t: t}) / below) ** self.m
-
-
-def _at_infinity(num: Any, den: Any, t: Any) -> Any:
-    """The limit of num/den, both polynomials of degree 1 or 0, or oo."""
-    top = _degree(num, t)
-    bottom = _degree(den, t)
-    if top > bottom:
-        return sympy.oo
-    if top < bottom:
-        return sympy.Integer(0)
-    return sympy.LC(num, t) / sympy.LC(den, t)
-
-
-def _degree(polynomial: Any, t: Any) -> int:
-    return int(sympy.degree(polynomial, t)) if polynomial.has(t) else 0
+    def is_even(self) -> bool:
+        """True if z is a square."""
+        return self.coordinate.is_Pow and bool(self.coordinate.exp % 2 == 0)
 
 
 def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
     """The equation as it was read, and in each coordinate that its symmetries give."""
-    S = question.parsed.S
+    signs = question.signs
     variable = question.parsed.variable
-    signs = question.signs
     original = Original.of(question.parsed.equation, question.x, signs)
-    problem = analyse(S, budget)
+    problem = analyse(question.parsed.S, budget)
     t = sympy.Symbol(variable)
-    yield _frame(question, original, _Coordinate(t, 1, t), problem)
-    z = RatFunc(problem.field.poly([0, 1]))
-    for coordinate, num, den in symmetries(problem, variable):
-        n = coordinate.n
-        is_another = n % 2 == 0 or (n == 1 and coordinate.base != variable)
-        if not is_another:
-            continue
+    yield _frame(question, original, t, t, 1, problem)
+    for symmetric in symmetries(problem, variable):
+        coordinate = symmetric.coordinate
+        is_another = coordinate.n % 2 == 0 or (coordinate.n == 1 and coordinate.base != variable)
         base = signs.real(written_expression(coordinate.base))
-        if not base.has(question.E):
-            S_z = (RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2
-            yield _frame(question, original, _Coordinate(base, n, t), analyse(S_z, budget))
+        if is_another and not base.has(question.E):
+            yield _frame(question, original, t, base, coordinate.n, symmetric.quotient(problem))
 
 
-def _frame(question: SpectralProblem, original: Original, coordinate: _Coordinate, problem: Problem) -> SingularFrame:
-    """The problem v'' = S_z v is in z."""
-    domain = question.domain
+def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: int, problem: Problem) -> SingularFrame:
+    """The problem v'' = S_z v in z = base^m."""
     signs = question.signs
-    constant, powers = _powers(original, coordinate)
-    fold = _fold(original, coordinate, domain, signs)
-    half = domain if fold is None else (fold, domain[1])
-    first, last = (coordinate.at(original.at(end, signs)) for end in half)
-    at = {"left": first, "right": last} if fold is None else {"right": last, "fold": first}
-    Z = sympy.Dummy("Z")
-    S = signs.real(sympy.sympify(problem.S.num.to_sympy(Z) / problem.S.den.to_sympy(Z)))
+    z = sympy.Dummy("Z")
+    constant, powers = _slope(original, t, base, m)
+    fold = _fold(original, t, base, m, question)
+    half = question.domain if fold is None else (fold, question.domain[1])
+    places = tuple(_value(base**m, t, original.at(end, signs)) for end in half)
     return SingularFrame(
         original,
-        coordinate.base,
-        coordinate.m,
-        S=S,
-        z=Z,
-        constant=constant,
-        spots=tuple(_spots(problem, powers, at, signs)),
-        domain=domain,
+        t,
+        base**m,
+        S=signs.real(sympy.sympify(problem.S.num.to_sympy(z) / problem.S.den.to_sympy(z))),
+        z=z,
+        slope=constant * sympy.Mul(*((z - c) ** mu for c, mu in powers.items())),
+        spots=tuple(_spots(problem, powers, places, signs, is_fold=fold is not None)),
+        domain=question.domain,
         fold=fold,
-        problem=problem,
-        problem_variable=question.parsed.variable,
         limits_of_t=range_of(original, half, signs),
     )
 
 
-def _spots(problem: Problem, powers: Mapping[Any, Any], at: Mapping[str, Any], signs: Signs) -> list[Spot]:
-    """The singular points, those of the change of variable, and the ends, `at` which value of Z they are."""
-    spots: list[Spot] = []
-    rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
+def _value(function: Any, t: Any, point: Any) -> Any:
+    """That of a rational function at a number or at oo, the sphere's: a pole is oo, whatever the sign."""
+    u = sympy.Dummy("u")
+    local = sympy.cancel(sympy.together(function.xreplace({t: 1 / u if point == sympy.oo else point + u})))
+    num, den = (sympy.simplify(part.xreplace({u: sympy.S.Zero})) for part in sympy.fraction(local))
+    return sympy.oo if den == 0 else sympy.simplify(num / den)
+
+
+def linear_factors(expression: Any, z: Any) -> tuple[Any, dict[Any, Any]]:
+    """The constant, and the exponents of z - c by c, of a product of powers of polynomials."""
+    constant = sympy.Integer(1)
+    found = dict[Any, Any]()
+    for factor in sympy.Mul.make_args(sympy.factor(expression)):
+        base, exponent = factor.as_base_exp()
+        if not base.has(z):
+            constant *= factor
+            continue
+        polynomial = sympy.Poly(base, z)
+        constant *= polynomial.LC() ** exponent
+        for root, multiplicity in sympy.roots(polynomial).items():
+            found[root] = found.get(root, 0) + multiplicity * exponent
+    return constant, found
+
+
+def _slope(original: Original, t: Any, base: Any, m: int) -> tuple[Any, dict[Any, Any]]:
+    """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
+    s = sympy.Dummy("s")
+    t_of_s = sympy.solve(base - s, t)[0]
+    ds_dx_squared = (sympy.diff(base, t) ** 2 * original.slope_squared(t)).xreplace({t: t_of_s})
+    constant, exponents = linear_factors(m**2 * s ** (2 * m - 2) * ds_dx_squared, s)
+    powers = dict[Any, Any]()
+    for root, exponent in exponents.items():
+        powers[root**m] = powers.get(root**m, 0) + sympy.sympify(exponent) / m  # m roots s for one z
+    return constant, powers
+
+
+def _spots(
+    problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...], signs: Signs, *, is_fold: bool
+) -> Iterator[Spot]:
+    """The singular points, those of the change of variable, and the `places` of the ends, or of the middle and an end."""
+    x = sympy.Dummy("x")
+    squares: dict[Any, Any] = {}
+    ordinary = []
     for place in problem.places:
-        for point in _roots(place, signs):
-            square = _square(place, point, signs)
-            mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
-            roles = _roles(point, at)
-            if place.kind is not Kind.ORDINARY or mu or roles:
-                spots.append(Spot(point, square, mu, roles))
-    known = [spot.point for spot in spots]
-    for point, mu in powers.items():
-        if not any(_same(point, other) for other in known):
-            spots.append(Spot(point, sympy.Integer(1), mu, _roles(point, at)))
-    return spots
+        if place.degree > 2:
+            raise Uncovered(f"the roots of {place.factor} aren't used")
+        for c in roots_of(place, x):
+            point = sympy.oo if c is None else signs.real(c)
+            squares[point] = None
+            if place.kind is Kind.ORDINARY:
+                squares[point] = sympy.Integer(1)
+                ordinary.append(point)
+            elif place.kind is Kind.REGULAR:
+                square = signs.real(riemann.difference_squared(place).to_sympy(x))
+                squares[point] = sympy.expand(square.xreplace({x: point}))
+    for point in powers:
+        if not any(_is_same(point, other) for other in squares):
+            squares[point] = sympy.Integer(1)
+    rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
+    for point, square in squares.items():
+        mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
+        is_at_first, is_at_last = (_is_same(point, place) for place in places)
+        sides = () if is_fold or not is_at_first else (0,)
+        spot = Spot(point, square, mu, (*sides, 1) if is_at_last else sides, is_fold and is_at_first)
+        if point not in ordinary or mu or spot.is_used:
+            yield spot
 
 
-def _roles(point: Any, at: Mapping[str, Any]) -> tuple[str, ...]:
-    """Of which ends the point is the value."""
-    return tuple(role for role, value in at.items() if _same(value, point))
+def _is_same(first: Any, second: Any) -> bool:
+    """True if two points are one."""
+    if sympy.oo in (first, second):
+        return bool(first == second)
+    return bool(sympy.simplify(first - second) == 0)
+
+
+def _fold(original: Original, t: Any, base: Any, m: int, question: SpectralProblem) -> Any:
+    """The only point inside the domain at which dz/dx vanishes, or None."""
+    domain, signs = question.domain, question.signs
+    found = original.turning_points(domain, signs)
+    if m % 2 == 0 and original.kind in ("x", "sinh"):
+        zeros = sympy.solve(sympy.numer(sympy.together(base)), t)
+        angles = zeros if original.kind == "x" else map(sympy.asinh, zeros)
+        for x in ((angle - original.offset) / original.rate for angle in angles if angle.is_real is not False):
+            if x not in found and is_between(x, *domain, signs):
+                found.append(x)
+    if not found:
+        return None
+    middle = found[0]
+    first, last = domain
+    is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
+    on_y = {wish is None or wish.is_zero for wish in question.boundary.wishes}
+    if len(found) > 1 or not is_symmetric or len(on_y) > 1:
+        raise Uncovered(f"the domain isn't symmetric about {original.x} = {middle}, and the equation is")
+    return middle
+
+
+def monotonic_range(original: Original, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
+    """The least and the largest value of t on the domain, where t is known to be monotonic there."""
+    with suppress(Uncovered):
+        if not original.turning_points(domain, signs):
+            return range_of(original, domain, signs)
+    return None
 
 
 def range_of(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
     """The least and the largest value of t, where it is monotonic and they are known."""
     if original.kind == "tan":
         return None, None
-    if original.kind == "x":
-        first, last = half
-    else:
-        first, last = (_limit(original.kind, original.theta_at(end, signs)) for end in half)
+    angles = [original.theta_at(end, signs) for end in half]
+    first, last = angles if original.kind == "x" else map(getattr(sympy, original.kind), angles)
     difference = sympy.simplify(last - first)
     is_increasing = difference.is_positive or last == sympy.oo or first == -sympy.oo
     low, high = (first, last) if is_increasing else (last, first)
-    return _unless(low, -sympy.oo), _unless(high, sympy.oo)
-
-
-def _limit(kind: str, theta: Any) -> Any:
-    """The value of exp, sinh, ... at an angle, which may be infinite."""
-    function = getattr(sympy, kind)
-    if not theta.is_infinite:
-        return function(theta)
-    u = sympy.Symbol("u")
-    return sympy.limit(function(u), u, theta)
-
-
-def _unless(value: Any, infinite: Any) -> Any:
-    """The value, None for the infinite one."""
-    return None if value == infinite else value
-
-
-def _powers(original: Original, coordinate: _Coordinate) -> tuple[Any, dict[Any, Any]]:
-    """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
-    t = coordinate.t
-    m = coordinate.m
-    s = sympy.Dummy("s")
-    t_of_s = sympy.solve(coordinate.base - s, t)[0]
-    ds_dx_squared = (sympy.diff(coordinate.base, t) ** 2 * SLOPES[original.kind](t)).xreplace({t: t_of_s})
-    slope = m**2 * s ** (2 * m - 2) * ds_dx_squared
-    constant = sympy.Integer(1)
-    found = dict[Any, Any]()
-    for factor in sympy.Mul.make_args(sympy.factor(slope * original.rate**2)):
-        base, exponent = factor.as_base_exp()
-        if not base.has(s):
-            constant *= factor
-            continue
-        polynomial = sympy.Poly(base, s)
-        constant *= polynomial.LC() ** exponent
-        for root, multiplicity in sympy.roots(polynomial).items():
-            share = multiplicity * exponent / sympy.Integer(m)  # m roots s for one z
-            found[root**m] = found.get(root**m, 0) + share
-    return constant, found
-
-
-def _fold(original: Original, coordinate: _Coordinate, domain: tuple[Any, Any], signs: Signs) -> Any:
-    """The only point inside the domain at which dz/dx vanishes; None where there is none."""
-    found = original.turning_points(domain, signs)
-    if coordinate.m % 2 == 0:
-        zeros = _zeros(original, coordinate)
-        found += [x for x in zeros if x not in found and is_between(x, *domain, signs)]
-    if not found:
-        return None
-    middle = found[0]
-    first, last = domain
-    is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
-    if len(found) > 1 or not is_symmetric:
-        raise Uncovered(f"the domain isn't symmetric about {original.x} = {middle}, and the equation is")
-    return middle
-
-
-def _zeros(original: Original, coordinate: _Coordinate) -> list[Any]:
-    """Where s vanishes: only points of the real axis count."""
-    values = sympy.solve(sympy.numer(sympy.together(coordinate.base)), coordinate.t)
-    theta = {"x": lambda v: v, "sinh": sympy.asinh}.get(original.kind)
-    if theta is None:
-        return []
-    return [(theta(v) - original.offset) / original.rate for v in values if v.is_real is not False]
-
-
-def _same(first: Any, second: Any) -> bool:
-    """Are two points one?"""
-    if sympy.oo in (first, second):
-        return bool(first == second)
-    return bool(sympy.simplify(first - second) == 0)
-
-
-def _square(place: Place, point: Any, signs: Signs) -> Any:
-    """delta^2 at one of the points of a place; None where they are irregular."""
-    if place.kind is Kind.ORDINARY:
-        return sympy.Integer(1)
-    if place.kind is not Kind.REGULAR:
-        return None
-    x = sympy.Dummy("x")
-    square = signs.real(riemann.difference_squared(place).to_sympy(x))
-    if point == sympy.oo:
-        return square
-    return sympy.expand(square.xreplace({x: point}))
-
-
-def _roots(place: Place, signs: Signs) -> list[Any]:
-    """oo, or the roots of a factor of degree 1 or 2.  Raises `Uncovered` for others."""
-    if place.at_infinity:
-        return [sympy.oo]
-    if place.degree > 2:
-        raise Uncovered(f"the roots of {place.factor} aren't used")
-    x = sympy.Dummy("x")
-    rest = signs.real(place.factor[0].to_sympy(x))
-    if place.degree == 1:
-        return [-rest]
-    middle = signs.real(place.factor[1].to_sympy(x))
-    root = sympy.sqrt(sympy.factor(middle**2 - 4 * rest))
-    return [(-middle + sign * root) / 2 for sign in (1, -1)]
+    return None if low == -sympy.oo else low, None if high == sympy.oo else high

@@ -8,10 +8,10 @@ put in at the end.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
 from itertools import count
-from typing import Any
+from typing import Any, TypeVar
 
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
@@ -30,45 +30,27 @@ _SIGNS = {
     ">=0": "nonnegative",
     "real": "nonnegative",
 }
-#: The steps from one number to the next, between which a root is said to lie.
+#: A root is enclosed between neighbouring multiples of the inverse of this number.
 _STEPS = 10**6
+LevelsOrAlgebraic = TypeVar("LevelsOrAlgebraic", Levels, Algebraic)
 
 
 def with_named_roots(V: Any) -> tuple[Any, dict[str, Any]]:
     """V with names for its roots of numbers, where there are several or nested ones, and what the names mean."""
     try:
         expression = read_expression(V) if isinstance(V, str) else sympy.sympify(V)
-    except (InputError, sympy.SympifyError):  # said where it is read
+    except (InputError, sympy.SympifyError):  # reported by the reader
         return V, {}
-    roots = sorted(_roots_in(expression), key=sympy.default_sort_key)
+    powers = (power for power in expression.atoms(sympy.Pow) if power.is_number and not power.exp.is_Integer)
+    roots = sorted((p for p in powers if p.is_positive and p.is_algebraic), key=sympy.default_sort_key)
     least = 1 if expression.has(TrigonometricFunction) else 2
     if len(roots) < least:
         return V, {}
-    outermost = [root for root in roots if not _is_inside(root, roots)]
-    meanings = dict(zip(_free_names(expression), outermost, strict=False))
-    return expression.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()}), meanings
-
-
-def _roots_in(expression: Any) -> Iterator[Any]:
-    """The positive algebraic numbers with a fractional exponent."""
-    for power in expression.atoms(sympy.Pow):
-        is_root = power.is_number and not power.exp.is_Integer
-        if is_root and power.is_positive and power.is_algebraic:
-            yield power
-
-
-def _is_inside(root: Any, roots: list[Any]) -> bool:
-    """Does another of the roots contain it?"""
-    return any(root is not other and other.has(root) for other in roots)
-
-
-def _free_names(expression: Any) -> Iterator[str]:
-    """root_1, root_2, ..., but those which the user has taken."""
+    outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
     taken = {*names_of(expression)}
-    for number in count(1):
-        name = f"root_{number}"
-        if name not in taken:
-            yield name
+    names = (name for name in map("root_{}".format, count(1)) if name not in taken)
+    meanings = dict(zip(names, outermost, strict=False))
+    return expression.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()}), meanings
 
 
 def assumed_of_letters(
@@ -114,78 +96,37 @@ def between(value: Any, name: str) -> str:
 
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
     """The answer with the meanings in the place of the letters."""
-    letters = _LetterMeanings(meanings)
-    known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
-    excluded = map(letters.put_in, found.excluded)
-    levels = map(letters.in_levels, found.levels)
-    algebraic = tuple(one for one in map(letters.in_algebraic, found.algebraic) if sympy.false not in one.conditions)
-    reason = letters.said(found.reason)
-    if found.algebraic and not algebraic:
-        reason = NO_FORMULA
-    return replace(
-        found,
-        potential=letters.put_in(found.potential),
-        parameters=letters.parameters(found.parameters),
-        assumptions=replace(found.assumptions, known=known),
-        ends=tuple(map(letters.said, found.ends)),
-        excluded=tuple(relation for relation in excluded if relation != sympy.false),
-        levels=tuple(one for one in levels if sympy.false not in one.conditions),
-        algebraic=algebraic,
-        reason=reason,
-    )
+    values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}
 
-
-def _replaced(name: str, meaning: str, text: str) -> str:
-    """The text with the meaning for each word that is the name."""
-    return re.sub(rf"\b{name}\b", lambda _: meaning, text)
-
-
-@dataclass(frozen=True)
-class _LetterMeanings:
-    """What letters mean, and how it is put in."""
-
-    meanings: Mapping[str, Any]
-
-    def put_in(self, expression: Any) -> Any:
-        """An expression, or a relation, without letters."""
-        values = {sympy.Symbol(name): meaning for name, meaning in self.meanings.items()}
+    def put_in(expression: Any) -> Any:
         return sympy.sympify(expression).xreplace(values)
 
-    def said(self, text: str) -> str:
-        """A sentence without letters."""
-        for name, meaning in self.meanings.items():
-            text = _replaced(name, caret(as_text(meaning)), text)
+    def said(text: str) -> str:
+        for name, meaning in meanings.items():
+            shown = caret(as_text(meaning))
+            text = re.sub(rf"\b{name}\b", shown, text)
         return text
 
-    def conditions(self, one: Levels | Algebraic) -> tuple[Any, ...]:
-        """Those that say something."""
-        found = map(self.put_in, one.conditions)
-        return tuple(condition for condition in found if condition != sympy.true)
+    def of(one: LevelsOrAlgebraic) -> LevelsOrAlgebraic:
+        """The levels without letters, and without conditions that say nothing."""
+        parts = {field.name: getattr(one, field.name) for field in fields(one)}
+        changed = {name: put_in(part) for name, part in parts.items() if isinstance(part, sympy.Expr)}
+        conditions = tuple(condition for condition in map(put_in, one.conditions) if condition != sympy.true)
+        return replace(one, **changed, conditions=conditions)
 
-    def in_levels(self, one: Levels) -> Levels:
-        """The same levels without letters."""
-        norm = None if one.norm is None else self.put_in(one.norm)
-        return replace(
-            one,
-            energy=self.put_in(one.energy),
-            wave=self.put_in(one.wave),
-            conditions=self.conditions(one),
-            zeros=self.put_in(one.zeros),
-            norm=norm,
-        )
-
-    def in_algebraic(self, one: Algebraic) -> Algebraic:
-        """The same, for levels under a constraint."""
-        return replace(
-            one,
-            constraint=self.put_in(one.constraint),
-            polynomial=self.put_in(one.polynomial),
-            wave=self.put_in(one.wave),
-            conditions=self.conditions(one),
-        )
-
-    def parameters(self, names: Sequence[str]) -> tuple[str, ...]:
-        """The user's own parameters, those that stand only in a meaning last."""
-        plain = [name for name in names if name not in self.meanings]
-        inside = {name for meaning in self.meanings.values() for name in names_of(meaning)}
-        return (*plain, *sorted(inside - {*plain}))
+    levels = tuple(one for one in map(of, found.levels) if sympy.false not in one.conditions)
+    algebraic = tuple(one for one in map(of, found.algebraic) if sympy.false not in one.conditions)
+    plain = [name for name in found.parameters if name not in meanings]
+    inside = {name for meaning in meanings.values() for name in names_of(meaning)}
+    known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
+    return replace(
+        found,
+        potential=put_in(found.potential),
+        parameters=(*plain, *sorted(inside - {*plain})),
+        assumptions=replace(found.assumptions, known=known),
+        ends=tuple(map(said, found.ends)),
+        excluded=tuple(relation for relation in map(put_in, found.excluded) if relation != sympy.false),
+        levels=levels,
+        algebraic=algebraic,
+        reason=NO_FORMULA if found.algebraic and not algebraic else said(found.reason),
+    )

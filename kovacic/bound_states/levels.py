@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 import sympy
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import BooleanAtom
 
 from kovacic.bound_states.zeros import levels_of, zeros_inside
+from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, needs, visible
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
@@ -27,7 +30,7 @@ NO_FORMULA = "undecided: no formula for all levels is known"
 _MOST = 200
 #: Longer exact energies are drawn as decimals.
 _SHORT = 12
-#: So many n are listed one by one.
+#: Up to this many n are listed individually.
 _LISTED = 6
 
 
@@ -35,7 +38,7 @@ _LISTED = 6
 class BoundState:
     """One level at given values of the parameters: its energy and its wave function, not normalised, with `zeros` inside.
 
-    `norm` is the integral of the square of the wave function over the domain, None where it isn't known.
+    `norm` is the integral of the square of the wave function over the domain, None if it is unknown.
     """
 
     number: int
@@ -54,7 +57,7 @@ class Levels:
 
     `number` is a natural number n; `energy` is E_n and `wave` a real solution y_n, square integrable where the `conditions`
     hold: inequalities between n and the parameters.  `zeros` is the number of zeros of y_n inside the domain, and `norm` the
-    integral of y_n^2 over the domain, None where it isn't known.
+    integral of y_n^2 over the domain, None if it is unknown.
     """
 
     number: Any
@@ -81,9 +84,6 @@ class Levels:
             return None
         found = [n for n in range(_MOST) if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
         return None if _MOST - 1 in found else tuple(found)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in ("number", "energy", "wave", "conditions", "zeros", "norm")}
 
 
 @dataclass(frozen=True)
@@ -138,10 +138,10 @@ class Spectrum:
     algebraic : tuple of Algebraic
         The levels of a quasi-exactly solvable potential, by the degree d.
     complete : bool
-        Is it proven that these are all eigenvalues, for all values that the conditions, the assumptions and `excluded` admit?
+        True if these are proven to be all eigenvalues, wherever the conditions, the assumptions and `excluded` admit values.
     closed_forms_complete : bool
-        Where `complete` is False: is it proven that no other level has a Liouvillian wave function?  Without any levels in the
-        answer it says that none has.
+        True, where `complete` is False, if it is proven that no other level has a Liouvillian wave function; without any levels
+        in the answer, that none has.
     reason : str
         The theorem that proves it, or why it is undecided.
     ends : tuple of str
@@ -151,11 +151,11 @@ class Spectrum:
     boundary : str or None
         The boundary condition that was given.
     notices : tuple of str
-        What was noticed at reading: which name is the variable.
+        Remarks on the reading of the input: which name is the variable.
     numeric : Eigenvalues
         The lowest levels as proven numbers, if `levels` was given: a sequence, each with its `value` and its `zeros`.
     hint, shell : str
-        What to give beside for an answer, in Python and at the command line; empty where nothing helps.
+        The argument that may lead to a better answer, in Python and on the command line; empty if there is none.
     kinetic : sympy.Expr
         k where the equation is -k y'' + V y = E y, hbar^2/(2 m) for instance; 1 by default.
     conditions : tuple
@@ -185,12 +185,12 @@ class Spectrum:
 
     @property
     def needs_boundary_condition(self) -> bool:
-        """Is there an end at which both solutions are square integrable, for all parameters, and no condition was given?"""
+        """True if both solutions are square integrable at an end, for all parameters, and no condition was given."""
         return sympy.true in self.excluded
 
     @property
     def is_decided(self) -> bool:
-        """Were all eigenvalues found, or some, or those with a closed form, or that a boundary condition is missing?"""
+        """True if levels are known, or a complete list of some kind, or that a boundary condition is missing."""
         is_proven = self.complete or self.closed_forms_complete
         has_levels = bool(self.levels or self.algebraic)
         return is_proven or has_levels or self.needs_boundary_condition
@@ -221,7 +221,9 @@ class Spectrum:
         """
         count = whole(count, "count")
         at = self._symbols_at(values or {})
-        self._check_admitted(at)
+        if any(_is_true(relation, at) for relation in self.excluded):
+            hint = "no boundary condition is distinguished" if self.boundary else 'boundary="friedrichs"'
+            raise InputError("both solutions are square integrable at an end", hint=hint)
         found: dict[Any, BoundState] = {}
         for levels in self.levels:
             for state in _states_of(levels, at, count):
@@ -270,32 +272,31 @@ class Spectrum:
         def function(expression: Any) -> Callable[[Any], Any]:
             return cast(Callable[[Any], Any], sympy.lambdify(x, sympy.N(expression.xreplace(at), 17), "scipy"))
 
-        levels = [
-            DrawnLevel(float(s.energy), function(s.wave), f"{self.energy}_{s.number} = {_drawn(s.energy)}")
-            for s in states
-        ]
+        levels = []
+        for state in states:
+            exact = _text(state.energy)
+            shown = exact if len(exact) <= _SHORT else f"{float(state.energy):.6g}"
+            label = f"{self.energy}_{state.number} = {shown}"
+            levels.append(DrawnLevel(float(state.energy), function(state.wave), label))
         levels += [
             DrawnLevel(float(level.value), self.numeric.wave(k), f"{self.energy}_{k} = {level.value}")
             for k, level in enumerate(self.numeric[:count])
         ]
         first, last = (float(end.xreplace(at)) for end in self.domain)
-        kinetic = "" if self.kinetic == 1 else f"{_text(self.kinetic.xreplace(at))} "
-        title = f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential.xreplace(at))}"
+        title = self._equation(at)
         return draw_levels(function(self.potential), levels, (first, last), variable=self.variable, title=title)
 
-    def _check_admitted(self, at: Mapping[Any, Any]) -> None:
-        """Raises `InputError` for values that the spectrum excludes."""
-        for relation in self.excluded:
-            if _is_true(relation, at):
-                hint = "no boundary condition is distinguished" if self.boundary else 'boundary="friedrichs"'
-                raise InputError("both solutions are square integrable at an end", hint=hint)
+    def _equation(self, at: Mapping[Any, Any]) -> str:
+        """Schroedinger's, and what V is."""
+        kinetic = "" if self.kinetic == 1 else f"{_text(self.kinetic.xreplace(at))} "
+        return f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential.xreplace(at))}"
 
     def _symbols_at(self, values: Mapping[Any, Any]) -> dict[Any, Any]:
         """The values by symbols.  Raises `InputError` where one is missing, unknown, not real or not admitted."""
         given = {str(name): read_expression(exact_text(v, "the value of a parameter")) for name, v in values.items()}
         if {*given} != {*self.parameters}:
-            missing = _listed(self.parameters, given)
-            unknown = _listed(given, self.parameters)
+            missing = ", ".join(name for name in self.parameters if name not in given) or "none"
+            unknown = ", ".join(name for name in given if name not in self.parameters) or "none"
             raise InputError("values are needed for the parameters", hint=f"missing: {missing}; unknown: {unknown}")
         for name, value in given.items():
             if value.is_real is False:
@@ -324,7 +325,9 @@ class Spectrum:
         >>> print(oscillator.text().splitlines()[0])
         -y'' + V y = E y, V = x^2, -oo < x < oo
         """
-        lines = [self._problem]
+        first, last = map(_text, self.domain)
+        known = f" ({self.assumptions})" if self.assumptions else ""
+        lines = [f"{self._equation({})}, {first} < {self.variable} < {last}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {end}" for end in self.ends]
         if self.boundary:
@@ -342,15 +345,6 @@ class Spectrum:
         return visible("\n".join(lines))
 
     @property
-    def _problem(self) -> str:
-        """The equation, the potential, the domain and what is known of the parameters."""
-        first, last = map(_text, self.domain)
-        domain = f"{first} < {self.variable} < {last}"
-        known = f" ({self.assumptions})" if self.assumptions else ""
-        kinetic = "" if self.kinetic == 1 else f"{_text(self.kinetic)} "
-        return f"-{kinetic}y'' + V y = {self.energy} y, V = {_text(self.potential)}, {domain}{known}"
-
-    @property
     def _conclusion(self) -> list[str]:
         """What holds of the list as a whole."""
         lines = []
@@ -362,21 +356,13 @@ class Spectrum:
             lines.append("no eigenvalues")
         if self.closed_forms_complete and not self.algebraic:
             lines.append("no eigenfunction has a closed form")
-        lines.append(f"({self._proven}{self.reason})")
+        proven = "proven; " if self.complete or self.closed_forms_complete else ""
+        if self.complete and has_levels:
+            proven = "proven to be all eigenvalues; "
+        elif self.closed_forms_complete and self.algebraic:
+            proven = "proven to be all eigenfunctions with a closed form; "
+        lines.append(f"({proven}{self.reason})")
         return lines
-
-    @property
-    def _proven(self) -> str:
-        """What is proven of the list as a whole, before the reason."""
-        if self.complete and (self.levels or self.algebraic):
-            return "proven to be all eigenvalues; "
-        if self.complete:
-            return "proven; "
-        if not self.closed_forms_complete:
-            return ""
-        if self.algebraic:
-            return "proven to be all eigenfunctions with a closed form; "
-        return "proven; "
 
     def __str__(self) -> str:
         return self.text()
@@ -424,24 +410,12 @@ class Spectrum:
         '2*n + 1'
         """
         numeric = {} if self.numeric == () else {"numeric": self.numeric.to_dict()}
+        names = ("potential", "kinetic", "variable", "domain", "energy", "parameters")
+        more = ("boundary", "ends", "excluded", "levels", "algebraic", "complete", "closed_forms_complete", "reason")
         return {
-            "potential": _text(self.potential),
-            "kinetic": _text(self.kinetic),
-            "variable": self.variable,
-            "domain": [*map(_text, self.domain)],
-            "energy": self.energy,
-            "parameters": [*self.parameters],
+            **{name: _data(getattr(self, name)) for name in names},
             "assumptions": self.assumptions.to_dict(),
-            "boundary": self.boundary,
-            "ends": [*self.ends],
-            "excluded": [*map(_relation, self.excluded)],
-            "levels": [_levels_dict(levels) for levels in self.levels],
-            "algebraic": [_algebraic_dict(one) for one in self.algebraic],
-            "complete": self.complete,
-            "closed_forms_complete": self.closed_forms_complete,
-            "reason": self.reason,
-            "notices": [*self.notices],
-            "hint": self.hint,
+            **{name: _data(getattr(self, name)) for name in (*more, "notices", "hint")},
             **numeric,
         }
 
@@ -464,22 +438,11 @@ class Spectrum:
         return json_line(self.to_dict())
 
 
-def _drawn(energy: Any) -> str:
-    """Exact where that is short."""
-    text = _text(energy)
-    return text if len(text) <= _SHORT else f"{float(energy):.6g}"
-
-
 def _is_admitted(known: Known, value: Any) -> bool:
-    """Does a real number have the properties that are assumed?"""
-    for bound in known.bounds:
-        distance = bound.sign * (value - sympy.Rational(bound.end.numerator, bound.end.denominator))
-        is_at_the_end = distance.is_zero and not bound.strict
-        if not (distance.is_positive or is_at_the_end):
-            return False
-    if known.coset is not None:
-        return bool(value.is_Rational) and known.coset.contains(Fraction(int(value.p), int(value.q)))
-    return not (known.nonzero and value.is_zero)
+    """True unless a real number contradicts what is assumed."""
+    if value.is_Rational:
+        return known.facts.admit(Fraction(int(value.p), int(value.q)))
+    return known.rational is not True and known.facts.admit_real(BallEvaluator({})(value))
 
 
 def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[BoundState]:
@@ -504,39 +467,22 @@ def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
     return bool(found)
 
 
-def _listed(names: Iterable[str], others: Container[str]) -> str:
-    """The names that aren't among the others."""
-    return ", ".join(name for name in names if name not in others) or "none"
-
-
-def _levels_dict(levels: Levels) -> dict[str, Any]:
-    """Their part of the JSON object."""
-    norm = None if levels.norm is None else _text(levels.norm)
-    return {
-        "number": str(levels.number),
-        "energy": _text(levels.energy),
-        "wave": _text(levels.wave),
-        "conditions": [*map(_relation, levels.conditions)],
-        "zeros": _text(levels.zeros),
-        "norm": norm,
-    }
-
-
-def _algebraic_dict(algebraic: Algebraic) -> dict[str, Any]:
-    """Their part of the JSON object."""
-    return {
-        "degree": algebraic.degree,
-        "constraint": _text(algebraic.constraint),
-        "polynomial": _text(algebraic.polynomial),
-        "wave": _text(algebraic.wave),
-        "conditions": [*map(_relation, algebraic.conditions)],
-        "states": [*map(_state_dict, algebraic.states)],
-    }
-
-
-def _state_dict(state: BoundState) -> dict[str, Any]:
-    norm = {} if state.norm is None else {"norm": _text(state.norm)}
-    return {"energy": _text(state.energy), "zeros": state.zeros, **norm}
+def _data(value: Any) -> Any:
+    """For JSON: formulas and relations as text, levels by their fields."""
+    if value is None or isinstance(value, int | str):
+        return value
+    if isinstance(value, tuple):
+        return [*map(_data, value)]
+    if isinstance(value, BoundState):
+        norm = {} if value.norm is None else {"norm": _text(value.norm)}
+        return {"energy": _text(value.energy), "zeros": value.zeros, **norm}
+    if isinstance(value, Levels):
+        names = ("number", "energy", "wave", "conditions", "zeros", "norm")
+    elif isinstance(value, Algebraic):
+        names = ("degree", "constraint", "polynomial", "wave", "conditions", "states")
+    else:
+        return _relation(value) if isinstance(value, Relational | BooleanAtom) else _text(value)
+    return {name: _data(getattr(value, name)) for name in names}
 
 
 def _latex_rows(levels: Levels, energy: str) -> list[str]:
@@ -574,17 +520,11 @@ def _lines(levels: Levels, energy: str) -> list[str]:
     last = f"{_text(levels.zeros)} zeros"
     if levels.norm is not None:
         last += f", norm^2 = {_text(levels.norm)}"
-    waves = [f"y_{n} = {wave}" for wave in _waves(levels)]
-    return [f"  {first}", *(f"      {line}" for line in (*waves, last))]
-
-
-def _waves(levels: Levels) -> list[str]:
-    """The wave function, or that for even and that for odd numbers."""
-    n = levels.number
-    if not levels.wave.is_Piecewise:
-        return [_text(levels.wave)]
-    (even, _), (odd, _) = levels.wave.args
-    return [f"{_text(even)} ({n} even)", f"{_text(odd)} ({n} odd)"]
+    waves = [_text(levels.wave)]
+    if levels.wave.is_Piecewise:
+        (even, _), (odd, _) = levels.wave.args
+        waves = [f"{_text(even)} ({n} even)", f"{_text(odd)} ({n} odd)"]
+    return [f"  {first}", *(f"      {line}" for line in (*(f"y_{n} = {wave}" for wave in waves), last))]
 
 
 def _joined(relations: Iterable[Any]) -> str:

@@ -51,7 +51,7 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
 def unsolved(
     V: Any, domain: Sequence[Any], energy: str, var: Any, boundary: str | None, reason: NotRational
 ) -> Spectrum:
-    """What is asked about a potential for which no formulas are looked for."""
+    """The problem alone, for a potential that no formulas are known for."""
     potential = read_expression(V, what="the potential") if isinstance(V, str) else sympy.sympify(V)
     variable = str(var or "x")
     parameters = tuple(sorted(s.name for s in potential.free_symbols if s.name != variable))

@@ -14,7 +14,8 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.ends import domain_as_given, real_zeros
-from kovacic.bound_states.frame import Original, RealPotential, Uncovered
+from kovacic.bound_states.frame import Original, RealPotential
+from kovacic.bound_states.question import Uncovered
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
 from kovacic.numbers.numerals import as_text
@@ -26,7 +27,7 @@ _LONGEST = 30
 
 
 def on_real_circle(real: RealPotential) -> RealPotential:
-    """A function of exp(i theta) as one of tan(theta/2); any other one as it is."""
+    """A function of exp(i theta) as one of tan(theta/2); any other one unchanged."""
     original = real.original
     t = real.t
     if not original.is_circular:
@@ -49,7 +50,10 @@ def check_poles(real: RealPotential, signs: Signs) -> None:
     if not angles:
         return
     period = sympy.pi if original.kind == "tan" else 2 * sympy.pi
-    first, last = _about_0(angles, period)
+    # The least positive angle, and the one before it: they come back in each period.
+    places = sorted((angle + k * period for angle in angles for k in (-1, 0, 1)), key=float)
+    k = next(k for k, angle in enumerate(places) if angle > 0)
+    first, last = places[k - 1 : k + 1]
     start = sympy.simplify((first - original.offset) / original.rate)
     stop = sympy.simplify((last - original.offset) / original.rate)
     place = caret(as_text(stop))
@@ -59,14 +63,6 @@ def check_poles(real: RealPotential, signs: Signs) -> None:
         raise InputError(message, hint=hint)
     python, shell = domain_as_given(start, stop)
     raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
-
-
-def _about_0(angles: list[Any], period: Any) -> tuple[Any, Any]:
-    """The least positive one of the angles, which come back in each period, after the one before it."""
-    places = [angle + k * period for angle in angles for k in (-1, 0, 1)]
-    places.sort(key=float)
-    last = next(k for k, angle in enumerate(places) if angle > 0)
-    return places[last - 1], places[last]
 
 
 def _poles(real: RealPotential, signs: Signs) -> list[Any]:

@@ -1,12 +1,11 @@
-"""What is asked: V - E as the user has written it, the domain, and what is known of the parameters, in real symbols."""
+"""The spectral problem: V - E as the user wrote it, the domain, and the assumptions on the parameters, in real symbols."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 
@@ -22,7 +21,7 @@ from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
-from kovacic.reading.substitution import with_values
+from kovacic.reading.substitution import value_text, values_among
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
 from kovacic.reading.symbolic import expression_of, names_of, read_expression
 from kovacic.sturm_liouville.problem import STEPS, Robin, pieces_of
@@ -34,6 +33,10 @@ _NUMBERS = ("n", "k", "j", "m", "n_")
 _INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
 
 
+class Uncovered(Exception):
+    """Why a problem isn't treated, in a sentence."""
+
+
 @dataclass(frozen=True)
 class Boundary:
     """Conditions alpha y + beta y' = 0 at the left and the right end (None if not given), and their text."""
@@ -43,7 +46,7 @@ class Boundary:
 
     @property
     def is_mixed(self) -> bool:
-        """Is a condition neither on y nor on y' alone?  Then a level may be below the infimum of V."""
+        """True for a condition neither on y nor on y' alone: a level may be below the infimum of V then."""
         return any(wish is not None and wish.alpha != 0 and wish.beta != 0 for wish in self.wishes)
 
 
@@ -89,8 +92,29 @@ class SpectralProblem:
         )
         return replace(self, friedrichs=True, notices=(*self.notices, note))
 
+    def demand(self, side: int, mu: Any, delta: Any) -> Any:
+        """The condition for the solution with the exponent (1 + delta)/2 to be the one meant at an end, 0 left or 1 right.
+
+        The local coordinate has (du/dx)^2 ~ u^mu.  The solution is the only square integrable one, or obeys the condition.
+        """
+        end = self.domain[side]
+        wish = self.boundary.wishes[side]
+        if wish is not None and not wish.is_zero:
+            # y' = 0 for the smaller exponent, where u ~ (x - a)^2 and y is a function of it.
+            if wish.alpha != 0 or mu != 1:
+                raise Uncovered("the boundary condition isn't one on exponents")
+            return above(-delta, 0, strict=False)
+        if end.is_infinite and mu < 2:
+            raise Uncovered(f"the end {end} is a finite point of the coordinate")
+        if end.is_infinite:
+            return above(delta, mu - 2, strict=True)
+        if mu >= 2:
+            raise Uncovered(f"the end {end} is at infinity in the coordinate")
+        # y ~ (x - a)^(1/2 + delta/(2 - mu)); at a limit point nu = delta/(2 - mu) is at least 1.
+        return above(delta, 0 if self.friedrichs or wish is not None else 2 - mu, strict=False)
+
     def with_potential(self, V: Any) -> SpectralProblem:
-        """The same for another potential, in real symbols."""
+        """The problem for another potential, in real symbols."""
         plain = self.plain(V)
         text = f"({as_text(plain)}) - {self.energy}"
         return replace(self, V=plain, parsed=read_input(text, var=self.variable, exponentials=True))
@@ -105,19 +129,12 @@ class SpectralProblem:
         return expression.xreplace({**plain, self.signs.n: sympy.Symbol(number)})
 
 
-class _Potential(NamedTuple):
-    """V as an expression, V - E as it is read: text where V is; and what was guessed when a text was read."""
-
-    expression: Any
-    S: Any
-    guesses: tuple[str, ...] = ()
-
-
-class _Variable(NamedTuple):
-    """The name of the variable, and a note where the user may not expect it."""
-
-    name: str
-    notices: tuple[str, ...] = ()
+def above(delta: Any, least: Any, *, strict: bool) -> Any:
+    """delta > least, or >=; false for a delta that isn't real."""
+    if delta.is_number and delta.is_real is False:
+        return sympy.false
+    relation = sympy.Gt if strict else sympy.Ge
+    return relation(delta, least)
 
 
 def read_question(
@@ -132,7 +149,7 @@ def read_question(
     kinetic: Any = sympy.S.One,
     names: Sequence[str] = (),
 ) -> SpectralProblem:
-    """The question that `kovacic.spectrum` was asked; its parameters are described there.
+    """The spectral problem of a call of `kovacic.spectrum`, where the parameters are described.
 
     Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
     """
@@ -141,98 +158,58 @@ def read_question(
     if len(domain) != 2 or isinstance(domain, str):
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     ends = [read_end(value) for value in domain]
-    given = _read_potential(V, energy, None if var is None else str(var), names)
-    variable = _Variable(str(var))
-    if var is None:
-        variable = _variable_of(given.expression)
-    given = _in_one_piece(given, variable.name, energy, ends)
-    read = partial(read_input, var=variable.name, limits=limits, exponentials=True, names=names)
-    shifts = _with_shifts(given, assume or {}, read, variable=variable.name, energy=energy)
-    given = shifts.potential
-    S, parsed, of_parameters = with_values(given.S, shifts.parsed, shifts.others or None, limits)
-    assumed = assumed_of_letters({**(of_parameters or {}), **shifts.assumed} or None, parsed.letters)
-    names = _names(parsed, ends, variable=variable.name, energy=energy)
-    names = (*names, *(name for name in shifts.names if name not in names))
-    known = read_assumptions(assumed, V, names)
-    for constant in _constants(given.expression, names):
+    V_read, guesses = _read_potential(V, energy, None if var is None else str(var), names)
+    x, notices = _variable_of(V_read) if var is None else (str(var), ())
+    values, rest = values_among(assume or {})
+    at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits)) for name, v in values.items()}
+    known_names = sorted({symbol.name for part in (V_read, *ends) for symbol in part.free_symbols} - {x})
+    for name in values:
+        if name not in known_names:
+            raise InputError(
+                f"{name} isn't a parameter of V", hint=f"the parameters are {', '.join(known_names) or 'none'}"
+            )
+    ends = [end.xreplace(at) for end in ends]
+    potential = _in_one_piece(V_read.xreplace(at), x, ends)
+    S = potential - sympy.Symbol(energy)
+    parsed = read_input(S, var=x, limits=limits, exponentials=True, names=names)
+    in_the_domain = {symbol.name for end in ends for symbol in end.free_symbols}
+    if in_the_domain & {x, energy}:
+        raise InputError(f"an end of the domain contains {x} or {energy}")
+    in_S = parameters_of(parsed.S.field)
+    # A shift, as b in 1/cosh(x - b)^2, doesn't occur in the equation in t.
+    meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
+    shifts = {symbol.name for symbol in potential.free_symbols} - meanings - {x}
+    names = (*in_S, *sorted((in_the_domain | shifts) - {*in_S}))
+    known = read_assumptions(assumed_of_letters(rest or None, parsed.letters), V, names)
+    for constant in _constants(potential, names):
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)
-    potential = given.expression
-    if S is not given.S:
-        left = {*names, energy, variable.name}
-        gone = {str(name): value for name, value in (assume or {}).items() if str(name) not in left}
-        values = {sympy.Symbol(name): read_expression(exact_text(value, "a value")) for name, value in gone.items()}
-        potential = potential.xreplace(values)
+    first, last = (signs.real(end) for end in ends)
+    if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
+        raise InputError(f"the domain is empty: {first} isn't below {last}")
     return SpectralProblem(
         potential,
         parsed,
-        domain=_checked_domain(ends, signs),
-        variable=variable.name,
+        domain=(first, last),
+        variable=x,
         energy=energy,
         known=known,
         signs=signs,
         friedrichs=boundary == FRIEDRICHS,
-        boundary=read_boundary(boundary, ends, variable.name),
-        notices=(*given.guesses, *variable.notices),
+        boundary=read_boundary(boundary, ends, x),
+        notices=(*guesses, *notices),
         kinetic=signs.real(sympy.sympify(kinetic)),
     )
 
 
-class _Shifts(NamedTuple):
-    """The parameters that only shift the variable, once those with a value have it: what is assumed of them, and of others."""
-
-    potential: _Potential
-    parsed: Parsed
-    names: list[str]
-    assumed: dict[Any, Any]
-    others: dict[Any, Any]
-
-
-def _with_shifts(
-    given: _Potential, assume: Mapping[Any, Any], read: Callable[..., Parsed], *, variable: str, energy: str
-) -> _Shifts:
-    """Puts values into the potential before it is read: afterwards a shift no longer occurs in the equation in t."""
-    parsed = read(given.S)
-    names = _shifts(given, parsed, variable=variable, energy=energy)
-    of_shifts = {name: said for name, said in assume.items() if str(name) in names}
-    values = {
-        sympy.Symbol(str(name)): value for name, said in of_shifts.items() if (value := _number(said)) is not None
-    }
-    if values:
-        given = _Potential(given.expression.xreplace(values), given.S.xreplace(values), given.guesses)
-        parsed = read(given.S)
-        names = [name for name in names if sympy.Symbol(name) not in values]
-    assumed = {name: said for name, said in of_shifts.items() if str(name) in names}
-    others = {name: said for name, said in assume.items() if name not in of_shifts}
-    return _Shifts(given, parsed, names, assumed, others)
-
-
-def _shifts(given: _Potential, parsed: Parsed, *, variable: str, energy: str) -> list[str]:
-    """The parameters that shift the variable alone, as b in 1/cosh(x - b)^2, and so don't occur in the equation in t."""
-    meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
-    names = {symbol.name for symbol in given.expression.free_symbols} - meanings
-    return sorted(names - {variable, energy, *parameters_of(parsed.S.field)})
-
-
-def _number(said: Any) -> Any:
-    """The value that an assumption gives, or None if it states something else."""
-    text = exact_text(said, "a value") if not isinstance(said, str) else said
-    try:
-        value = read_expression(text)
-    except InputError:  # an inequality
-        return None
-    return value if value.is_number else None
-
-
-def _in_one_piece(given: _Potential, variable: str, energy: str, ends: list[Any]) -> _Potential:
+def _in_one_piece(V: Any, variable: str, ends: list[Any]) -> Any:
     """Without absolute values and steps that are one function on the domain.  Raises `NotRational` for several pieces."""
-    V = given.expression
     if not V.has(*STEPS):
-        return given
+        return V
     pieces = pieces_of(V, sympy.S.One, sympy.Symbol(variable), (ends[0], ends[1])) if len(names_of(V)) == 1 else ()
     if len(pieces) != 1:
         raise NotRational(f"{caret(as_text(V))} is a function in pieces, and its levels have no formula here")
-    return _Potential(pieces[0].Q, pieces[0].Q - sympy.Symbol(energy), given.guesses)
+    return pieces[0].Q
 
 
 def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> Boundary:
@@ -255,24 +232,15 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
     return Boundary((wishes[0], wishes[1]), boundary)
 
 
-def _names(parsed: Parsed, ends: list[Any], *, variable: str, energy: str) -> tuple[str, ...]:
-    """The energy and the parameters, those of the ends last.  Raises `InputError` for ends that aren't constant."""
-    in_the_domain = {symbol.name for end in ends for symbol in end.free_symbols}
-    if in_the_domain & {variable, energy}:
-        raise InputError(f"an end of the domain contains {variable} or {energy}")
-    names = parameters_of(parsed.S.field)
-    return (*names, *sorted(in_the_domain - {*names}))
-
-
-def _variable_of(expression: Any) -> _Variable:
-    """x, or the only name if it usually is a variable; and a note where it isn't x.  Raises `InputError` for several names."""
+def _variable_of(expression: Any) -> tuple[str, tuple[str, ...]]:
+    """x, or the only name if it usually is a variable, and a note if it isn't x.  Raises `InputError` for several names."""
     names = names_of(expression)
     if DEFAULT_VARIABLE in names or not names:
-        return _Variable(DEFAULT_VARIABLE)
+        return DEFAULT_VARIABLE, ()
     only = _usual_one(names) or chosen_variable(names)
     if only in USUAL_VARIABLES:
-        return _Variable(only, (f"{only} is taken for the variable, of which V is a function",))
-    return _Variable(DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",))
+        return only, (f"{only} is taken for the variable, of which V is a function",)
+    return DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",)
 
 
 def _usual_one(names: Sequence[str]) -> str | None:
@@ -281,10 +249,22 @@ def _usual_one(names: Sequence[str]) -> str | None:
     return usual[0] if len(usual) == 1 and DEFAULT_VARIABLE not in names else None
 
 
-def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _Potential:
-    """Raises `InputError` for what isn't a real potential."""
-    potential = _as_written(V, energy, var, names)
-    expression = potential.expression
+def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) -> tuple[Any, tuple[str, ...]]:
+    """V as an expression, and what was guessed when a text was read.  Raises `InputError` for what isn't a real potential."""
+    guesses: tuple[str, ...] = ()
+    if isinstance(V, str):
+        if var is None:
+            with suppress(InputError):  # with the position, below
+                var = _usual_one(names_of(read_expression(V)))
+        source = source_of(V, var, SYMBOLIC, names=(*names, energy))
+        if source.unknown:
+            raise InputError(
+                "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
+            )
+        expression, guesses = expression_of(source, SYMBOLIC, what="the potential"), source.guesses
+    else:
+        given = V if hasattr(V, "free_symbols") else read_expression(exact_text(V, "the potential"))
+        expression = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
     if energy in {s.name for s in expression.free_symbols}:
         raise InputError(
             f"the potential contains {energy}, the energy",
@@ -297,27 +277,7 @@ def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) 
         raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
     if expression.has(sympy.I):
         raise InputError("the potential isn't real")
-    return potential
-
-
-def _as_written(V: Any, energy: str, var: str | None, names: Sequence[str]) -> _Potential:
-    """The potential as text, as an expression, or as a number."""
-    if isinstance(V, str):
-        if var is None:
-            with suppress(InputError):  # with the position, below
-                var = _usual_one(names_of(read_expression(V)))
-        source = source_of(V, var, SYMBOLIC, names=(*names, energy))
-        if source.unknown:
-            raise InputError(
-                "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
-            )
-        expression = expression_of(source, SYMBOLIC, what="the potential")
-        return _Potential(expression, expression - sympy.Symbol(energy), source.guesses)
-    expression = V
-    if not hasattr(V, "free_symbols"):
-        expression = read_expression(exact_text(V, "the potential"))
-    plain = expression.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in expression.free_symbols})
-    return _Potential(plain, expression - sympy.Symbol(energy))
+    return expression, guesses
 
 
 def _constants(expression: Any, names: Iterable[str]) -> dict[str, Any]:
@@ -333,12 +293,3 @@ def read_end(value: Any) -> Any:
     if text in _INFINITE:
         return _INFINITE[text]
     return read_expression(text, what="an end of the domain")
-
-
-def _checked_domain(ends: list[Any], signs: Signs) -> tuple[Any, Any]:
-    """The ends in real symbols.  Raises `InputError` where nothing lies between them."""
-    first, last = (signs.real(end) for end in ends)
-    is_empty = signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo
-    if is_empty:
-        raise InputError(f"the domain is empty: {first} isn't below {last}")
-    return first, last

@@ -27,7 +27,10 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     """
     meanings = dict(radicals or {})
     squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
-    squares = {symbol: square for symbol, square in squares.items() if not _has_radicals(square)}
+    # Not those with a root of what depends on parameters.
+    squares = {
+        symbol: square for symbol, square in squares.items() if square.is_rational_function(*square.free_symbols)
+    }
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
     found = []
     implied = {sympy.true}
@@ -42,47 +45,21 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
 
 
-def _has_radicals(expression: Any) -> bool:
-    """Is there a root of what depends on parameters?"""
-    return any(not power.exp.is_Integer and power.base.free_symbols for power in expression.atoms(sympy.Pow))
-
-
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
-    """Without those that others imply; (False,) where two of them exclude each other."""
-    pairs = [*combinations(conditions, 2)]
-    if any(_exclude(first, second, signs) for first, second in pairs):
-        return (sympy.false,)
-    weaker = [_weaker(first, second, signs) for first, second in pairs]
-    return tuple(c for c in conditions if c not in weaker)
-
-
-def _exclude(first: Any, second: Any, signs: Signs) -> bool:
-    """Is one a lower bound of what the other one bounds from above, and larger?"""
-    if not _are_comparable(first, second):
-        return False
-    if _is_lower_bound(first) == _is_lower_bound(second):
-        return False
-    gap = first.rhs - second.rhs
-    if not _is_lower_bound(first):
-        gap = -gap
-    return signs.is_positive(gap) is True
-
-
-def _weaker(first: Any, second: Any, signs: Signs) -> Any:
-    """The one of two lower bounds that the other one implies; None where there is none."""
-    if not _are_comparable(first, second):
-        return None
-    if not (_is_lower_bound(first) and _is_lower_bound(second)):
-        return None
-    gap = first.rhs - second.rhs
-    if signs.is_positive(gap):
-        return second
-    return first if signs.is_positive(-gap) else None
-
-
-def _are_comparable(first: Any, second: Any) -> bool:
-    """Are both relations, with the same at their left?"""
-    return sympy.false not in (first, second) and bool(first.lhs == second.lhs)
+    """Without lower bounds that others imply; (False,) where a lower bound excludes an upper one."""
+    left = [*conditions]
+    for first, second in combinations(conditions, 2):
+        if sympy.false in (first, second) or first.lhs != second.lhs:
+            continue
+        sign = signs.sign(first.rhs - second.rhs)
+        match _is_lower_bound(first), _is_lower_bound(second):
+            case True, True if sign is not None:
+                left = [c for c in left if c is not (second if sign == 1 else first)]
+            case (True, False) if sign == 1:
+                return (sympy.false,)
+            case (False, True) if sign == -1:
+                return (sympy.false,)
+    return tuple(left)
 
 
 def _is_lower_bound(condition: Any) -> bool:
@@ -138,9 +115,14 @@ def _solved(condition: Any, signs: Signs) -> Any:
     if condition.has(sympy.Abs) and not condition.has(n):
         return condition
     is_strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
-    rest = _without_signs(condition.gts - condition.lts, signs)
-    if is_strict:
-        rest = _without_denominator(rest)
+    rest = sympy.Integer(1)  # with the signs in the place of factors whose signs are known
+    for factor in sympy.Mul.make_args(sympy.factor(sympy.together(condition.gts - condition.lts))):
+        rest *= signs.sign(factor) or factor
+    rest = sympy.expand(rest)
+    number, factor = rest.as_coeff_Mul()
+    base, exponent = factor.as_base_exp()
+    if is_strict and exponent == -1:  # c p in the place of c/p, which is positive where that is
+        rest = sympy.expand(number * base)
     parameters = sorted(rest.free_symbols - {n}, key=str)
     for unknown in (n, *parameters):
         solved = _solved_for(unknown, rest, signs, is_strict=is_strict)
@@ -149,15 +131,6 @@ def _solved(condition: Any, signs: Signs) -> Any:
     if _degree(rest, n) == 2:
         return _solved_for_square(rest, signs, is_strict=is_strict)
     return _beyond(shortest(rest), 0, 1, is_strict=is_strict)
-
-
-def _without_denominator(positive: Any) -> Any:
-    """c p in the place of c/p, which is positive where that is."""
-    number, factor = positive.as_coeff_Mul()
-    base, exponent = factor.as_base_exp()
-    if exponent != -1:
-        return positive
-    return sympy.expand(number * base)
 
 
 def _solved_for(unknown: Any, rest: Any, signs: Signs, *, is_strict: bool) -> Any:
@@ -173,7 +146,7 @@ def _solved_for(unknown: Any, rest: Any, signs: Signs, *, is_strict: bool) -> An
 
 
 def _degree(expression: Any, unknown: Any) -> Any:
-    """As a polynomial in the unknown; None where it is none."""
+    """The degree as a polynomial in the unknown, None for anything else."""
     return sympy.degree(expression, unknown) if expression.is_polynomial(unknown) else None
 
 
@@ -181,15 +154,6 @@ def _beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
     """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
     relation = _RELATIONS[sign, is_strict]
     return relation(unknown, bound)
-
-
-def _without_signs(difference: Any, signs: Signs) -> Any:
-    """With the signs in the place of the factors whose signs are known."""
-    rest = sympy.Integer(1)
-    for factor in sympy.Mul.make_args(sympy.factor(sympy.together(difference))):
-        sign = signs.sign(factor)
-        rest *= sign or factor
-    return sympy.expand(rest)
 
 
 def _solved_for_square(rest: Any, signs: Signs, *, is_strict: bool) -> Any:

@@ -5,7 +5,7 @@ A parameter with a bound, l >= 1/2, is written 1/2 + s with s >= 0, so that SymP
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -35,7 +35,7 @@ class Signs:
         return expression.xreplace({symbol: self.symbols[symbol.name] for symbol in of_parameters})
 
     def bounds_of(self, name: str, expression: Any) -> list[Any]:
-        """What is known about the parameter, said about an expression that is its value."""
+        """The known bounds of the parameter, as relations for an expression that is its value."""
         found = []
         for bound in self._bounds.get(name, ()):
             relation = sympy.Gt if bound.strict else sympy.Ge
@@ -43,7 +43,7 @@ class Signs:
         return found
 
     def admits(self, name: str, expression: Any) -> bool:
-        """May the expression be the value of the parameter, which is an integer, say?  False where it can't be."""
+        """False if the expression can't be the value of the parameter, which is an integer, say."""
         coset = self._known_of(name).coset
         if coset is not None and expression.is_Rational:
             return bool(coset.contains(Fraction(int(expression.p), int(expression.q))))
@@ -54,7 +54,7 @@ class Signs:
         return True
 
     def holds(self, relation: Any) -> bool | None:
-        """Is the relation true for all values, false for all values, or neither of these as far as is known?
+        """True or False for a relation that holds for all values or for none, None if neither is known.
 
         A relation with the number of the level in it is false where it is false for all of the numbers.
         """
@@ -84,26 +84,19 @@ class Signs:
 
     def _known(self, expression: Any, question: str) -> bool | None:
         """What SymPy says in the first of the charts in which it says something."""
-        for values in self._charts():
+        symbols = [self.symbols[name] for name in self._bounds]
+        for chosen in product(*self._bounds.values()):
+            # Each parameter with bounds as one of them and a variable with a sign.
+            values = {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
             factored = sympy.factor(sympy.together(sympy.sympify(expression).xreplace(values)))
             # As a product of sums of products, and in factors.
-            expanded = sympy.Mul(*map(_expanded, sympy.Mul.make_args(factored)), evaluate=False)
+            factors = (sympy.expand(part) if part.is_Add else part for part in sympy.Mul.make_args(factored))
+            expanded = sympy.Mul(*factors, evaluate=False)
             for form in (expanded, factored):
                 found = getattr(form, question)
                 if found is not None:
                     return bool(found)
         return None
-
-    def _charts(self) -> Iterator[dict[Any, Any]]:
-        """Each parameter with bounds as one of them and a variable with a sign."""
-        symbols = [self.symbols[name] for name in self._bounds]
-        for chosen in product(*self._bounds.values()):
-            yield {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
-
-
-def _expanded(factor: Any) -> Any:
-    """A sum as a sum of products."""
-    return sympy.expand(factor) if factor.is_Add else factor
 
 
 def _real(name: str, known: Any) -> Any:

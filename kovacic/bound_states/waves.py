@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import sympy
 
 from kovacic.bound_states.energies import Root, conjugate, shortest
-from kovacic.bound_states.frame import SingularFrame, Spot
+from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.signs import Signs
 from kovacic.parametric.solutions import jacobi
 
@@ -43,28 +43,23 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     original = frame.original
     half = original.theta / 2
     two = sympy.Integer(2)
+    is_above = _is_above(frame, c)
     match original.kind, c:
         case "exp", 0:
             return WaveProduct(exponent=original.theta)
         case "exp", -1:
             return WaveProduct(two, half, {sympy.cosh(half): 1})
         case "exp", 1:
-            angle = half if _is_above(frame, c) else -half
-            return WaveProduct(two, half, {sympy.sinh(angle): 1})
-        case "cosh", 1:
-            return WaveProduct(two, powers={sympy.sinh(half): 2})
-        case "cosh", -1:
-            return WaveProduct(two, powers={sympy.cosh(half): 2})
-        case "cos", 1:
-            return WaveProduct(two, powers={sympy.sin(half): 2})
-        case "cos", -1:
-            return WaveProduct(two, powers={sympy.cos(half): 2})
-    distance = original.t - c if _is_above(frame, c) else c - original.t
-    return WaveProduct(powers={distance: 1})
+            return WaveProduct(two, half, {sympy.sinh(half if is_above else -half): 1})
+        case ("cosh" | "cos") as kind, 1:
+            return WaveProduct(two, powers={(sympy.sinh if kind == "cosh" else sympy.sin)(half): 2})
+        case ("cosh" | "cos") as kind, -1:
+            return WaveProduct(two, powers={getattr(sympy, kind)(half): 2})
+    return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
 
 
 def _is_above(frame: SingularFrame, c: Any) -> bool:
-    """Is t larger than c on the domain?  c isn't inside."""
+    """True if t is larger than c on the domain; c isn't inside."""
     low, high = frame.limits_of_t
     if low is not None and sympy.simplify(low - c).is_nonnegative:
         return True
@@ -74,17 +69,10 @@ def _is_above(frame: SingularFrame, c: Any) -> bool:
 
 def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
     """|expression|, a rational function of t, up to its sign."""
-    t = sympy.Symbol(frame.problem_variable)
-    found = WaveProduct()
-    for factor in sympy.Mul.make_args(sympy.factor(expression)):
-        base, k = factor.as_base_exp()
-        if not base.has(t):
-            found.constant *= sympy.Abs(base) ** k
-            continue
-        polynomial = sympy.Poly(base, t)
-        found.constant *= sympy.Abs(polynomial.LC()) ** k
-        for root, multiplicity in sympy.roots(polynomial).items():
-            found = found.times(factor_at(frame, root), k * multiplicity)
+    constant, exponents = linear_factors(expression, frame.t)
+    found = WaveProduct(sympy.Abs(constant))
+    for root, exponent in exponents.items():
+        found = found.times(factor_at(frame, root), exponent)
     return found
 
 
@@ -100,45 +88,24 @@ def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
 
 
 def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
-    """Which points are 1, -1 and oo: of the first two the right end, and then the other one, come first."""
-    last = _number_of_last(frame, roots)
+    """Which points are 1, -1 and oo: of the first two the right end, and then the other one, come first.
+
+    The last one doesn't depend on E as the two others do; else it is the first that is no end, or the last one.
+    """
+    depend = [root.unknown for root in roots]
+    alone = [k for k in range(3) if depend.count(depend[k]) == 1]
+    unused = [k for k, spot in enumerate(frame.spots) if not spot.is_used]
+    last = (alone or unused or [2])[0]
     others = [k for k in range(3) if k != last]
-    others.sort(key=lambda k: ("right" not in frame.spots[k].roles, not frame.spots[k].roles))
+    others.sort(key=lambda k: (1 not in frame.spots[k].sides, not frame.spots[k].is_used))
     return [*others, last]
 
 
-def _number_of_last(frame: SingularFrame, roots: list[Root]) -> int:
-    """The one that doesn't depend on E as the two others do; else the first that is no end, or the last one."""
-    depend = [root.unknown for root in roots]
-    if depend.count(True) == 1:
-        return depend.index(True)
-    if depend.count(False) == 1:
-        return depend.index(False)
-    for k, spot in enumerate(frame.spots):
-        if not spot.roles:
-            return k
-    return 2
-
-
-@dataclass(frozen=True)
-class _Point:
-    """One of the points w = 1, -1, oo: its mu, delta with its sign, and whether it is an end or the middle of the domain."""
+class _Point(NamedTuple):
+    """One of the points w = 1, -1, oo, with delta and its sign."""
 
     spot: Spot
     delta: Any
-
-    @property
-    def mu(self) -> Any:
-        return self.spot.mu
-
-    @property
-    def is_used(self) -> bool:
-        return bool(self.spot.roles)
-
-    @property
-    def exponent(self) -> Any:
-        """e, as in y = (1 - w)^e1 (1 + w)^e2 P(w)."""
-        return (1 + self.delta) / 2 - self.mu / 4
 
 
 @dataclass(frozen=True)
@@ -155,12 +122,14 @@ class _JacobiForm:
     n: Any
 
     @property
-    def has_constant_scale(self) -> bool:
-        return not self.scale.has(self.frame.z)
+    def exponents(self) -> tuple[Any, Any]:
+        """e1 and e2."""
+        first, second, _ = self.points
+        return first.spot.exponent(first.delta), second.spot.exponent(second.delta)
 
 
 class Wave(NamedTuple):
-    """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None where it isn't known."""
+    """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None if unknown."""
 
     y: Any
     norm: Any = None
@@ -172,12 +141,11 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     if form.w.has(sympy.I):
         return _complex_pair(form)
     first, second, _ = form.points
-    minus = as_product(frame, 1 - form.w)
-    plus = as_product(frame, 1 + form.w)
-    whole = WaveProduct().times(minus, first.exponent).times(plus, second.exponent)
+    e1, e2 = form.exponents
+    whole = WaveProduct().times(as_product(frame, 1 - form.w), e1).times(as_product(frame, 1 + form.w), e2)
     polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
     y = whole.shown() * polynomial
-    norm = _norm(form) if form.has_constant_scale else None
+    norm = None if form.scale.has(frame.z) else _norm(form)
     if norm is None:
         return Wave(y)
     return Wave(y, _on_domain(frame, norm / whole.constant**2))
@@ -192,9 +160,9 @@ def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], sig
         order[0], order[1] = order[1], order[0]
         w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     first, second, third = (_Point(frame.spots[k], deltas[k]) for k in order)
-    w = sympy.factor(w_of_z.xreplace({z: frame.base**frame.m}))
+    w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
-    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu))
+    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.spot.mu * (1 + w_of_z) ** second.spot.mu))
     return _JacobiForm(frame, w, (first, second, third), scale, signs.n)
 
 
@@ -207,7 +175,7 @@ def _on_domain(frame: SingularFrame, norm: Any) -> Any:
 def _argument(frame: SingularFrame, w: Any) -> Any:
     """w in the user's variable."""
     original = frame.original
-    t = sympy.Symbol(frame.problem_variable)
+    t = frame.t
     in_x = sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
     if original.kind != "exp":
         return in_x
@@ -224,7 +192,7 @@ def _complex_pair(form: _JacobiForm) -> Wave:
     """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
     first, second, _ = form.points
     n = form.n
-    e1 = first.exponent
+    e1, _ = form.exponents
     p = sympy.expand((e1 + conjugate(e1)) / 2)
     q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
     powers = _real_powers(form, p, q)
@@ -238,7 +206,7 @@ def _complex_pair(form: _JacobiForm) -> Wave:
 
 
 class _RealPowers(NamedTuple):
-    """(1 + r^2)^p exp(2 q atan(r)) as it is written, without a constant whose square is `dropped`; and r in the variable."""
+    """(1 + r^2)^p exp(2 q atan(r)) as written, without a constant whose square is `dropped`; and r in the variable."""
 
     written: Any
     r: Any
@@ -249,7 +217,7 @@ def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
     """With 1 + r^2 = cosh^2 for r = +-sinh, and = 1/sin^2 for r = +-cot, where atan(r) is an angle, too."""
     original = form.frame.original
     theta = original.theta
-    t = sympy.Symbol(form.frame.problem_variable)
+    t = form.frame.t
     r_of_t = sympy.factor(form.w / sympy.I)
     if original.kind == "tan" and sympy.cancel(r_of_t**2 - t**-2) == 0:
         sign = 1 if sympy.cancel(r_of_t - 1 / t) == 0 else -1
@@ -263,21 +231,21 @@ def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
 
 
 def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
-    """int y^2 dx for w = i r, up to its sign; None where it isn't known, or r doesn't run through the whole line."""
+    """int y^2 dx for w = i r, up to its sign; None if unknown, or if r doesn't run through the whole line."""
     first, second, _ = form.points
     n = form.n
-    is_whole_line = any(len(spot.roles) == 2 for spot in form.frame.spots)
-    if not is_whole_line or not form.has_constant_scale:
+    is_whole_line = any(len(spot.sides) == 2 for spot in form.frame.spots)
+    if not is_whole_line or form.scale.has(form.frame.z):
         return None
     middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
-    integral = _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle)
+    integral = _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
     if integral is None:
         return None
     return integral / sympy.sqrt(sympy.Abs(form.scale))
 
 
 def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
-    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); None where it isn't known.
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); None if unknown.
 
     With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1) [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line
     v = i r all of these have the same factor, 2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
@@ -301,30 +269,30 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
 
 
 def _norm(form: _JacobiForm) -> Any:
-    """int y^2 dx between two of the points w = 1, -1, oo; None where it isn't known."""
+    """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown."""
     first, second, third = form.points
-    if first.is_used and second.is_used:
+    if first.spot.is_used and second.spot.is_used:
         integral = _integral_between(first, second, form.n)
         return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
-    if first.is_used and third.is_used:
+    if first.spot.is_used and third.spot.is_used:
         return _norm_to_infinity(form, first, second)
-    if second.is_used and third.is_used:  # w -> -w
+    if second.spot.is_used and third.spot.is_used:  # w -> -w
         return _norm_to_infinity(form, second, first)
     return None
 
 
 def _norm_to_infinity(form: _JacobiForm, end: _Point, other: _Point) -> Any:
-    """Between w = 1, the end, and oo; None where it isn't known.
+    """Between w = 1, the end, and oo, or None if unknown.
 
     w = (3 - v)/(1 + v) runs from there for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
     """
     n = form.n
-    _, _, third = form.points
-    integral = _integral_between(end, third, n)
+    integral = _integral_between(end, form.points[2], n)
     if integral is None:
         return None
-    scale = sympy.Abs(form.scale) * 2 ** (end.mu + 2 * other.mu - 4)
-    return 2 ** (2 * end.exponent + 4 * other.exponent + 2 * n) * integral / sympy.sqrt(scale)
+    scale = sympy.Abs(form.scale) * 2 ** (end.spot.mu + 2 * other.spot.mu - 4)
+    powers = 2 * end.spot.exponent(end.delta) + 4 * other.spot.exponent(other.delta) + 2 * n
+    return 2**powers * integral / sympy.sqrt(scale)
 
 
 def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
@@ -332,16 +300,16 @@ def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
     a = first.delta
     b = second.delta
     middle = sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
-    return _jacobi_integral(a, b, (1 - first.mu, 1 - second.mu), n, middle)
+    return _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
 
 
 def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> Wave:
     """The solution by Laguerre's polynomials."""
     n = signs.n
     z = frame.z
-    power = (1 + delta) / 2 - origin.mu / 4
-    whole = WaveProduct().times(as_product(frame, frame.base), frame.m * power)
-    in_x = _argument(frame, frame.base) ** frame.m
+    whole = WaveProduct().times(as_product(frame, frame.coordinate), origin.exponent(delta))
+    base, m = frame.coordinate.as_base_exp()
+    in_x = _argument(frame, base) ** m
     rate = shortest(2 * kappa)
     y = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
     scale = sympy.simplify(frame.slope / z**origin.mu)
@@ -355,7 +323,7 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, si
 
 
 def _tidy(norm: Any) -> Any:
-    """The shorter one of the norm as it is, and with quotients of Gamma functions simplified."""
+    """The shorter of the norm itself and its form with simplified quotients of Gamma functions."""
     simplified = sympy.gammasimp(norm).replace(
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )

@@ -15,9 +15,6 @@ from flint import acb, acb_poly, arb, fmpz_poly
 from kovacic.algebra.isolation import complex_zeros
 from kovacic.closed_form.balls import BallEvaluator
 
-#: The distance of a zero from an end that is at infinity.
-_INSIDE = arb(1)
-
 
 def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
     """The real zeros of a polynomial with rational coefficients, as SymPy's numbers and as balls."""
@@ -37,33 +34,21 @@ def _real_zeros_in_balls(polynomial: Any) -> list[arb]:
 
 
 def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
-    """How many zeros the polynomial P has between two bounds, each None where there is none, at the E in the ball.
+    """Number of zeros of the polynomial P between two bounds (None: unbounded) at the E in the ball.
 
-    None where the balls are too large.
+    None if the balls are too large.
     """
     value = BallEvaluator({E: acb(ball)})
     coefficients = [value(c) for c in reversed(P.all_coeffs())]
     if len(coefficients) < 2:
         return 0
+    low, high = (None if bound is None else BallEvaluator({})(bound).real for bound in bounds)
     count = 0
     for root in acb_poly(coefficients).roots():
-        if root.imag.contains(0):
-            is_inside = _is_inside(root.real, bounds)
-            if is_inside is None:
-                return None
-            count += is_inside
+        distances = [*([] if low is None else [root.real - low]), *([] if high is None else [high - root.real])]
+        if not root.imag.contains(0) or any(distance < 0 for distance in distances):
+            continue
+        if any(distance.contains(0) for distance in distances):
+            return None
+        count += 1
     return count
-
-
-def _is_inside(x: arb, bounds: tuple[Any, Any]) -> bool | None:
-    """Is a ball between the bounds?  None where it meets one."""
-    low, high = bounds
-    above = _INSIDE if low is None else x - _as_ball(low)
-    below = _INSIDE if high is None else _as_ball(high) - x
-    if above.contains(0) or below.contains(0):
-        return None
-    return bool(above > 0 and below > 0)
-
-
-def _as_ball(number: Any) -> arb:
-    return BallEvaluator({})(number).real

@@ -253,18 +253,23 @@ def _three_points(problem: Problem, x: Any) -> list[_SingularPoint] | None:
 def _points_of(place: Place, x: Any) -> list[_SingularPoint]:
     """One point, or the two roots of a quadratic factor."""
     square = riemann.difference_squared(place)
+    points = roots_of(place, x)
+    if len(points) == 1:
+        return [_SingularPoint(points[0], root(square))]
+    squares = (sympy.simplify(square.to_sympy(x).subs(x, c)) for c in points)
+    return [_SingularPoint(c, _square_root(value)) for c, value in zip(points, squares, strict=True)]
+
+
+def roots_of(place: Place, x: Any) -> list[Any]:
+    """The points of a place of degree 1 or 2, None for infinity."""
     if place.at_infinity:
-        return [_SingularPoint(None, root(square))]
+        return [None]
     if place.degree == 1:
-        return [_SingularPoint((-place.factor[0]).to_sympy(x), root(square))]
-    found = []
+        return [(-place.factor[0]).to_sympy(x)]
     linear = place.factor[1].to_sympy(x)
     constant = place.factor[0].to_sympy(x)
-    for sign in (1, -1):
-        c = (-linear + sign * sympy.sqrt(sympy.factor(linear**2 - 4 * constant))) / 2
-        difference = _square_root(sympy.simplify(square.to_sympy(x).subs(x, c)))
-        found.append(_SingularPoint(c, difference))
-    return found
+    radical = sympy.sqrt(sympy.factor(linear**2 - 4 * constant))
+    return [(-linear + sign * radical) / 2 for sign in (1, -1)]
 
 
 def _square_root(square: Any) -> Any:

@@ -138,10 +138,9 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
     """
     if not isinstance(assume, Mapping):
         return Substituted(S, parsed, assume)
-    told = {name: _told(str(name), what) for name, what in assume.items()}
-    values = {str(name): what for name, what in told.items() if _WORDS.fullmatch(plain_text(what)) is None}
+    values, others = values_among(assume)
     if not values:
-        return Substituted(S, parsed, told or assume)
+        return Substituted(S, parsed, others or assume)
     names = parameters_of(parsed.S.field)
     for name in values:
         if name not in names:
@@ -151,8 +150,14 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
     filled = Template(template, [*texts], _user_variable(parsed)).filled(texts)
     declared = words_among(names)
     read = read_input(filled, var=_user_variable(parsed), limits=limits, exponentials=True, names=declared)
-    others = {name: what for name, what in told.items() if str(name) not in texts}
     return Substituted(filled, read, others or None)
+
+
+def values_among(assume: Mapping[Any, Any]) -> tuple[dict[str, Any], dict[Any, Any]]:
+    """The values, by name, and what else is assumed."""
+    told = {name: _told(str(name), what) for name, what in assume.items()}
+    others = {name: what for name, what in told.items() if _WORDS.fullmatch(plain_text(what)) is not None}
+    return {str(name): what for name, what in told.items() if name not in others}, others
 
 
 def _told(name: str, what: Any) -> Any:

@@ -918,6 +918,6 @@ def test_the_command_says_what_was_guessed(V: str, said: str, capsys: pytest.Cap
 
 
 def test_levels_that_are_false_never_leave(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kovacic.bound_states.api.Levels", lambda n, energy, *rest: Levels(n, energy + 1, *rest))
+    monkeypatch.setattr("kovacic.bound_states.families.Levels", lambda n, energy, *rest: Levels(n, energy + 1, *rest))
     with pytest.raises(kovacic.VerificationFailed, match="failed its own check at n = 0"):
         kovacic.spectrum("x^2")
