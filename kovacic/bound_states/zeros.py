@@ -12,7 +12,7 @@ from typing import Any
 import sympy
 from flint import acb, acb_poly, arb, fmpz_poly
 
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.closed_form.balls import BallEvaluator
 
 

@@ -24,7 +24,7 @@ import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator, BallValue
 

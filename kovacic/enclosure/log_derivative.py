@@ -18,9 +18,9 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpz
 
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
-from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly

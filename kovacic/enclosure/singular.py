@@ -15,7 +15,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.enclosure.problem import NumericProblem

@@ -17,7 +17,7 @@ from typing import Literal
 
 from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, foresee_move, to_fraction

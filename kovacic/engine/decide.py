@@ -14,19 +14,19 @@ from functools import partial
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, Structure
-from kovacic.engine import imprimitive, primitive, reducible
-from kovacic.engine.necessary import excluded_by_local_data
-from kovacic.engine.places import Problem, analyse
+from kovacic.engine import reducible
+from kovacic.engine.irreducible import decide_imprimitive, decide_primitive
+from kovacic.engine.places import Problem, analyse, excluded_by_local_data
 from kovacic.engine.riccati import Found, Outcome
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 
 _DECIDERS: dict[Structure, Callable[[Problem], Outcome]] = {
     Structure.REDUCIBLE: reducible.decide,
-    Structure.IMPRIMITIVE: imprimitive.decide,
-    Structure.TETRAHEDRAL: partial(primitive.decide, structure=Structure.TETRAHEDRAL),
-    Structure.OCTAHEDRAL: partial(primitive.decide, structure=Structure.OCTAHEDRAL),
-    Structure.ICOSAHEDRAL: partial(primitive.decide, structure=Structure.ICOSAHEDRAL),
+    Structure.IMPRIMITIVE: decide_imprimitive,
+    Structure.TETRAHEDRAL: partial(decide_primitive, structure=Structure.TETRAHEDRAL),
+    Structure.OCTAHEDRAL: partial(decide_primitive, structure=Structure.OCTAHEDRAL),
+    Structure.ICOSAHEDRAL: partial(decide_primitive, structure=Structure.ICOSAHEDRAL),
 }
 
 

@@ -1,7 +1,7 @@
 """The differential Galois group of y'' = S y, exactly, from the decision.
 
 S and a `Decision` go in, a `Group` comes out.  Read `decide` first; `imprimitive` has the order of case 2, with the divisors
-of `jacobian` on curves of positive genus, and `gauged` the group of the equation as it was given.
+of curves of positive genus modulo primes and in `chain`, and `gauged` the group of the equation as it was given.
 
 >>> import kovacic
 >>> kovacic.solve("-3/(16*x^2)").group.name

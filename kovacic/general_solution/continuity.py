@@ -19,7 +19,7 @@ import sympy
 from flint import acb, arb, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.zero import samples

@@ -22,7 +22,7 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 from sympy import Integral, Symbol
 
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly

@@ -7,8 +7,8 @@ checked by the evidence against every structure.  Only exact arithmetic and arit
 which it proves something (a rank can only drop) is used.
 
 S and a `Decision` go in, a `Verification` comes out.  Read `verify` here first, then `identity` for the positive claims and
-`evidence` for the negative ones: `conditions` at the points of `local`, `forms`, and `omega` with `zeros` and `residue`, by
-`series` modulo `primes`.  `group` and `torsion` check the group.
+`evidence` for the negative ones: conditions at the points of `local`, forms by `series`, and `omega` with `zeros`, all modulo
+`primes`.  `group` and `torsion` check the group.
 
 With the search the kernel shares the arithmetic of polynomials and rational functions over the fields, with factoring and
 square roots of constants, both of which it proves again; and the classes in which claims are written down.

@@ -1,4 +1,16 @@
-"""The negative claims: each piece of evidence is recomputed from S alone."""
+"""The negative claims: each piece of evidence is recomputed from S alone.
+
+Conditions: at an irregular point of odd order no solution has a rational logarithmic derivative; a logarithm makes the local
+monodromy unipotent of infinite order, which an imprimitive or finite group hasn't; the square root of an invariant of degree
+4 that isn't a square branches at two points at least; an irregular point makes the group infinite; in a finite primitive
+group the local monodromy has an order from a short list, the denominator of Delta.  [Kovacic 1986, theorem of section 2.1]
+
+Forms: their dimension modulo a prime is an upper bound for that over the field.  A rational form F of degree m in a
+fundamental system has, at each singular point, a valuation from a short list; so F is the product of the p^v, v the least of
+these, and of a polynomial of a bounded degree.  At an ordinary point, F is a combination of y1^(m-i) y2^i, i = 0, ..., m, and
+modulo a prime the rank of the equations which say that the terms beyond that degree vanish is at most that over the field.
+[van Hoeij & Weil, J. Pure Appl. Algebra 117-118 (1997)]
+"""
 
 from __future__ import annotations
 
@@ -6,13 +18,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
+from typing import Any
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
 from kovacic.limits import Budget
-from kovacic.verify.conditions import condition_fails
-from kovacic.verify.forms import dimension_modulo, ordinary_point, room
 from kovacic.verify.local import Point, points
 from kovacic.verify.omega import chart, no_expansion_is_rational
 from kovacic.verify.primes import (
@@ -22,8 +33,128 @@ from kovacic.verify.primes import (
     homomorphisms_modulo,
     is_usable_prime,
     roots_modulo,
+    translated,
 )
-from kovacic.verify.zeros import ZeroCounts, zero_counts
+from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
+from kovacic.verify.zeros import ZeroCounts, is_proven_irrational, zero_counts
+
+#: Equations beyond the number of unknowns.
+_MORE_EQUATIONS = 7
+
+
+def least_valuation(point: Point, m: int) -> int | None:
+    """The least integer among the valuations that a rational form of degree m can have at the point; None if there is none.
+
+    With the exponents (1 +- Delta)/2 a form has the valuations m/2 + i Delta/2, i = -m, -m + 2, ..., m; the middle one alone
+    for an irrational Delta (i = 0), the largest alone with a logarithm, since such a form is a power of the solution without
+    it.  At an irregular point of order k a rational form is a multiple of (y+ y-)^(m/2), of the valuation m k/4.
+    """
+    if point.order > 2:
+        quarter, rest = divmod(m * point.order, 4)
+        return None if rest else quarter
+    if point.difference is None:
+        return None if m % 2 else m // 2
+    numerator, denominator = point.difference.as_integer_ratio()
+    signs = [m] if point.logarithm else range(-m, m + 1, 2)
+    for i in signs:
+        valuation, rest = divmod(m * denominator + i * numerator, 2 * denominator)
+        if not rest:
+            return valuation
+    return None
+
+
+def room(points: list[Point], m: int) -> tuple[list[int], int] | None:
+    """The least valuations at the finite points, and the largest degree of the polynomial factor; None if no form exists.
+
+    The valuations at all points of the sphere, as those of a form in solutions of y'' = S y, add up to m.
+    """
+    valuations = []
+    degree = m
+    for point in points:
+        valuation = least_valuation(point, m)
+        if valuation is None:
+            return None
+        valuations.append(valuation)
+        degree -= valuation * point.factor.degree
+    return None if degree < 0 else (valuations[:-1], degree)
+
+
+def dimension_modulo(
+    h: Homomorphism, S: RatFunc, at: int, m: int, *, factors: list[tuple[Poly, int]], degree: int
+) -> int:
+    """The dimension modulo a prime of the forms of degree m whose quotient by prod p^v is a polynomial of at most this degree.
+
+    They are expanded at the integer `at`, to some terms more than there are unknowns.  Raises `BadPrimeError` if the point is
+    singular, or the series would be longer than the prime allows.
+    """
+    count = degree + m + 1 + _MORE_EQUATIONS
+    bottom = translated(h.keeping_degree(S.den), at)
+    if h.p <= 2 * count or not int(bottom[0]):
+        raise BadPrimeError("the point is singular, or the prime is small")
+    y1, y2 = solutions_at_ordinary_point(translated(h(S.num), at), bottom, count)
+    images = [(translated(h.keeping_degree(p), at), -v) for p, v in factors]
+    form = product_of_powers(images, count, h.p).mul_low(y1.pow_trunc(m, count), count)
+    ratio = y2.mul_low(y1.inverse_series_trunc(count), count)
+    forms = [form]  # the quotients of y1^(m-i) y2^i, i = 0, ..., m
+    for _ in range(m):
+        forms.append(forms[-1].mul_low(ratio, count))
+    return nullity(forms, degree + 1, count)
+
+
+def ordinary_point(den: Any) -> int:
+    """The least natural number at which a polynomial modulo a prime doesn't vanish."""
+    at = 0
+    while not int(den(at)):
+        at += 1
+    return at
+
+
+#: The denominators of exponent differences in the finite primitive groups, modulo +-1.
+_LOCAL_ORDERS = {
+    Structure.TETRAHEDRAL: {1, 2, 3},
+    Structure.OCTAHEDRAL: {1, 2, 3, 4},
+    Structure.ICOSAHEDRAL: {1, 2, 3, 5},
+}
+
+
+def condition_fails(item: NecessaryCondition, structure: Structure, points: list[Point]) -> bool:
+    """True if the structure implies the condition, and the condition fails at each of the places that are named."""
+    named = [point for point in points if point.name in item.places]
+    if len(named) < len(item.places):  # a name is that of no point, or occurs twice
+        return False
+    if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
+        # The square root of an invariant of degree 4 can branch at these places alone, and they are fewer than two points.
+        are_all = named == [point for point in points if point.can_branch]
+        return structure is Structure.IMPRIMITIVE and are_all and sum(point.factor.degree for point in named) < 2
+    return (
+        structure in _IMPLIED_BY[item.rule] and bool(named) and all(_fails_at(p, item.rule, structure) for p in named)
+    )
+
+
+def _fails_at(point: Point, rule: Rule, structure: Structure) -> bool:
+    """True if the condition of a rule fails at the point."""
+    k = point.order
+    if rule is Rule.RAMIFIED:
+        return k > 2 and k % 2 == 1
+    if rule is Rule.NOT_A_SQUARE:
+        return k > 0 and k % 2 == 0 and is_proven_irrational(point)
+    if rule is Rule.LOGARITHM:
+        return point.logarithm
+    if rule is Rule.IRREGULAR:
+        return k > 2
+    # EXPONENTS, which speaks of regular points only
+    return k <= 2 and (point.difference is None or point.difference.denominator not in _LOCAL_ORDERS[structure])
+
+
+#: The structures that imply the condition of each rule.
+_IMPLIED_BY = {
+    Rule.RAMIFIED: {Structure.REDUCIBLE},
+    Rule.NOT_A_SQUARE: {Structure.REDUCIBLE},
+    Rule.LOGARITHM: {Structure.IMPRIMITIVE, *_LOCAL_ORDERS},
+    Rule.IRREGULAR: {*_LOCAL_ORDERS},
+    Rule.EXPONENTS: {*_LOCAL_ORDERS},
+}
+
 
 #: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.
 INVARIANT_DEGREE = dict(zip(Structure, (2, 4, 6, 8, 12), strict=True))

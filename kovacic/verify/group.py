@@ -19,8 +19,8 @@ from kovacic.verify.dihedral import has_holomorphic_rest, is_least_power
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import inverse
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
-from kovacic.verify.residue import residue
 from kovacic.verify.torsion import order_holds
+from kovacic.verify.zeros import residue
 
 #: The name of a family, as in `kovacic.galois.Kind`, and its parameter.
 _Named = tuple[str, int | None]

@@ -48,7 +48,6 @@ from kovacic.numbers.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
-from kovacic.reading.symbolic import written_expression
 from kovacic.reading.written import WrittenReader
 from kovacic.verify import verify
 from kovacic.verify.factors import is_a_field
@@ -216,7 +215,11 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
     seconds = _typed(data, "seconds", int, float, type(None))
     verified = bool(verify(parsed.S, decision))
-    letters = tuple((name, written_expression(said)) for name, said in (data.get("letters") or {}).items())
+    letters: tuple[tuple[str, Any], ...] = ()
+    if data.get("letters"):
+        from kovacic.reading.symbolic import written_expression
+
+        letters = tuple((name, written_expression(said)) for name, said in data["letters"].items())
     answer = Answer(text, variable, parsed.S, decision, notices, verified, seconds, parsed.equation, letters=letters)
     if verified and not _typed(data, "verified", bool):
         raise ValueError("the answer is marked as failing its check, but passes it")
@@ -370,6 +373,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
     from sympy import Symbol
 
     from kovacic.closed_form.check import are_independent, is_numerical_solution
+    from kovacic.reading.symbolic import written_expression
 
     # Another version may write them in another way, but not in another variable.
     if not isinstance(texts, list) or len(texts) != 2 or not all(isinstance(text, str) for text in texts):

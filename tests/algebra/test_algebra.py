@@ -19,9 +19,9 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import LimitExceeded, Limits
 from kovacic.algebra import modular
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.extension import norm
 from kovacic.algebra.factors import combination, expansions, product
-from kovacic.algebra.isolation import complex_zeros
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
 from kovacic.algebra.partial_fractions import reduce_poles
 from kovacic.algebra.rationals import RationalPoly, square_part

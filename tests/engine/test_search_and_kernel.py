@@ -18,10 +18,9 @@ import kovacic
 from kovacic import checker
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.invariants import least_valuation
-from kovacic.verify import forms
+from kovacic.verify import evidence
 from kovacic.verify.local import has_no_series
-from kovacic.verify.residue import residue_over_leading_root
-from kovacic.verify.zeros import zero_counts
+from kovacic.verify.zeros import residue_over_leading_root, zero_counts
 
 X = RatFunc(QQ.poly([0, 1]))
 
@@ -162,7 +161,7 @@ def test_valuations_at_irregular_places_in_the_search_and_the_kernel(k: int, m: 
     """There y1 y2 has the valuation k/2, and only its powers can be rational: m k/4, if that is an integer."""
     S = 1 / X**k + 1
     (pole, _), point = analyse(S, Budget()).places, inspector(S).points[0]
-    assert least_valuation(pole, m) == forms.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
+    assert least_valuation(pole, m) == evidence.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
 
 
 @pytest.mark.parametrize("d", range(1, 6))

@@ -11,7 +11,7 @@ from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from kovacic.galois.jacobian import Jacobian
+from kovacic.galois.imprimitive import Jacobian
 from kovacic.verify.torsion import order_holds
 
 

@@ -31,7 +31,7 @@ from sympy.abc import n, x
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, Solution
-from kovacic.algebra.isolation import complex_zeros
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.batch.records import Item, Job
 from kovacic.batch.worker import solve_item
 from kovacic.enclosure.frame import least_growth

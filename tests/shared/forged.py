@@ -27,8 +27,7 @@ from kovacic.decision import (
 )
 from kovacic.limits import Budget
 from kovacic.verify import GroupClaim
-from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
-from kovacic.verify.forms import ordinary_point, room
+from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector, ordinary_point, room
 from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.zeros import zero_counts
 
