@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections import Counter
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 import sympy
+from flint import acb_poly
 from sympy import Add, Integer, Mul, Rational, Symbol, exp, log, ordered
 from sympy.functions.special.hyper import TupleArg
 
-from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.embedding import adjoined_root, enclosure, vanishing_factor
+from kovacic.algebra.extension import AlgebraicField, norm
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.product import Factor, Product, grouped, merged
@@ -30,6 +33,16 @@ def discriminant(p: Poly) -> Fraction | None:
     if p.degree != 2:
         return None
     return p.field.rational_value(p[1] * p[1] - 4 * p[0])
+
+
+def _over_the_rationals(field: AlgebraicField) -> AlgebraicField:
+    """Q(c) for a generator c of K(c), K a number field: a real root of the modulus if there is one."""
+    with working_precision(200):
+        roots = acb_poly([enclosure(c) for c in field.modulus]).roots()
+        target = min(roots, key=lambda root: (not root.imag.contains(0), float(root.real.mid())))
+        return cast(
+            AlgebraicField, adjoined_root(vanishing_factor(norm(field.modulus), target), target, field.name)[1].field
+        )
 
 
 class RootSum(sympy.RootSum):  # type: ignore[misc]
@@ -119,7 +132,11 @@ class Atoms:
         real, imaginary = field.approximation or (1, 0)  # the positive root where none in particular is meant
         if radicand is not None and real > 0 and not imaginary:
             return radical(rational(radicand), modulus.degree)
-        return chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
+        if (
+            isinstance(field.base, AlgebraicField) and field.ground == QQ
+        ):  # SymPy's roots are those of polynomials over Q
+            field = _over_the_rationals(field)
+        return chosen_root(sympy.Poly.from_list(self.coefficients(field.modulus)[::-1], self.x), field)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
         """The coefficients from low to high."""

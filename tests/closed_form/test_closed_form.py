@@ -18,6 +18,7 @@ from sympy.abc import x
 
 import kovacic
 from kovacic import Limits
+from kovacic.closed_form.check import is_numerical_solution
 from kovacic.closed_form.form import verified, written
 from kovacic.closed_form.structure import build
 
@@ -423,3 +424,11 @@ def test_half_integer_exponent_differences_need_no_roots(k: int, l: int, third: 
     assert len(str(form.y1)) < 200 + (k + l) ** 2 // 3
     if k < 50:
         check_at(answer, acb("0.31", "0.83").mid())
+
+
+def test_constants_over_a_number_field_are_roots_of_polynomials_over_q() -> None:
+    """omega has a cubic constant over Q(sqrt(2)): SymPy has no roots of such polynomials, and raised NotImplementedError."""
+    solution = kovacic.solve("-27*(x-sqrt(2))/(8*((x-sqrt(2))^3-2)^2)")
+    assert solution.group.name == "dicyclic of order 8"
+    assert all(y.has(sympy.CRootOf) for y in solution.solutions)
+    assert all(is_numerical_solution(y, sympy.Symbol("x"), solution.S, solution.gauge) for y in solution.solutions)
