@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice, pairwise
+from itertools import islice
 from types import MappingProxyType
 from typing import Any
 
@@ -27,7 +27,7 @@ from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, is_refuted
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.continuity import cuts_of, jumps
-from kovacic.general_solution.jumps import break_points, in_steps, on_piece
+from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.values import have_values, value_at
@@ -235,19 +235,8 @@ def _in_pieces(question: Question, value: Expr) -> _Pieces:
     given = set().union(*(e.atoms(AppliedUndef) for e in whole))
     functions = sorted({f.func for f in given}, key=str)
     y, a, b, c, f = (_concrete(e.xreplace(sample), functions) for e in whole)
-    places = [*break_points(y, x), *break_points(f, x)]
-    real = [point for point in places if point.is_number and point.is_real]
-    breaks = sorted(dict.fromkeys(real), key=lambda point: float(point.evalf()))
-    return _Pieces(x, y, (a, b, c, f), breaks, _between(breaks))
-
-
-def _between(breaks: Sequence[Expr]) -> list[Expr]:
-    """A rational point between each two breaks, and one beyond them on either side."""
-    if not breaks:
-        return [sympy.Rational(41, 89)]
-    values = [sympy.Rational(str(point.evalf(12))) for point in breaks]
-    inner = [(3 * left + 2 * right) / 5 for left, right in pairwise(values)]
-    return [values[0] - sympy.Rational(41, 89), *inner, values[-1] + sympy.Rational(23, 71)]
+    breaks = break_points(sympy.Tuple(y, f), x)
+    return _Pieces(x, y, (a, b, c, f), breaks, between(breaks))
 
 
 def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:

@@ -32,7 +32,7 @@ from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
-from kovacic.general_solution.jumps import break_points, in_steps, on_piece
+from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
 from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
@@ -46,7 +46,6 @@ from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
-_ONE = sympy.Integer(1)
 #: Points at which a solution is put into the equation, and how small a residual is, relative to the size of its terms.
 _POINTS = (acb(fmpq(23, 71), fmpq(41, 89)), acb(fmpq(-83, 97), fmpq(11, 59)))
 _SMALL = arb(10) ** (-DIGITS // 2)
@@ -349,11 +348,8 @@ def _is_wrong(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr]) -
     x = equation.x
     jumping = equation.p + equation.q
     if jumping.has(*JUMPING):
-        breaks = sorted(point.xreplace(sample) for point in break_points(jumping, x))
-        middles = [(a + b) / 2 for a, b in pairwise(breaks)]
-        places = [breaks[0] - _ONE / 3, *middles, breaks[-1] + _ONE / 3] if breaks else []
-        if any(not place.is_Rational for place in places):
-            return None
+        breaks = break_points(jumping.xreplace(sample), x)
+        places = between(breaks)
         found = [_is_wrong_near(equation, w, sample, place) for place in places]
         pieces = [on_piece(w.xreplace(sample), x, place) for place in places]
         for (left, right), a in zip(pairwise(pieces), breaks, strict=True):

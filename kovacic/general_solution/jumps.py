@@ -6,13 +6,12 @@
 - A function given by cases is the sum of its cases times their indicators.
 - For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.
 
-`_KINDS`, at the end, has what is done with each of these functions.  What holds at single points doesn't matter.  x is real.
+`_in_heavisides` has these identities.  What holds at single points doesn't matter.  x is real.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -39,24 +38,6 @@ _ANALYTIC = (
     sympy.asinh,
     sympy.erf,
 )
-
-
-@dataclass(frozen=True)
-class _Kind:
-    """What is done with functions of these classes."""
-
-    classes: tuple[Any, ...]
-    #: The function of x in terms of steps; None where the zeros of its parts aren't known.
-    in_steps: Callable[[Expr, Expr], Expr | None]
-    #: Expressions whose zeros separate the cases.
-    borders: Callable[[Expr], list[Expr]]
-    #: What the function of x is near a rational point that is no break.
-    near: Callable[[Expr, Expr, Expr], Expr]
-
-
-def _kind(e: Expr) -> _Kind:
-    """That of a function that jumps."""
-    return next(kind for kind in _KINDS if isinstance(e, kind.classes))
 
 
 # ------------------------------------------------------------------------------------------------------ in terms of steps
@@ -116,24 +97,96 @@ def _with_steps_outside(e: Expr, x: Expr) -> Expr:
 
 
 def _innermost_rewritten(e: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The innermost functions that jump, with what they are in terms of steps, where that is another expression."""
+    """The innermost functions that jump, with what they are in terms of steps, where that is known and another expression."""
+    jumping = [part for part in e.atoms(*JUMPING) if part.has(x) and not _is_simple(part, x)]
     changed = {}
-    for jump in _innermost_jumps(e, x):
-        other = _kind(jump).in_steps(jump, x)
-        if other is not None and other != jump:
+    for jump in jumping:
+        if jump.has(*(other for other in jumping if other != jump)):
+            continue
+        if isinstance(jump, sympy.Piecewise):
+            _check_cases(jump, x)
+        other = _at_points(jump, x)
+        if other != jump and all(_is_simple(step, x) for step in other.atoms(Heaviside) if step.has(x)):
             changed[jump] = other
     return changed
 
 
-def _innermost_jumps(e: Expr, x: Expr) -> list[Expr]:
-    """The functions that jump and aren't simple, without those that have others within them."""
-    jumping = [part for part in e.atoms(*JUMPING) if part.has(x) and not _is_simple(part, x)]
-    inner = []
-    for part in jumping:
-        others = [other for other in jumping if other != part]
-        if not part.has(*others):
-            inner.append(part)
-    return inner
+def _at_points(jump: Expr, x: Expr) -> Expr:
+    """In terms of H(x - a), and of other steps H(u) where the zeros of u aren't known."""
+
+    def at_zeros(step: Expr) -> Expr:
+        on = above(step.args[0], x)
+        return step if on is None else on
+
+    return _in_heavisides(jump, x).replace(lambda e: isinstance(e, Heaviside) and e.has(x), at_zeros)
+
+
+def _in_heavisides(e: Expr, x: Expr) -> Expr:
+    """A function that jumps in terms of H(u) and impulses; the same where that isn't known."""
+    u = e.args[0]
+    if isinstance(e, sympy.Abs):
+        return u * (2 * Heaviside(u) - 1)
+    if isinstance(e, sympy.sign):
+        return 2 * Heaviside(u) - 1
+    if isinstance(e, sympy.Max | sympy.Min):
+        for other in e.args[1:]:
+            advantage = u - other if isinstance(e, sympy.Max) else other - u
+            u = other + (u - other) * Heaviside(advantage)
+        return u
+    if isinstance(e, sympy.SingularityFunction) and e.args[2].is_Integer:
+        _, a, n = e.args
+        return DiracDelta(u - a, -1 - n) if n < 0 else (u - a) ** n * Heaviside(u - a)
+    if isinstance(e, sympy.Piecewise):
+        indicators = [_indicator(condition, x) for _, condition in e.args]
+        if None not in indicators:
+            return sympy.Add(*(value * on for (value, _), on in zip(e.args, _alone(indicators), strict=False)))
+    return Heaviside(u) if isinstance(e, Heaviside) else e
+
+
+def _alone(indicators: Sequence[Expr]) -> list[Expr]:
+    """Where a condition holds and none of those before; at the end, where none holds."""
+    rest = sympy.Integer(1)
+    found = []
+    for on in indicators:
+        found.append(on * rest)
+        rest *= 1 - on
+    return [*found, rest]
+
+
+def _indicator(condition: Expr, x: Expr) -> Expr | None:
+    """1 where a condition holds, and 0 where it doesn't, but for single points; None where that isn't known."""
+    if condition in (True, False):
+        return sympy.Integer(bool(condition))
+    if not condition.has(x):
+        return None
+    if isinstance(condition, And | Or):
+        parts = [_indicator(part, x) for part in condition.args]
+        if None in parts:
+            return None
+        return sympy.Mul(*parts) if isinstance(condition, And) else 1 - _alone(parts)[-1]
+    if isinstance(condition, sympy.Eq | sympy.Ne):
+        return sympy.Integer(isinstance(condition, sympy.Ne))
+    if isinstance(condition, sympy.core.relational.Relational):
+        return Heaviside(condition.gts - condition.lts)
+    return None
+
+
+def _check_cases(e: Expr, x: Expr) -> None:
+    """Raises `InputError` where no case holds.  With parameters that is tried at one value of each."""
+    indicators = [_indicator(condition, x) for _, condition in e.args]
+    if None in indicators:
+        return
+    values = {parameter: _some_value(parameter) for parameter in e.free_symbols - {x}}
+    missing = _alone(indicators)[-1].subs(values)
+    has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
+    if has_gap or any(value is sympy.nan for value, _ in e.args):
+        raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
+
+
+def _some_value(parameter: Expr) -> Expr:
+    """A number that the parameter may be."""
+    size = sympy.Integer(2) if parameter.is_integer else sympy.Rational(7, 5)
+    return -size if parameter.is_negative else size
 
 
 def _is_simple(e: Expr, x: Expr) -> bool:
@@ -211,218 +264,33 @@ def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
 
 
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
-    """The points where functions of an expression jump, as far as they are known."""
-    found: dict[Expr, None] = {}
-    for e in expression.atoms(*JUMPING):
-        for u in _kind(e).borders(e):
-            found |= dict.fromkeys(_zeros(u, x))
-    return [*found]
+    """The points where functions of an expression jump, as far as they are known, from left to right."""
+    parts = [_at_points(e, x) for e in expression.atoms(*JUMPING) if e.has(x)]
+    steps = {step.args[0] for part in parts for step in part.atoms(Heaviside, DiracDelta)}
+    steps = {u for u in steps if not u.diff(x).has(x) and u.diff(x) != 0}
+    points = {sympy.expand(x - u / u.diff(x)) for u in steps}
+    numbers = [point for point in points if point.is_number and point.is_real]
+    return sorted(numbers, key=lambda point: float(point.evalf()))
 
 
-def _zeros(u: Expr, x: Expr) -> list[Expr]:
-    """Where u changes its sign, as far as that is known."""
-    if not u.has(x):
-        return []
-    on = above(u, x)
-    if on is None:
-        return []
-    return [sympy.expand(x - step.args[0]) for step in on.atoms(Heaviside)]
+def between(breaks: Sequence[Expr]) -> list[Expr]:
+    """A rational point between each two breaks, and one beyond them on either side."""
+    if not breaks:
+        return [sympy.Rational(41, 89)]
+    values = [sympy.Rational(str(point.evalf(12))) for point in breaks]
+    inner = [(3 * left + 2 * right) / 5 for left, right in pairwise(values)]
+    return [values[0] - sympy.Rational(41, 89), *inner, values[-1] + sympy.Rational(23, 71)]
 
 
 def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
     """What an expression is near a rational point that is no break: without functions that jump there."""
-    return expression.replace(
-        lambda e: isinstance(e, JUMPING) and e.has(x),
-        lambda e: _kind(e).near(e, x, point),
-    )
 
+    def near(jump: Expr) -> Expr:
+        if isinstance(jump, DiracDelta):
+            return sympy.Integer(0)
+        if isinstance(jump, Heaviside):
+            return (1 + sympy.sign(jump.args[0].subs(x, point))) / 2
+        plain = _in_heavisides(jump, x)
+        return jump if plain == jump else on_piece(plain, x, point)
 
-# ------------------------------------------------------------------------------------------------------------- steps
-
-
-def _argument(e: Expr) -> list[Expr]:
-    return [e.args[0]]
-
-
-# ---------------------------------------------------------------------------------------------------- signs and moduli
-
-
-def _sign(e: Expr, x: Expr) -> Expr | None:
-    """sign(u) = 2 H(u) - 1."""
-    on = above(e.args[0], x)
-    if on is None:
-        return None
-    return 2 * on - 1
-
-
-def _sign_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    return sympy.sign(e.args[0].subs(x, point))
-
-
-def _modulus(e: Expr, x: Expr) -> Expr | None:
-    """|u| = u sign(u)."""
-    sign = _sign(e, x)
-    if sign is None:
-        return None
-    return e.args[0] * sign
-
-
-# ------------------------------------------------------------------------------------------------- Macaulay's brackets
-
-
-def _bracket(e: Expr, x: Expr) -> Expr | None:
-    """<u - a>^n = (u - a)^n H(u - a) for n = 0, 1, 2, ..., and delta^(-1-n)(u - a) for n = -1, -2, ..."""
-    (u,) = _distance(e)
-    n = e.args[2]
-    if not n.is_Integer:
-        return None
-    if n < 0:
-        return DiracDelta(u, -1 - n)
-    on = above(u, x)
-    if on is None:
-        return None
-    return u**n * on
-
-
-def _bracket_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    (u,) = _distance(e)
-    n = e.args[2]
-    if n.is_negative:
-        return sympy.Integer(0)
-    return u**n * (1 + sympy.sign(u.subs(x, point))) / 2
-
-
-def _distance(e: Expr) -> list[Expr]:
-    return [e.args[0] - e.args[1]]
-
-
-# ------------------------------------------------------------------------------------------------------------- impulses
-
-
-# -------------------------------------------------------------------------------------------------- largest and smallest
-
-
-def _extremum(e: Expr, x: Expr) -> Expr | None:
-    """The largest or the smallest, of two after the other."""
-    best, *others = e.args
-    for other in others:
-        advantage = best - other if isinstance(e, sympy.Max) else other - best
-        on = above(advantage, x)
-        if on is None:
-            return None
-        best = other + (best - other) * on
-    return best
-
-
-def _differences(e: Expr) -> list[Expr]:
-    found = []
-    for k, first in enumerate(e.args):
-        found += [first - other for other in e.args[:k]]
-    return found
-
-
-def _extremum_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    best = e.subs(x, point)
-    return next(argument for argument in e.args if argument.subs(x, point) == best)
-
-
-# ---------------------------------------------------------------------------------------------------------------- cases
-
-
-def _cases(e: Expr, x: Expr) -> Expr | None:
-    """The sum of the cases times the indicators of their conditions, without those before.
-
-    Raises `InputError` where the function has no value, because no case holds.
-    """
-    if not _has_a_case_everywhere(e, x):
-        raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
-    total = sympy.Integer(0)
-    rest = sympy.Integer(1)
-    for value, condition in e.args:
-        on = _indicator(condition, x)
-        if on is None:
-            return None
-        total += value * on * rest
-        rest *= 1 - on
-    return total
-
-
-def _has_a_case_everywhere(e: Expr, x: Expr) -> bool:
-    """Does some condition hold at each x, but for single points?  With parameters that is tried at one value of each."""
-    if any(value is sympy.nan for value, _ in e.args):
-        return False
-    values = {parameter: _some_value(parameter) for parameter in e.free_symbols - {x}}
-    somewhere = sympy.Or(*(condition for _, condition in e.args)).subs(values)
-    if somewhere in (True, False):
-        return bool(somewhere)
-    borders = set().union(*(sympy.solve(border.subs(values), x) for border in _borders_of_cases(e)))
-    ordered = sorted(border for border in borders if border.is_real)
-    if not ordered:
-        return True
-    between = [(left + right) / 2 for left, right in pairwise(ordered)]  # where conditions are constant
-    points = [ordered[0] - 1, *between, ordered[-1] + 1]
-    return all(somewhere.subs(x, point) != sympy.false for point in points)
-
-
-def _some_value(parameter: Expr) -> Expr:
-    """A number that the parameter may be."""
-    size = sympy.Integer(2) if parameter.is_integer else sympy.Rational(7, 5)
-    return -size if parameter.is_negative else size
-
-
-def _borders_of_cases(e: Expr) -> list[Expr]:
-    relations = set().union(*(condition.atoms(sympy.core.relational.Relational) for _, condition in e.args))
-    return [relation.lhs - relation.rhs for relation in relations]
-
-
-def _case_near(e: Expr, x: Expr, point: Expr) -> Expr:
-    """The cases of which one holds everywhere."""
-    return next(value for value, condition in e.args if condition.subs(x, point) == sympy.true)
-
-
-def _indicator(condition: Expr, x: Expr) -> Expr | None:
-    """1 where a condition holds, and 0 where it doesn't, but for single points; None where that isn't known."""
-    if condition in (True, False):
-        return sympy.Integer(bool(condition))
-    if isinstance(condition, And):
-        return _product(_indicator(part, x) for part in condition.args)
-    if isinstance(condition, Or):
-        return _complement(_product(_complement(_indicator(part, x)) for part in condition.args))
-    if isinstance(condition, sympy.Eq | sympy.Ne) and condition.has(x):
-        return sympy.Integer(isinstance(condition, sympy.Ne))
-    if isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan):
-        return above(condition.lhs - condition.rhs, x)
-    if isinstance(condition, sympy.StrictLessThan | sympy.LessThan):
-        return above(condition.rhs - condition.lhs, x)
-    return None
-
-
-def _complement(on: Expr | None) -> Expr | None:
-    """That of the opposite."""
-    if on is None:
-        return None
-    return 1 - on
-
-
-def _product(indicators: Iterable[Expr | None]) -> Expr | None:
-    """Where all of the conditions hold; None where one isn't known."""
-    known = [*indicators]
-    if None in known:
-        return None
-    return sympy.Mul(*known)
-
-
-_KINDS = (
-    _Kind((sympy.Piecewise,), _cases, _borders_of_cases, _case_near),
-    _Kind((sympy.Max, sympy.Min), _extremum, _differences, _extremum_near),
-    _Kind((sympy.Abs,), _modulus, _argument, lambda e, x, point: _sign_near(e, x, point) * e.args[0]),
-    _Kind((sympy.sign,), _sign, _argument, _sign_near),
-    _Kind((sympy.SingularityFunction,), _bracket, _distance, _bracket_near),
-    _Kind(
-        (Heaviside,),
-        lambda e, x: above(e.args[0], x),
-        _argument,
-        lambda e, x, point: (1 + _sign_near(e, x, point)) / 2,
-    ),
-    _Kind((DiracDelta,), lambda e, x: e, _argument, lambda e, x, point: sympy.Integer(0)),
-)
+    return expression.replace(lambda e: isinstance(e, JUMPING) and e.has(x), near)
