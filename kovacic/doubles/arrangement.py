@@ -34,7 +34,7 @@ from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Region
 from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
-from kovacic.enclosure.frame import least_growth
+from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, zeros
 from kovacic.enclosure.points import ExactPoint, are_real, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
@@ -83,7 +83,7 @@ def _exponential(
         ends = (as_point(end.real, "an end") for end in (region.low, region.high))
         if any(region.singular):
             table = polynomial_table(_Expansion.of(problem, branch, base), region, careful)
-        elif degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
+        elif degree > _MAX_ZEROS or foreseen_growth(frequency(problem.system), *ends) < _SHORT:
             return None  # the solution itself is tabulated with less effort
     roots: list[tuple[acb, int]] = []
     if table is None:

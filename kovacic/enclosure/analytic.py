@@ -13,7 +13,6 @@ bounded: with |b| <= B, |c| <= C and |f| <= F on a piece of length r, for any s 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -23,6 +22,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.constants import Number
+from kovacic.enclosure.frame import foreseen_growth
 from kovacic.enclosure.jets import CoefficientField, JetBasis
 from kovacic.enclosure.matrices import Matrix, State, apply, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb
@@ -36,8 +36,6 @@ _STEEPEST = 40.0
 _SHARE = 0.15
 """The growth exp(lambda) in one disc: lambda is at most so large, or that share of the bits."""
 _LEAST = 60
-_SAMPLES = 32
-"""Points at which the coefficients are looked at for a forecast."""
 _ROUGH = 64
 _EDGE = 16
 """The piece beside an end where the coefficients aren't analytic is 2^-16 of the way over 2^bits."""
@@ -166,7 +164,11 @@ class AnalyticWay(Way):
                 raise InputError(said, hint="choose a point beside it")
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
-        found = Forecast(a, b, lambda: _growth(self.functions, a, b), 2 * self._steepest)
+        def rate(x: acb) -> arb:
+            b_value, c_value, _ = self.functions.values(x)
+            return abs(b_value).max(abs(c_value).sqrt())
+
+        found = Forecast(a, b, lambda: foreseen_growth(rate, a, b), 2 * self._steepest)
         found.refuse()
         return found
 
@@ -214,17 +216,6 @@ class AnalyticWay(Way):
             enter = a + length.scaled(t)
             t += 2 * half
             yield AnalyticStep(JetBasis(jets), enter, b if t == 1 else a + length.scaled(t))
-
-
-def _growth(functions: CoefficientField, a: ExactPoint, b: ExactPoint) -> float:
-    """The integral of max(|b|, |c|^(1/2)) along the way, about: no bound."""
-    with working_precision(_ROUGH):
-        sizes = []
-        for k in range(_SAMPLES):
-            b_value, c_value, _ = functions.values(to_acb(a + (b - a).scaled(fmpq(2 * k + 1, 2 * _SAMPLES))))
-            sizes.append(float(abs(b_value).max(abs(c_value).sqrt()).mid()))
-        length = float(abs(to_acb(b - a)).mid())
-    return length * sum(size for size in sizes if size < math.inf) / _SAMPLES
 
 
 def _share(square: Any, e: int) -> Any:

@@ -13,17 +13,17 @@ Symbols: c centre, H = 2^e scale, u = (x - c)/H.
 
 from __future__ import annotations
 
-import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, acb_poly, arb, arb_poly, fmpq_poly
+from flint import acb, arb, arb_poly, fmpq_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
 from kovacic.enclosure.system import System, distance_lower, offsets
-from kovacic.limits import check_duration, check_time
+from kovacic.limits import check_time
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
 GaussianParts = tuple[list[int], list[int] | None]
@@ -31,14 +31,10 @@ _BITS = 64
 _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
-# Halvings of the way, for a lower bound of the growth; few for degrees above 100.
-_LONG = 100
-_SHORT = 10  # up to this degree, moving a polynomial takes microseconds
-_HALVINGS = 60
-_FEW_HALVINGS = 6
-# Seconds that it takes to move a long polynomial to a real and to a complex point, over its degree squared.
-_MOVE_SECONDS = 2e-8
-_COMPLEX_MOVE_SECONDS = 4e-8
+# Shares of a way at which a rate is looked at.
+_MARKS = sorted(
+    {0.0, 1.0, *(k / 16 for k in range(1, 16)), *(2.0**-k for k in range(5, 40)), *(1 - 2.0**-k for k in range(5, 40))}
+)
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
@@ -211,56 +207,28 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
         return math.ceil(log2(steepest / size) / 2) if is_known else None
 
 
-def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
-    """A lower bound of int |S|^(1/2) |dx| along the segment from a to b: so much the solutions grow, or oscillate.
+def foreseen_growth(rate: Callable[[acb], arb], a: ExactPoint, b: ExactPoint) -> float:
+    """The integral of `rate` |dx| along the segment from a to b, by the lower sum on pieces that get shorter towards both ends.
 
-    On pieces that get shorter towards both ends; where the bound |p_0| - sum |p_j| r^j of the numerator around the middle of a
-    piece is of no use for the whole piece, its middle counts alone.
+    No bound: between two marks the function counts as its smaller value there.  With |S|^(1/2) it tells by how much solutions
+    grow or oscillate.
     """
-    total = 0.0
-    degree = max(len(system.num), len(system.den))
-    halvings = _HALVINGS if degree <= _LONG else _FEW_HALVINGS
-    # 1/2, 31/64, ..., 17/64, and four points in each half of what is left
-    towards = [i / 64 for i in range(32, 16, -1)]
-    towards += [i / 64 * 2.0**-k for k in range(1, halvings) for i in range(32, 16, -4)]
-    with working_precision(_BITS + 4 * min(degree, _LONG)):
+    with working_precision(_BITS):
         start = to_acb(a)
         step = to_acb(b - a)
-        both = [system.polynomial("num"), system.polynomial("den")]
-        length = abs(step).upper()
-        marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
-        for first, last in itertools.pairwise(marks):
-            middle = start + step * (first + last) / 2
-            half = length * (last - first) / 2
-            p, q = (_sizes_around(part, middle) for part in both)
-            total += _growth_near(p, q, half)
-    return total
+        sizes = []
+        for t in _MARKS:
+            check_time()
+            sizes.append(rate(start + step * t).mid())
+        least = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
+        pieces = ((t - s) * min((v for v in (x, y) if v.is_finite()), default=arb(0)) for s, t, x, y in least)
+        return float(sum(pieces, arb(0)) * abs(step).mid())
 
 
-def _sizes_around(polynomial: acb_poly, point: acb) -> list[arb]:
-    """The absolute values of the coefficients around a point."""
-    degree = polynomial.degree()
-    if degree > _LONG:
-        each = _COMPLEX_MOVE_SECONDS if point.imag else _MOVE_SECONDS
-        seconds = each * degree**2
-        check_duration(seconds, f"a bound for a polynomial of degree {degree}")
-    elif degree > _SHORT:
-        check_time()
-    return [abs(c) for c in polynomial(acb_poly([point, 1])).coeffs()]
-
-
-def _growth_near(p: list[arb], q: list[arb], half: arb) -> float:
-    """A lower bound of int |S|^(1/2) |dx| over the piece, from the absolute values of the coefficients around its middle."""
-    if not p:
-        return 0.0
-    with working_precision(_BITS):
-        others = arb_poly([0, *(c.upper() for c in p[1:])])
-        below = arb_poly([c.upper() for c in q])
-        for r in (half, half / 4, half / 16):
-            size = p[0].lower() - others(r)
-            if size > 0:
-                return float(((size / below(r)).sqrt() * 2 * r).lower())
-    return 0.0
+def frequency(system: System) -> Callable[[acb], arb]:
+    """|S|^(1/2) as a function."""
+    num, den = system.polynomial("num"), system.polynomial("den")
+    return lambda x: abs(num(x) / den(x)).sqrt()
 
 
 def log2(value: arb) -> float:

@@ -2,26 +2,26 @@
 
 No choice depends on earlier calls.
 
-The prices stand in `kovacic.special.prices`.  How many discs Taylor's method needs is foreseen by a walk in small balls that
-looks at the distances of singular points and at |S|^(1/2), and ends as soon as the answer is known.  A search for a closed form
-is given up where Taylor's method would be through; an equation given as text has to be decided for case 1.  No clock decides.
+The prices stand in `kovacic.special.prices`.  How many discs Taylor's method needs is foreseen by the distances of singular
+points and |S|^(1/2) on the way.  A search for a closed form is given up where Taylor's method would be through; an equation
+given as text has to be decided for case 1.  No clock decides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
-from flint import acb, acb_poly, arb
+from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Classical, Closed, classical_of
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
 from kovacic.enclosure.constants import Number
+from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import ExactPoint, to_acb
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.precision import Method, start_bits
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
@@ -29,7 +29,7 @@ from kovacic.enclosure.start import middle
 from kovacic.enclosure.transport import growth_of_disc
 from kovacic.enclosure.way import position
 from kovacic.errors import InputError
-from kovacic.limits import DEFAULT_LIMITS, check_time
+from kovacic.limits import DEFAULT_LIMITS
 from kovacic.special import prices
 
 NO_CLOSED_FORM = (
@@ -41,7 +41,7 @@ _WORTH = 1.0  # milliseconds that Taylor's method takes where a closed form is s
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
-_HELPS = 0.9  # to half a step the growth falls by more
+_LOG_2 = 0.69
 _MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
 _BITS = 64
 Ways = tuple[tuple[ExactPoint, ExactPoint], ...]
@@ -106,10 +106,10 @@ def _chosen(journey: Journey, problem: NumericProblem, foreseen: Foreseen) -> Cl
         closed = _case_1(problem, foreseen)
         if closed is not None and closed.is_cheap(foreseen.digits) and foreseen.pays(closed.price(foreseen.digits)):
             return ClosedRoute(closed)
-        if not foreseen.reaches(_WORTH):
+        if foreseen.price < _WORTH:
             return None
     assert problem.S is not None
-    classical = classical_of(problem.S, int(foreseen.price(_MOST_SEARCH) / prices.UNIT))
+    classical = classical_of(problem.S, int(min(foreseen.price, _MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
     digits = foreseen.digits + _lost_digits(classical, journey)
@@ -122,94 +122,41 @@ def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
     if problem.decision is None:
         assert problem.S is not None
         large = problem.S.num.degree + problem.S.den.degree > _DEGREE
-        if large or not foreseen.reaches(_WORTH):
+        if large or foreseen.price < _WORTH:
             return None
-        degree = int(prices.DEGREES * foreseen.price(_UNKNOWN / prices.DEGREES))
+        degree = int(prices.DEGREES * min(foreseen.price, _UNKNOWN / prices.DEGREES))
     known = decided(problem, degree)
     return None if known is None else closed_form_of(known)
 
 
 class Foreseen:
-    """What Taylor's method takes on these ways to so many targets, about, in milliseconds; its discs are counted no further
-    than somebody asks."""
+    """What Taylor's method takes on these ways to so many targets, about, in milliseconds."""
 
     def __init__(self, journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> None:
         self.digits = digits
         self._count = count
         place = journey.place
         corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
-        self._discs = _discs(problem, [*pairwise(corners), *ways], start_bits(digits))
-        self._price = prices.BEGIN + count * prices.TARGET(digits)
+        with working_precision(_BITS):
+            poles = [root for root, _ in problem.poles(_BITS)]
+            frequent = frequency(problem.system)
+        growth = growth_of_disc(start_bits(digits), alone=False) * _LOG_2
 
-    def price(self, most: float) -> float:
-        """What it takes, or `most`."""
-        self.reaches(most)
-        return min(most, self._price)
+        def rate(x: acb) -> arb:
+            """The inverse of a disc's diameter."""
+            distances = [
+                abs(x - pole) for pole in poles
+            ]  # at a singular point, where a solution may start, by the others
+            near = min((distance for distance in distances if not distance.contains(0)), default=None)
+            steep = frequent(x) / growth
+            return (steep if near is None else steep.max(1 / (near * _SHARE))) / 2
 
-    def reaches(self, price: float) -> bool:
-        """Does it take so long?"""
-        each = prices.DISC(self.digits)
-        while self._price < price:
-            if next(self._discs, None) is None:
-                return False
-            self._price += each
-        return True
+        discs = sum(1 + foreseen_growth(rate, a, b) for a, b in [*pairwise(corners), *ways])
+        self.price = prices.BEGIN + count * prices.TARGET(digits) + discs * prices.DISC(digits)
 
     def pays(self, price: float) -> bool:
-        """Does a closed form take less, with this price for each target?"""
-        return self.reaches(prices.FIRST + self._count * price)
-
-
-def _discs(problem: NumericProblem, ways: Sequence[tuple[ExactPoint, ExactPoint]], prec: int) -> Iterator[arb]:
-    """The radii of the discs of a walk in small balls, about."""
-    growth = growth_of_disc(prec, alone=False) * 0.69  # log 2: from bits
-    for a, b in ways:
-        with working_precision(_BITS):
-            num, den = problem.polynomials()
-            poles = [root for root, _ in problem.poles(_BITS)]
-            start = to_acb(a)
-            end = to_acb(b)
-            length = abs(end - start)
-            direction = (end - start) / length if a != b else acb(0)
-        gone = arb(0)
-        while gone < length:
-            with working_precision(_BITS):
-                x = start + direction * gone
-                # The radius at a singular point, where a solution may start, is given by the others.
-                distances = [abs(x - pole) for pole in poles]
-                radii = [distance.mid() * _SHARE for distance in distances if not distance.contains(0)]
-                rate = _rate(num, den, x)
-                if rate > 0:
-                    radii.append(growth / rate)
-                step = min([*radii, (length - gone).mid()])
-                step = _within(growth, step, partial(_rate_beyond, num, den, x, direction))
-                gone = (gone + 2 * step).mid()
-            if not step > 0:
-                return
-            yield step
-
-
-def _within(growth: float, step: arb, rate: Callable[[arb], arb]) -> arb:
-    """The step, halved until a solution grows no more at its far end; or as long as that helps: beside a pole it doesn't."""
-    grown = rate(2 * step) * step
-    while step > 0 and grown > growth:
-        step /= 2
-        before = grown
-        grown = rate(2 * step) * step
-        if not grown < before * _HELPS:
-            break
-    return step
-
-
-def _rate_beyond(num: acb_poly, den: acb_poly, x: acb, direction: acb, distance: arb) -> arb:
-    """So far from x."""
-    return _rate(num, den, x + direction * distance)
-
-
-def _rate(num: acb_poly, den: acb_poly, x: acb) -> arb:
-    """|S|^(1/2), about; of polynomials of degree 4000 it takes some milliseconds, and is asked for at many points."""
-    check_time()
-    return arb(abs(num(x) / den(x)).sqrt().mid())
+        """True if a closed form takes less, with this price for each target."""
+        return self.price >= prices.FIRST + self._count * price
 
 
 def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPoint, ExactPoint]]:

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 from flint import acb, fmpq
 
-from kovacic.enclosure.frame import REACH, Frame, fitting, largest_exponent, least_growth, log2
+from kovacic.enclosure.frame import REACH, Frame, fitting, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import is_split, legs
@@ -154,7 +154,9 @@ class Leg:
 def forecast(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Forecast:
     """What the discs of the straight way from a to b will take; raises LimitExceeded if they are far too many."""
     # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
-    found = Forecast(a, b, lambda: least_growth(system, a, b), 2 * (_allowed_growth(prec) + 10) * math.log(2))
+    found = Forecast(
+        a, b, lambda: foreseen_growth(frequency(system), a, b), 2 * (_allowed_growth(prec) + 10) * math.log(2)
+    )
     e = largest_exponent(system, a)
     if e is not None and power_of_two(2 * e) * MAX_DISCS**2 < (b - a).norm_squared():
         found.refuse()  # too many steps, were all as short as the first one has to be

@@ -108,9 +108,9 @@ class WayStep(Protocol):
 
 @dataclass
 class Forecast:
-    """How many discs the way from a to b has at least, and whether the limits allow them.
+    """How many discs the way from a to b has, and whether the limits allow them.
 
-    `growth` gives int |S|^(1/2) or less on the way, `in_a_disc` is the most that one disc covers.
+    `growth` gives int |S|^(1/2) on the way, about and rather too small, `in_a_disc` is the most that one disc covers.
     """
 
     a: ExactPoint

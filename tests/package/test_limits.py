@@ -34,7 +34,7 @@ from kovacic import InputError, LimitExceeded, Limits, Solution
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.batch.records import Item, Job
 from kovacic.batch.worker import solve_item
-from kovacic.enclosure.frame import least_growth
+from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.log_derivative import LogDerivative
 from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.substitution import finite_value, slope
@@ -249,7 +249,7 @@ STEPS: dict[str, Callable[[], object]] = {
     "a rational function as an expression": lambda: Atoms(x).ratio(RatFunc(LONG, LONG + 1)),
     "a derivative": lambda: slope(x**2 * sympy.exp(x) + (x + 1) ** -3, x),
     "a value of an expression": lambda: finite_value(sympy.exp(x) / x, x, sympy.Integer(2)),
-    "a bound for the growth": lambda: least_growth(System.of(X**20 + 3), ExactPoint(2), ExactPoint(3)),
+    "a bound for the growth": lambda: foreseen_growth(frequency(System.of(X**20 + 3)), ExactPoint(2), ExactPoint(3)),
     "an exact quotient": lambda: LONG.exact_quotient(LONG),
     "a division over Q(a)": lambda: divmod(OVER_A.poly([1, 0, 1]), OVER_A.poly([OVER_A.generator("a"), 1])),
     "factors over Q": lambda: QQ.factor(LONG),
