@@ -37,7 +37,7 @@ from kovacic.algebra.rationals import QQ
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from tests import special_cases
+from tests.shared import special_cases
 
 METHODS = (None, "taylor", "closed form")
 FACTOR, SPARE = 2.0, 1e-3

@@ -32,9 +32,8 @@ _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 # Shares of a way at which a rate is looked at.
-_MARKS = sorted(
-    {0.0, 1.0, *(k / 16 for k in range(1, 16)), *(2.0**-k for k in range(5, 40)), *(1 - 2.0**-k for k in range(5, 40))}
-)
+_NEAR = [2.0**-k for k in (5, 6, 7, 8, 10, 12, 16, 24, 40)]
+_MARKS = sorted([0.0, 1.0, *(k / 16 for k in range(1, 16)), *_NEAR, *(1 - t for t in _NEAR)])
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 

@@ -9,6 +9,7 @@ given as text has to be decided for case 1.  No clock decides.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -37,7 +38,8 @@ NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_WORTH = 1.0  # milliseconds that Taylor's method takes where a closed form is sought
+_WORTH = 3.0  # milliseconds that Taylor's method takes where a closed form is sought
+_SOUGHT = 0.5  # of them, for the search
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
@@ -109,7 +111,7 @@ def _chosen(journey: Journey, problem: NumericProblem, foreseen: Foreseen) -> Cl
         if foreseen.price < _WORTH:
             return None
     assert problem.S is not None
-    classical = classical_of(problem.S, int(min(foreseen.price, _MOST_SEARCH) / prices.UNIT))
+    classical = classical_of(problem.S, int(_SOUGHT * min(foreseen.price, _MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
     digits = foreseen.digits + _lost_digits(classical, journey)
@@ -121,10 +123,10 @@ def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
     degree = _UNKNOWN
     if problem.decision is None:
         assert problem.S is not None
-        large = problem.S.num.degree + problem.S.den.degree > _DEGREE
-        if large or foreseen.price < _WORTH:
+        size = problem.S.num.degree + problem.S.den.degree
+        if size > _DEGREE or (size > 0 and foreseen.price < _WORTH):  # a constant S is decided in no time
             return None
-        degree = int(prices.DEGREES * min(foreseen.price, _UNKNOWN / prices.DEGREES))
+        degree = int(min(_SOUGHT * prices.DEGREES * foreseen.price, _UNKNOWN))
     known = decided(problem, degree)
     return None if known is None else closed_form_of(known)
 
@@ -138,18 +140,16 @@ class Foreseen:
         place = journey.place
         corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
         with working_precision(_BITS):
-            poles = [root for root, _ in problem.poles(_BITS)]
+            poles = [complex(root) for root, _ in problem.poles(_BITS)]
             frequent = frequency(problem.system)
         growth = growth_of_disc(start_bits(digits), alone=False) * _LOG_2
 
         def rate(x: acb) -> arb:
             """The inverse of a disc's diameter."""
-            distances = [
-                abs(x - pole) for pole in poles
-            ]  # at a singular point, where a solution may start, by the others
-            near = min((distance for distance in distances if not distance.contains(0)), default=None)
-            steep = frequent(x) / growth
-            return (steep if near is None else steep.max(1 / (near * _SHARE))) / 2
+            here = complex(x)
+            distances = (abs(here - pole) for pole in poles)
+            near = min((d for d in distances if d > 0), default=math.inf)  # not where a solution starts
+            return (frequent(x) / growth).max(arb(1 / near) / _SHARE) / 2
 
         discs = sum(1 + foreseen_growth(rate, a, b) for a, b in [*pairwise(corners), *ways])
         self.price = prices.BEGIN + count * prices.TARGET(digits) + discs * prices.DISC(digits)
