@@ -14,7 +14,7 @@ __version__ = "0.4.0"
 
 #: The public names by their modules; each is imported when it is first used, so that `import kovacic` costs nothing.
 #: (lazy_loader would do the same, but it and what it imports cost 8 ms at every start, ten times as much as this.)
-_NAMES = {
+_PUBLIC_NAMES = {
     "api": ("Verdict", "decide"),
     "batch": ("solve_many",),
     "bound_states.api": ("spectrum",),
@@ -42,7 +42,7 @@ _NAMES = {
     "solution.conditions": ("conditions",),
     "writing.code": ("as_code",),
 }
-_MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}
+_MODULES = {name: f"kovacic.{module}" for module, names in _PUBLIC_NAMES.items() for name in names}
 
 __all__ = sorted(_MODULES)
 

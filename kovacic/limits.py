@@ -191,7 +191,7 @@ class _Work:
         self.left = most
 
 
-_COUNTED: ContextVar[_Work | None] = ContextVar("counted", default=None)
+_COUNTED_WORK: ContextVar[_Work | None] = ContextVar("counted", default=None)
 
 
 @contextmanager
@@ -204,16 +204,16 @@ def bounded_work(most: int) -> Iterator[None]:
     Traceback (most recent call last):
     kovacic.errors.LimitExceeded: more than 3 units of work are needed
     """
-    token = _COUNTED.set(_Work(most))
+    token = _COUNTED_WORK.set(_Work(most))
     try:
         yield
     finally:
-        _COUNTED.reset(token)
+        _COUNTED_WORK.reset(token)
 
 
 def count_work(amount: int) -> None:
     """Count some units of work; raises `LimitExceeded` beyond the bound of `bounded_work`, if there is one."""
-    work = _COUNTED.get()
+    work = _COUNTED_WORK.get()
     if work is None:
         return
     work.left -= amount

@@ -46,8 +46,8 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
     from kovacic.enclosure.precision import AccuracyWarning
 
     options.say_reading(equation, given["var"], [*(given["params"] or ())])
-    places = [place for text in points for place in _listed(text)]
-    basis = None if frobenius is None else _listed(frobenius)
+    places = [place for text in points for place in _values_in_list(text)]
+    basis = None if frobenius is None else _values_in_list(frobenius)
     with (
         options.waiting("computing"),
         warnings.catch_warnings(record=True, action="always", category=AccuracyWarning) as notes,
@@ -63,7 +63,7 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
         print(f"kovacic: {note.message}", file=sys.stderr)
 
 
-def _listed(text: str) -> list[str]:
+def _values_in_list(text: str) -> list[str]:
     """The numbers between commas; those within parentheses, root(2, 3), separate nothing."""
     parts = [""]
     for character in text:

@@ -42,7 +42,7 @@ def exact(value: Any, name: str) -> Parts:
         raise InputError(f"{name} is a truth value ({value}), not a number")
     if isinstance(value, str):
         return _rational_of_text(value, name), fmpq(0)
-    reader = _READERS.get(_library(value), _of_python)
+    reader = _NUMBER_READERS.get(_library(value), _of_python)
     parts = reader(value, name)
     if parts is None:
         raise InputError(
@@ -103,7 +103,7 @@ def is_complex(value: Any) -> bool:
 def _library(value: Any) -> str:
     """The library of a number, recognised without importing it; empty for Python's own."""
     names = (str(cls.__module__).partition(".")[0] for cls in type(value).__mro__)
-    return next((name for name in names if name in _READERS), "")
+    return next((name for name in names if name in _NUMBER_READERS), "")
 
 
 def _numpy_kind(value: Any) -> str:
@@ -171,7 +171,7 @@ def _of_kovacic(value: Any, name: str) -> Parts | None:
     return _rational_of(real, name), _rational_of(imaginary, name)
 
 
-_READERS = {
+_NUMBER_READERS = {
     "numpy": _of_numpy,
     "mpmath": _of_mpmath,
     "sympy": _of_sympy,

@@ -24,50 +24,50 @@ Expr = Any
 #: Exact lower and upper bound, possibly infinite.
 Range = tuple[Any, Any]
 
-_INFINITE = arb.pos_inf()
-_EVERYTHING = (-_INFINITE, _INFINITE)
+_INFINITY = arb.pos_inf()
+_EVERYTHING = (-_INFINITY, _INFINITY)
 #: Derivatives that are tried: cosh(x) - x^2 needs three.
-_DERIVATIVES = 4
+_MOST_DERIVATIVES = 4
 _HYPERBOLIC = [sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch]
 #: Terms of a sum, up to which each is tried as the dominant one.
-_TERMS = 12
+_MOST_TERMS_OF_SUM = 12
 
 
-def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _DERIVATIVES) -> Any:
+def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _MOST_DERIVATIVES) -> Any:
     """A number (an exact arb, maybe -oo) that isn't above any value of e on [c, oo).
 
     The expression as it stands, with its dominant term as a factor, and, where its derivative isn't negative, its
     value at c.
     """
     simple = _direct(e, x, c)
-    if simple > -_INFINITE:
+    if simple > -_INFINITY:
         return simple
     factored = _dominated(e, x, c)
-    if factored > -_INFINITE:
+    if factored > -_INFINITY:
         return factored
     if derivatives == 0:
-        return -_INFINITE
+        return -_INFINITY
     slope = lower_bound(sympy.expand(e.diff(x)), x, c, derivatives=derivatives - 1)
     if slope >= 0:
         value = BallEvaluator({x: BallEvaluator({})(c)})(e).real
         if value.is_finite():
             return value.lower()
-    return -_INFINITE
+    return -_INFINITY
 
 
 def _direct(e: Expr, x: Expr, c: Expr) -> Any:
     start = BallEvaluator({})(c).real
     try:
-        return _Ranges(x, (start.lower(), _INFINITE)).of(e)[0]
+        return _Ranges(x, (start.lower(), _INFINITY)).of(e)[0]
     except InputError:  # a function that isn't known here
-        return -_INFINITE
+        return -_INFINITY
 
 
 def _dominated(e: Expr, x: Expr, c: Expr) -> Any:
     """num/den, each as a term times 1 plus quotients of terms; for hyperbolic functions in exponentials."""
     in_exponentials = e.rewrite(_HYPERBOLIC, sympy.exp)
     num, den = sympy.fraction(sympy.together(in_exponentials))
-    best = -_INFINITE
+    best = -_INFINITY
     for above in _by_its_terms(num):
         for below in _by_its_terms(den):
             leading = sympy.powsimp(above[0] / below[0])
@@ -78,7 +78,7 @@ def _dominated(e: Expr, x: Expr, c: Expr) -> Any:
 def _by_its_terms(e: Expr) -> list[tuple[Expr, Expr]]:
     """(T, e/T) for each term T of e, with e/T expanded."""
     terms = sympy.Add.make_args(sympy.expand(e))
-    if len(terms) > _TERMS:
+    if len(terms) > _MOST_TERMS_OF_SUM:
         return [(e, sympy.Integer(1))]
     return [(term, sympy.Add(*(sympy.powsimp(other / term) for other in terms))) for term in terms]
 
@@ -98,12 +98,12 @@ class _Ranges:
 
     def _computed(self, e: Expr) -> Range:
         if not e.free_symbols:
-            return _constant(e)
+            return _range_of_constant(e)
         if e.is_Add:
             lower, upper = zip(*map(self.of, e.args), strict=True)
-            return reduce(lambda a, b: _below(a + b), lower), reduce(lambda a, b: _above(a + b), upper)
+            return reduce(lambda a, b: _exact_lower(a + b), lower), reduce(lambda a, b: _exact_upper(a + b), upper)
         if e.is_Mul:
-            return reduce(_product, map(self.of, e.args))
+            return reduce(_product_of_ranges, map(self.of, e.args))
         if e.is_Pow and e.base is not sympy.E:
             return self._power(e)
         argument = self.of(e.exp if e.is_Pow else e.args[0])
@@ -123,7 +123,11 @@ class _Ranges:
             raise InputError(f"the range of {e} isn't known here")
         if exponent.is_negative:
             low, high = self.of(e.base ** (-exponent))
-            return (_below(_reciprocal(high)), _above(_reciprocal(low))) if low > 0 or high < 0 else _EVERYTHING
+            return (
+                (_exact_lower(_reciprocal(high)), _exact_upper(_reciprocal(low)))
+                if low > 0 or high < 0
+                else _EVERYTHING
+            )
         if exponent.is_Integer and exponent % 2 == 0:
             return _even(lambda b: b ** int(exponent), (low, high))
         if exponent.is_Integer:
@@ -134,7 +138,7 @@ class _Ranges:
         return _monotone(lambda b: b**ball, (low, high))
 
 
-def _constant(e: Expr) -> Range:
+def _range_of_constant(e: Expr) -> Range:
     value = BallEvaluator({})(e)
     if not value.is_finite() or not value.imag.is_zero():
         raise InputError(f"{e} isn't known to be real")
@@ -144,7 +148,7 @@ def _constant(e: Expr) -> Range:
 #: Increasing functions, the last two of the absolute value.
 _INCREASING: dict[Any, Callable[[Any], Any]] = {
     sympy.exp: lambda b: arb(0) if b < 0 and not b.is_finite() else b.exp(),
-    sympy.log: lambda b: b.log() if b > 0 else -_INFINITE,
+    sympy.log: lambda b: b.log() if b > 0 else -_INFINITY,
     sympy.sinh: lambda b: b.sinh(),
     sympy.tanh: lambda b: b.tanh() if b.is_finite() else b.sgn(),
     sympy.atan: lambda b: b.atan() if b.is_finite() else b.sgn() * arb.pi() / 2,
@@ -154,10 +158,10 @@ _INCREASING: dict[Any, Callable[[Any], Any]] = {
 
 
 def _monotone(function: Callable[[Any], Any], argument: Range) -> Range:
-    return _below(_at(function, argument[0])), _above(_at(function, argument[1]))
+    return _exact_lower(_limit_at(function, argument[0])), _exact_upper(_limit_at(function, argument[1]))
 
 
-def _at(function: Callable[[Any], Any], bound: Any) -> Any:
+def _limit_at(function: Callable[[Any], Any], bound: Any) -> Any:
     """The value at a bound; a function that isn't bounded there tends to an infinity of the same sign."""
     value = function(bound)
     return bound if value.is_nan() else value
@@ -169,24 +173,24 @@ def _even(function: Callable[[Any], Any], argument: Range) -> Range:
     return _monotone(function, (nearest, max(-low, high)))
 
 
-def _product(a: Range, b: Range) -> Range:
+def _product_of_ranges(a: Range, b: Range) -> Range:
     """Infinite bounds aren't reached, so that 0 times such a one is 0."""
     products = [arb(0) if s == 0 or t == 0 else s * t for s in a for t in b]
-    return min(map(_below, products)), max(map(_above, products))
+    return min(map(_exact_lower, products)), max(map(_exact_upper, products))
 
 
 def _reciprocal(bound: Any) -> Any:
     return 1 / bound if bound.is_finite() else arb(0)
 
 
-def _below(bound: Any) -> Any:
+def _exact_lower(bound: Any) -> Any:
     """An exact lower bound; -oo where nothing is known (oo - oo)."""
     if bound.is_nan():
-        return -_INFINITE
+        return -_INFINITY
     return bound.lower() if bound.is_finite() else bound
 
 
-def _above(bound: Any) -> Any:
+def _exact_upper(bound: Any) -> Any:
     if bound.is_nan():
-        return _INFINITE
+        return _INFINITY
     return bound.upper() if bound.is_finite() else bound

@@ -27,7 +27,7 @@ from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.ends import CutEnd, End
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 
-_SAMPLES = 65
+_DEPTH_SAMPLES = 65
 #: The share of the oscillations to the left of the point where the solutions are matched: no symmetric point.
 _MATCH = 0.43
 
@@ -60,11 +60,11 @@ class SeparatedCounter:
     def _matching_point(self) -> Any:
         """The point with the share `_MATCH` of the oscillations at the largest E to its left; any point would do."""
         low, high = (position.mid() for position in self.positions)
-        points = [(low + (high - low) * k / _SAMPLES).mid() for k in range(1, _SAMPLES)]
+        points = [(low + (high - low) * k / _DEPTH_SAMPLES).mid() for k in range(1, _DEPTH_SAMPLES)]
         depths = [(-self.road.value(point, self.span.high)).max(arb(0)).sqrt() for point in points]
         total = sum(depths)
         if not total > 0:
-            return points[int(_SAMPLES * _MATCH)]
+            return points[int(_DEPTH_SAMPLES * _MATCH)]
         so_far = arb(0)
         for point, depth in zip(points, depths, strict=True):
             so_far += depth

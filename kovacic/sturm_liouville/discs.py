@@ -26,16 +26,16 @@ from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, k
 
 Expr = Any
 #: k R is at most this, so that the bound M of a solution is at most exp(24) times its size, and 8^-n outweighs it soon.
-_STEEPEST = 24
+_STEEPEST_DISC = 24
 #: The radius R of a disc over the step: r = 1/8.
-_SHARE = 8
+_RADIUS_OVER_STEP = 8
 #: A lower bound of pi.
 _TURN = arb(157) / 50
 #: Columns, and rows, of boxes over half a disc.
 _COLUMNS = 4
-_WITH_POLES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cosh, sympy.sinh, sympy.tanh)
+_UNBOUNDED_IN_BOXES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cosh, sympy.sinh, sympy.tanh)
 _MAX_STEPS = 20_000
-_SMALLEST = arb(1) / 2**80
+_SMALLEST_RADIUS = arb(1) / 2**80
 
 
 @dataclass(frozen=True)
@@ -79,15 +79,15 @@ class TaylorStep:
 
 def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None:
     """The solution at the end of the steps; None if the balls are too wide to count its zeros."""
-    sign = _sign(u)
+    sign = _sign_of_ball(u)
     if u == 0:
-        sign = _sign(v) * _sign(steps[0].t)
+        sign = _sign_of_ball(v) * _sign_of_ball(steps[0].t)
     zeros = 0
     turned = arb(0)
     for step in steps:
         u, v = step.advance(u, v, E)
         turned += step.turn
-        now = _sign(u)
+        now = _sign_of_ball(u)
         if now == 0:
             continue
         if sign == 0 or not turned <= _TURN:
@@ -98,7 +98,7 @@ def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None
     return None if turned != 0 else Passage(u, v, zeros)
 
 
-def _sign(value: Any) -> int:
+def _sign_of_ball(value: Any) -> int:
     """1 or -1; 0 for a ball that contains 0."""
     return int(value > 0) - int(value < 0)
 
@@ -133,7 +133,7 @@ def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
     """
     box = acb(x0 + arb(0, radius), arb(0, radius))
     whole = abs(BallEvaluator({x: box}, analytic=True)(e)).upper()
-    if whole.is_finite() or not e.has(*_WITH_POLES):
+    if whole.is_finite() or not e.has(*_UNBOUNDED_IN_BOXES):
         return whole
     half = radius / (2 * _COLUMNS)
     largest = arb(0)
@@ -171,7 +171,7 @@ class Road:
 
     def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[TaylorStep]:
         here = start
-        radius = _SHARE * abs(stop - start).upper()
+        radius = _RADIUS_OVER_STEP * abs(stop - start).upper()
         for piece, last in self._parts(start, stop):
             for _ in range(_MAX_STEPS):
                 check_time()
@@ -201,19 +201,19 @@ class Road:
     def _step(self, piece: Stretch, here: Any, last: Any, radius: Any, prec: int) -> tuple[TaylorStep, bool]:
         """The largest one whose radius is `radius` over a power of 2, and whether it leads to `last`."""
         distance = last - here
-        whole = _SHARE * abs(distance).upper()
+        whole = _RADIUS_OVER_STEP * abs(distance).upper()
         radius = min(radius, whole)
         while True:
             q = size(piece.Q, self.x, here, radius)
             w = size(piece.W, self.x, here, radius)
             k = (q + self.span.size * w).sqrt()
-            if (k * radius).is_finite() and k * radius <= _STEEPEST:
+            if (k * radius).is_finite() and k * radius <= _STEEPEST_DISC:
                 break
             radius = radius * 3 / 4
-            if radius < abs(distance) * _SMALLEST:
+            if radius < abs(distance) * _SMALLEST_RADIUS:
                 raise not_analytic(self.x, here)
         is_last = radius == whole
-        t = distance if is_last else radius / _SHARE * (1 if distance > 0 else -1)
+        t = distance if is_last else radius / _RADIUS_OVER_STEP * (1 if distance > 0 else -1)
         growth = (k * radius).exp()
         terms = 16 + prec // 3  # 8^12 is above exp(24)
         ratio = abs(t) / radius

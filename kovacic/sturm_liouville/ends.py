@@ -163,7 +163,7 @@ class CutEnd:
         Q, W = self.of_tau
         if self.threshold is None or W != 1:
             return -arb.pos_inf(), arb.pos_inf()
-        tau = _rational((-self.inwards * x).lower())
+        tau = _dyadic_midpoint((-self.inwards * x).lower())
         return lower_bound(Q, self.tau, tau), -lower_bound(-Q, self.tau, tau)
 
     def _name(self) -> str:
@@ -190,10 +190,10 @@ class CutEnd:
 
     def _is_positive(self, tau: Any, top: Any) -> bool:
         Q, W = self.of_tau
-        start = _rational(tau)
+        start = _dyadic_midpoint(tau)
         if self._rises_from is not None and tau >= self._rises_from:
             return bool((ball(Q.subs(self.tau, start)) - top * ball(W.subs(self.tau, start))) > 0)
-        return bool(lower_bound(Q - _rational(top) * W, self.tau, start) > 0)
+        return bool(lower_bound(Q - _dyadic_midpoint(top) * W, self.tau, start) > 0)
 
     @cached_property
     def _rises_from(self) -> Any:
@@ -203,7 +203,7 @@ class CutEnd:
             return None
         for k in range(5):
             tau = (self.origin + arb(2) ** k).mid()
-            if lower_bound(Q.diff(self.tau), self.tau, _rational(tau), derivatives=2) >= 0:
+            if lower_bound(Q.diff(self.tau), self.tau, _dyadic_midpoint(tau), derivatives=2) >= 0:
                 return tau
         return None
 
@@ -247,12 +247,12 @@ def at_threshold(end: End, threshold: Expr) -> End | None:
     excess = sympy.expand((Q - threshold * W) * end.tau**2)
     for k in range(8):
         tau = (abs(end.origin) + arb(2) ** k).mid()
-        if lower_bound(excess, end.tau, _rational(tau), derivatives=1) >= -arb(1) / 4:
+        if lower_bound(excess, end.tau, _dyadic_midpoint(tau), derivatives=1) >= -arb(1) / 4:
             return ThresholdEnd(-end.inwards * tau, end.inwards)
     return None
 
 
-def _rational(value: Any) -> Expr:
+def _dyadic_midpoint(value: Any) -> Expr:
     mantissa, exponent = value.mid().man_exp()
     return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
 
@@ -275,13 +275,13 @@ def end_of(problem: SturmProblem, side: int) -> End:
         slope = problem.slope(at) if wish.beta != 0 else 0
         return RegularEnd(at, wish.alpha - wish.beta * slope, wish.beta, inwards)
     t = sympy.Dummy("t", positive=True)
-    Q, W = (_reduced(e.subs(problem.x, at + inwards * t) * t**2, t) for e in (piece.Q, piece.W))
+    Q, W = (_in_lowest_terms(e.subs(problem.x, at + inwards * t) * t**2, t) for e in (piece.Q, piece.W))
     length = arb(1)  # a lower bound of the piece's; 1 for an infinite one
     if piece.low.is_finite and piece.high.is_finite:
         with working_precision(64):
             length = (ball(piece.high) - ball(piece.low)).lower()
     found = SingularEnd(at, t, Q, W, inwards, length)
-    if _is_analytic(Q, t) and _is_analytic(W, t) and W.subs(t, 0) == 0:
+    if _is_analytic_at_zero(Q, t) and _is_analytic_at_zero(W, t) and W.subs(t, 0) == 0:
         _check_exponents(found, problem.x)
         _check_wish(found, problem, wish)
         return found
@@ -289,7 +289,7 @@ def end_of(problem: SturmProblem, side: int) -> End:
     return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, (1 / length).upper())
 
 
-def _reduced(e: Expr, t: Expr) -> Expr:
+def _in_lowest_terms(e: Expr, t: Expr) -> Expr:
     return plain(e, t) if e.is_rational_function(t) else sympy.expand(e)
 
 
@@ -302,7 +302,7 @@ def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
     return all(bound.is_finite() for bound in sizes)
 
 
-def _is_analytic(e: Expr, t: Expr) -> bool:
+def _is_analytic_at_zero(e: Expr, t: Expr) -> bool:
     return bool(size(e, t, arb(0), arb(1) / 2**40).is_finite())
 
 

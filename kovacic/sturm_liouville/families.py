@@ -94,7 +94,7 @@ def family(
         v = sympy.cos(k * t)
     else:
         v = k * sympy.cos(k * t) - left[0] / left[1] * sympy.sin(k * t)
-    numbers = _numbers(left, right, n)
+    numbers = _wave_numbers(left, right, n)
     if numbers is not None:
         first, angle = numbers
         root = angle / T
@@ -102,7 +102,7 @@ def family(
             sympy.simplify(root**2 + waves.q), (waves.function(v.subs(k, root), t),), n, first, shift=waves.q
         )
     root = sympy.sqrt(parameter - waves.q)
-    equation = _equation(left, right, root, T)
+    equation = _wave_equation(left, right, root, T)
     zero = sympy.factor(right[0] * (left[1] - left[0] * T) - right[1] * left[0])  # for v = B1 - A1 t, where k = 0
     return EigenvalueFamily(parameter, (waves.function(v.subs(k, root), t),), n, 1, equation, waves.q, zero)
 
@@ -129,7 +129,7 @@ def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Wa
     return _Waves(x, t, h, q, ends)
 
 
-def _numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tuple[int, Expr] | None:
+def _wave_numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tuple[int, Expr] | None:
     """The first n, and k T; None if the equation for k is transcendental."""
     kinds = [None if A != 0 and B != 0 else bool(B == 0) for A, B in (left, right)]
     if None in kinds:
@@ -139,7 +139,7 @@ def _numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tupl
     return (1 if kinds[0] else 0), n * sympy.pi
 
 
-def _equation(left: tuple[Expr, Expr], right: tuple[Expr, Expr], root: Expr, T: Expr) -> Expr:
+def _wave_equation(left: tuple[Expr, Expr], right: tuple[Expr, Expr], root: Expr, T: Expr) -> Expr:
     """A2 v(T) + B2 v_t(T) = 0: (A1 A2 + B1 B2 k^2) sin(k T) = k (A2 B1 - A1 B2) cos(k T).
 
     With A1 = 0 or B1 = 0 one may divide by the factor of the sine and the cosine, which are never both zero then.

@@ -133,22 +133,22 @@ class Eigenvalues(Sequence[Level]):
         return {"parameter": self.parameter, "levels": levels, "complete": self.complete, "notes": list(self.notes)}
 
 
-_BITS = 160
+_PICTURE_BITS = 160
 #: Points of a step.
-_PARTS = 32
+_POINTS_OF_STEP = 32
 #: Points beyond a cut, at quarters of the length on which y decays.
-_TAIL = 40
+_POINTS_OF_TAIL = 40
 
 
 def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float]]:
     """Points x in order, and y there, at most 1 in modulus.  Raises `InputError` for periodic conditions."""
     if problem.wrap:
         raise InputError("functions of periodic problems aren't drawn")
-    with working_precision(_BITS):
+    with working_precision(_PICTURE_BITS):
         E = problem.sign * ball_to_flint(value).real.mid()
         ends = end_of(problem, 0), end_of(problem, 1)
         counter = SeparatedCounter(problem, ends, Span(E, abs(E) + 1), digits=8)
-        sides = [_side(counter, side, E) for side in (0, 1)]
+        sides = [_half_wave(counter, side, E) for side in (0, 1)]
         left, right = sides
         k = 1 if abs(right[-1][1]) > abs(right[-1][2]) else 2  # Y or Y' is made continuous, whichever is larger
         scale = (left[-1][k] / right[-1][k]).mid()
@@ -159,13 +159,15 @@ def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float
         return [float(x) for x, _ in values], [float(y / most) for _, y in values]
 
 
-def _side(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, Any, Any]]:
+def _half_wave(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, Any, Any]]:
     """(x, Y, Y') from an end to the matching point."""
     x = counter.positions[side]
     u, v = counter.ends[side].state(E, counter.span, x, high=False)
     found = [*_tail(counter.ends[side], x.mid(), u.mid(), v.mid()), (x.mid(), u.mid(), v.mid())]
-    for step in counter.road.steps(x, counter.middle, _BITS):
-        found += [(x + step.t * k / _PARTS, *_inside(step, u, v, E, k)) for k in range(1, _PARTS)]
+    for step in counter.road.steps(x, counter.middle, _PICTURE_BITS):
+        found += [
+            (x + step.t * k / _POINTS_OF_STEP, *_inside_step(step, u, v, E, k)) for k in range(1, _POINTS_OF_STEP)
+        ]
         u, v = (value.mid() for value in step.advance(u, v, E))
         x = (x + step.t).mid()
         found.append((x, u, v))
@@ -177,13 +179,13 @@ def _tail(end: End, x: Any, u: Any, v: Any) -> list[tuple[Any, Any, Any]]:
     if not isinstance(end, CutEnd) or not end.place.is_polynomial(end.tau) or u == 0 or v == 0:
         return []
     rate = abs(v / u)
-    points = [(x - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_TAIL, 0, -1)]
+    points = [(x - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_POINTS_OF_TAIL, 0, -1)]
     return [(at.mid(), (u * factor).mid(), (v * factor).mid()) for at, factor in points]
 
 
-def _inside(step: TaylorStep, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
+def _inside_step(step: TaylorStep, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
     a = step.series(u, v, E)
-    share = arb(k) / _PARTS
+    share = arb(k) / _POINTS_OF_STEP
     return sum(c * share**n for n, c in enumerate(a)), arb(0)
 
 

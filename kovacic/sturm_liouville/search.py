@@ -27,13 +27,13 @@ _PROOFS = 8
 #: Doublings of the digits, to tell two levels apart or to cut an end nearer to infinity.
 _SEPARATIONS = 4
 #: Digits while the range is being looked for.
-_ROUGH = 4
+_ROUGH_DIGITS = 4
 #: Steps of the range's upper end, each four times as far away.
-_DOUBLINGS = 24
+_RANGE_STEPS = 24
 #: Steps towards the essential spectrum, each to a quarter of the distance.
 _APPROACHES = 7
 #: Radii of a ball that are free of other levels on both sides of it: balls of neighbours are disjoint, also as printed.
-_ROOM = 16
+_FREE_RADII = 16
 #: Where an interval is divided; the next share is taken if a count fails, as it does at an eigenvalue.
 _SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
 
@@ -116,7 +116,7 @@ class Searcher:
     def _radius_inside(self, E: Any, free: tuple[Any, Any], a: Count, b: Count) -> Any:
         """The radius of a ball about E with all digits, far from the ends of an interval that is free of other levels."""
         least, most = free
-        room = min(E - least, most - E) / _ROOM
+        room = min(E - least, most - E) / _FREE_RADII
         return min(self.radius(a, b, self.digits), room).mid()
 
     def bracket(self, k: int, low: Count, high: Count) -> tuple[Count, Count]:
@@ -266,7 +266,7 @@ class LevelSearch:
         """A range with the `count` lowest levels, or with all."""
         low = self._free_of_levels()
         total = None
-        for number in range(_DOUBLINGS if self.threshold is None else _APPROACHES):
+        for number in range(_RANGE_STEPS if self.threshold is None else _APPROACHES):
             with working_precision(64):
                 if self.threshold is None:
                     E = self._short(self.scale * arb(4) ** number * 15 / 16)
@@ -289,7 +289,7 @@ class LevelSearch:
         """A number below all levels."""
         start = -self.scale / 7 if self.threshold is None else self.threshold - self.scale
         with working_precision(64):
-            for number in range(_DOUBLINGS):
+            for number in range(_RANGE_STEPS):
                 E = self._short(start - self.scale * (arb(4) ** number - 1))
                 if self._rough(E, E, high=True) == 0:
                     return E
@@ -301,7 +301,7 @@ class LevelSearch:
         return ((E / unit).floor() * unit).mid()
 
     def _rough(self, E: Any, low: Any, *, high: bool) -> int:
-        searcher = self._searcher(E, max(abs(low), abs(E)), _ROUGH, _ROUGH)
+        searcher = self._searcher(E, max(abs(low), abs(E)), _ROUGH_DIGITS, _ROUGH_DIGITS)
         for shift in range(3):
             try:
                 return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high).count

@@ -17,7 +17,7 @@ from kovacic.sturm_liouville.levels import Eigenvalues, Level
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 from kovacic.sturm_liouville.search import LevelSearch
 
-_PREC = 128
+_TOTAL_BITS = 128
 #: Pairs of periodic levels often coincide: twice the digits are tried, not more.
 _PERIODIC_SEPARATIONS = 2
 
@@ -71,10 +71,10 @@ class Eigenproblem:
         first, second = ends
         if first is None or second is None:
             return None
-        with working_precision(_PREC):
+        with working_precision(_TOTAL_BITS):
             bottom = ball(self.threshold)
         counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), digits=6)
-        return counter.at(bottom, _PREC, high=True).count
+        return counter.at(bottom, _TOTAL_BITS, high=True).count
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:
         """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""

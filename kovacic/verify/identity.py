@@ -47,7 +47,7 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
     if theta.num and theta.num.degree >= theta.den.degree:
         return None
     residues = []
-    for p in _factors_of(theta.den, factors):
+    for p in _factors_with_known(theta.den, factors):
         # At the roots of p it is num/den', if these are simple poles.
         num = theta.num % p
         slope = theta.den.derivative() % p
@@ -61,7 +61,7 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
     return residues
 
 
-def _factors_of(den: Poly, known: Sequence[Poly]) -> list[Poly]:
+def _factors_with_known(den: Poly, known: Sequence[Poly]) -> list[Poly]:
     """The irreducible factors of a denominator: the known ones that divide it, then those of the rest."""
     found = []
     for p in known:

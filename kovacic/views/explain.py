@@ -47,7 +47,7 @@ _BY_INVARIANT = {
     Structure.ICOSAHEDRAL: "an invariant of degree 12, the least one of the binary icosahedral group",
 }
 #: Longer solutions stand in their own part only.
-_SHORT = 200
+_SHORT_SOLUTION = 200
 _PICTURE = "A picture"
 #: Longer equations aren't in the title.
 _LONGEST_TITLE = 60
@@ -174,7 +174,7 @@ class ExplanationWriter:
         if not solutions or self.answer.status is Status.UNDECIDED or self._is_too_long():
             return
         pair, _ = solutions_of(self.answer)
-        if pair and max(len(y.text) for _, y in pair) <= _SHORT:
+        if pair and max(len(y.text) for _, y in pair) <= _SHORT_SOLUTION:
             yield from (Formula(name.equals(y)) for name, y in pair)
 
     def cases(self) -> Iterator[Block]:

@@ -140,7 +140,7 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         data["group"] = group_dict(answer)
         data["solutions"] = None
         with suppress(LimitExceeded):
-            data["solutions"] = _solutions(answer)
+            data["solutions"] = _solutions_as_text(answer)
     return data
 
 
@@ -167,7 +167,7 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
     }
 
 
-def _solutions(answer: Answer) -> list[str] | None:
+def _solutions_as_text(answer: Answer) -> list[str] | None:
     """The closed form in the letters of S."""
     form = None if answer.case is None else derived.in_letters(answer)
     return None if form is None else [as_text(form.y1), as_text(form.y2)]
@@ -241,7 +241,7 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
     names = words_among(name for name in parameters if name not in numbers)
     parsed = read_input(text, var=given, limits=_READING_LIMITS, exponentials=given != variable, names=names)
     is_over_the_same = parsed.variable == variable and _is_field(data.get("field"), parsed.S.field)
-    if not is_over_the_same or _Reader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
+    if not is_over_the_same or _AnswerReader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
         raise ValueError("S isn't that of the input")
     if data.get("equation") is not None or data.get("gauge") is not None:
         _check_given_equation(data, parsed.equation, variable)
@@ -255,7 +255,7 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     has_form = proof["semi_invariant"] is not None
     if has_omega != has_form or (data["constants"] is not None and not has_omega):
         raise ValueError("omega needs its polynomial and the semi-invariant")
-    over_S = _Reader.over(S.field, variable)
+    over_S = _AnswerReader.over(S.field, variable)
     over_constants = over_S.extended(data["constants"])
     form = _unless_none(proof["semi_invariant"], over_constants.semi_invariant)
     structure = _unless_none(proof["structure"], Structure)
@@ -365,7 +365,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
     """Raise `ValueError` unless the solutions are those computed anew, or others of the same equation."""
     if texts is None:
         return
-    found = _solutions(answer)
+    found = _solutions_as_text(answer)
     if found is None:
         raise ValueError("the answer has solutions, but the equation has none")
     if texts == found:
@@ -391,7 +391,7 @@ def _check_given_equation(data: Mapping[str, Any], equation: Equation | None, va
     """Raise `ValueError` unless the equation and the gauge are those that were read."""
     if equation is None:
         raise ValueError("the answer has an equation or a gauge, but S alone was given")
-    reader = _Reader.over(equation.a.field, variable)
+    reader = _AnswerReader.over(equation.a.field, variable)
     found = data["equation"]
     if not _is_field(found["field"], equation.a.field):
         raise ValueError("the field of the equation isn't that of the input")
@@ -440,11 +440,11 @@ def _is_field(data: Mapping[str, Any] | None, field: Field) -> bool:
 
 
 @dataclass(frozen=True)
-class _Reader(WrittenReader):
+class _AnswerReader(WrittenReader):
     """Reads the output of `to_dict` for a decision."""
 
     @classmethod
-    def over(cls, field: Field, variable: str) -> _Reader:
+    def over(cls, field: Field, variable: str) -> _AnswerReader:
         """A reader that knows the variable, the parameters, and the algebraic constant of a field."""
         names: dict[str, Value] = {
             name: field.ground.generator(name)  # type: ignore[attr-defined]
@@ -454,7 +454,7 @@ class _Reader(WrittenReader):
             names[field.name] = field.generator
         return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
 
-    def extended(self, constants: Mapping[str, Any] | None) -> _Reader:
+    def extended(self, constants: Mapping[str, Any] | None) -> _AnswerReader:
         """A reader that also knows omega's constant c.  Raises `ValueError` if K[c] is no field: a gcd might not terminate."""
         if constants is None:
             return self
@@ -469,7 +469,9 @@ class _Reader(WrittenReader):
         return SemiInvariant(_typed(data, "degree", int), self.ratfunc(data["theta"]), self.poly(data["P"]))
 
 
-def _riccati(S: RatFunc, form: SemiInvariant, D: Poly, data: Mapping[str, Any], reader: _Reader) -> RiccatiPolynomial:
+def _riccati(
+    S: RatFunc, form: SemiInvariant, D: Poly, data: Mapping[str, Any], reader: _AnswerReader
+) -> RiccatiPolynomial:
     """The numerators A_k with (-1)^k A_k/(P D^k) the coefficient of W^(m-k)."""
     P = form.P
     if data["coefficients"] is None:

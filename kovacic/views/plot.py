@@ -356,7 +356,7 @@ def _curves(equation: object, start: object, stop: object, options: PlotOptions)
     if isinstance(equation, Answer) and not given:
         # y1 and y2 solve the homogeneous equation alone.
         is_homogeneous = equation.equation is None or equation.equation.is_homogeneous
-        found = _solutions(equation, start, stop, options) if is_homogeneous else []
+        found = _solution_curves(equation, start, stop, options) if is_homogeneous else []
         if found:
             return found
     curve = sample(equation, start, stop, **options)
@@ -402,7 +402,9 @@ class _Label:
         return f"{part} {self.name}, {equation}" if part else equation
 
 
-def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[_Label, SampledCurve]]:
+def _solution_curves(
+    answer: Answer, start: object, stop: object, options: PlotOptions
+) -> list[tuple[_Label, SampledCurve]]:
     """y1 and y2 of the answer, as the solutions with their values and slopes at x0; empty if these aren't known.
 
     A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.

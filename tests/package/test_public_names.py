@@ -29,7 +29,7 @@ def test_type_checkers_see_the_public_names() -> None:
 
 def test_dir_shows_the_public_names_only() -> None:
     assert dir(kovacic) == sorted([*kovacic.__all__, "__version__"])
-    assert len(set(kovacic.__all__)) == sum(map(len, kovacic._NAMES.values()))
+    assert len(set(kovacic.__all__)) == sum(map(len, kovacic._PUBLIC_NAMES.values()))
 
 
 @pytest.mark.parametrize(
