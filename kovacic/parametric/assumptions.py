@@ -11,86 +11,31 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import reduce
 from itertools import combinations, product
 from math import ceil
-from random import Random
 from typing import Any
 
-from kovacic.algebra.embedding import enclosure
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.facts import INTEGERS, WORDS, Bound, Facts, check_words, contradict, is_relation, read_facts
-from kovacic.parametric.functions import Coset, element, numerator, over_parameters
-from kovacic.parametric.linear_forms import line_of, linear_of, parameters_of
-from kovacic.parametric.sympy_words import sympy_properties, words_of
+from kovacic.parametric.facts import WORDS, Bound, Known, check_words, is_relation, words_of
+from kovacic.parametric.functions import (
+    INTEGERS,
+    Classes,
+    common_divisor,
+    degrees,
+    element,
+    numerator,
+    over_parameters,
+)
 
-_DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 #: Words that are taken, and not used.
 _SAY_NOTHING = ("real", "complex")
 #: Words for others.  A natural number can be 0: what holds then holds for those who begin with 1, too.
 _ABBREVIATIONS = {"natural": ("nonnegative", "integer")}
 _NO_BOUND = Bound(1, Fraction(0), False)
-
-
-@dataclass(frozen=True)
-class Known:
-    """What is known about one parameter: some of `WORDS`, and inequalities such as ">=1/2"."""
-
-    words: tuple[str, ...] = ()
-
-    @property
-    def facts(self) -> Facts:
-        """What the words say."""
-        return read_facts(self.words)
-
-    @property
-    def coset(self) -> Coset | None:
-        """The smallest known class that contains it."""
-        return self.facts.coset
-
-    @property
-    def rational(self) -> bool | None:
-        """Is it known to be rational, True, or irrational, False?"""
-        return self.facts.rational
-
-    @property
-    def bounds(self) -> tuple[Bound, ...]:
-        """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
-        return self.facts.bounds
-
-    @property
-    def concerns_exponents(self) -> bool:
-        """Is anything known beside signs?"""
-        facts = self.facts
-        return bool(facts.classes) or facts.rational is False or facts.noninteger
-
-    @property
-    def nonzero(self) -> bool:
-        """Can't it be zero?"""
-        return not self.facts.admit(Fraction(0))
-
-    def admits(self, value: Poly) -> bool:
-        """May the parameter have this value?  An algebraic number of which any conjugate may be meant has no sign."""
-        facts = self.facts
-        number = value.field.rational_value(value)
-        if number is not None:
-            return facts.admit(number)
-        if facts.rational is True:
-            return False
-        has_sign = getattr(value.field, "approximation", None) is not None
-        if not facts.bounds or not has_sign:
-            return True
-        return facts.admit_real(enclosure(value))
-
-    def sample(self, random: Random) -> Fraction:
-        """A small rational number, in the known class if there is one."""
-        coset = self.coset
-        if coset is not None:
-            return coset.start + random.randint(-6, 6) * coset.step
-        denominator = random.choice(_DENOMINATORS)
-        return Fraction(random.randint(-6 * denominator, 6 * denominator), denominator)
 
 
 @dataclass(frozen=True)
@@ -115,8 +60,8 @@ class Assumptions:
 
     def is_integer(self, name: str) -> bool:
         """Is it known to be one?"""
-        coset = self.of(name).coset
-        return coset is not None and coset.is_covered_by([INTEGERS])
+        numbers = self.of(name).coset
+        return numbers is not None and numbers.are_covered_by(INTEGERS)
 
     def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
         """The same with more words about one parameter."""
@@ -152,37 +97,36 @@ class Assumptions:
         found = {}
         for name, known in self.known:
             try:
-                found[name] = Symbol(name, **dict.fromkeys(sympy_properties(known.words), True))
+                found[name] = Symbol(name, **dict.fromkeys(known.sympy_properties(), True))
             except InconsistentAssumptions:
                 raise InputError(f"the assumptions on {name} contradict one another: {' '.join(known.words)}") from None
         return found
 
-    def meets_classes(self, form: FunctionPoly, classes: list[Coset]) -> bool | None:
-        """Is the value of a form rational and in one of the classes: True (always), False (never) or None?"""
+    def meets_classes(self, form: FunctionPoly, numbers: Classes) -> bool | None:
+        """Is the value of a form one of the numbers: True (always), False (never) or None?"""
         value = self._value_of(form)
         if value is not None:
             number = value.field.rational_value(value)
-            return number is not None and any(coset.contains(number) for coset in classes)
-        values = self._coset_of(form)
+            return number is not None and numbers.contains(number)
+        values = self._class_of(form)
         if values is not None:
-            if values.is_covered_by(classes):
+            if values.are_covered_by(numbers):
                 return True
-            return None if any(values.meets(coset) for coset in classes) else False
-        if self._is_apart(form, classes) or self._is_irrational(form):
+            return None if values.meet(numbers) else False
+        if self._is_apart(form, numbers) or self._is_irrational(form):
             return False
         return None
 
-    def _is_apart(self, form: FunctionPoly, classes: list[Coset]) -> bool:
+    def _is_apart(self, form: FunctionPoly, numbers: Classes) -> bool:
         """Is the form linear in one parameter, and no value of it known to bring the form into the classes?"""
-        line = line_of(form)
-        if line is None:
+        linear = linear_of(form)
+        if linear is None or linear.parameter is None:
             return False
-        known = self.of(line.name)
-        solutions = [line.solutions(numbers) for numbers in classes]
-        are_integers = all(numbers.is_covered_by([INTEGERS]) for numbers in solutions)
-        if known.facts.noninteger and are_integers:
+        known = self.of(linear.parameter)
+        solutions = linear.solutions(numbers)
+        if known.noninteger and solutions.are_covered_by(INTEGERS):
             return True
-        return not any(_has_number_between(numbers, known.bounds) for numbers in solutions)
+        return not any(_has_number_between(residue, solutions.modulus, known.bounds) for residue in solutions.residues)
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Does the function vanish: True (always), False (never) or None?"""
@@ -195,12 +139,14 @@ class Assumptions:
 
     def _is_nowhere_zero(self, function: FunctionPoly) -> bool:
         """Is one of these seen: by classes, by a root that isn't admitted, by factors, by irrationality, by a sign?"""
-        values = self._coset_of(function)
+        values = self._class_of(function)
         if values is not None and not values.contains(Fraction(0)):
             return True
-        line = line_of(numerator(function))  # linear in one parameter, which can't have the value of the root?
-        if line is not None and not self.of(line.name).admits(QQ.poly([line.root])):
-            return True
+        linear = linear_of(numerator(function))
+        if linear is not None and linear.parameter is not None:
+            (root,) = linear.solutions(INTEGERS).residues  # where the value is 0
+            if not self.of(linear.parameter).admits_number(root):
+                return True
         is_product = len(function.num) == 1
         if is_product:
             return all(self.of(name).nonzero for name in parameters_of(function))
@@ -230,28 +176,17 @@ class Assumptions:
         choices |= {name: self.of(name).bounds for name in parameters_of(form)}
         return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices.values()))
 
-    def _coset_of(self, form: FunctionPoly) -> Coset | None:
-        """A class that contains all values of a polynomial."""
-        known = self._cosets_of(parameters_of(form))
-        if not known:
+    def _class_of(self, form: FunctionPoly) -> Classes | None:
+        """A class that contains all values of a polynomial; None where it has no parameters, or a class isn't known."""
+        known = {name: self.of(name).coset for name in parameters_of(form)}
+        classes = {name: numbers for name, numbers in known.items() if numbers is not None}
+        if not known or len(classes) < len(known):
             return None
         linear = linear_of(form)
         if linear is not None:
-            return linear.values(known)
-        are_integers = all(coset.is_covered_by([INTEGERS]) for coset in known.values())
-        if are_integers and form.den.is_one():
-            return INTEGERS
-        return None
-
-    def _cosets_of(self, names: Iterable[str]) -> dict[str, Coset]:
-        """The classes of the parameters, by name; none where one isn't known."""
-        found: dict[str, Coset] = {}
-        for name in names:
-            coset = self.of(name).coset
-            if coset is None:
-                return {}
-            found[name] = coset
-        return found
+            return linear.values(classes)
+        are_integers = all(numbers.are_covered_by(INTEGERS) for numbers in classes.values())
+        return INTEGERS if are_integers and form.den.is_one() else None
 
     def _is_irrational(self, form: FunctionPoly) -> bool:
         """A linear form in which one parameter is irrational and the others are rational."""
@@ -263,6 +198,52 @@ class Assumptions:
 
 
 NOTHING_ASSUMED = Assumptions()
+
+
+@dataclass(frozen=True)
+class LinearForm:
+    """constant + the sum of factor * parameter, by the parameter's name, with rational numbers."""
+
+    constant: Fraction
+    factors: Mapping[str, Fraction]
+
+    @property
+    def parameter(self) -> str | None:
+        """The name of the only one; None where there are several, or none."""
+        return next(iter(self.factors)) if len(self.factors) == 1 else None
+
+    def values(self, known: Mapping[str, Classes]) -> Classes:
+        """A class that contains the values, for parameters in single classes; one occurs at least."""
+        start = self.constant + sum(factor * known[name].residues[0] for name, factor in self.factors.items())
+        steps = [abs(factor) * known[name].modulus for name, factor in self.factors.items()]
+        return Classes((start,), reduce(common_divisor, steps))
+
+    def solutions(self, values: Classes) -> Classes:
+        """The values of the only parameter where the form has one of these."""
+        (factor,) = self.factors.values()
+        residues = tuple((residue - self.constant) / factor for residue in values.residues)
+        return Classes(residues, values.modulus / abs(factor))
+
+
+def linear_of(form: FunctionPoly) -> LinearForm | None:
+    """An element of Q(t) as a linear form; None for anything else."""
+    if not form.den.is_constant() or form.num.total_degree() > 1:
+        return None
+    den = int(form.den.leading_coefficient())
+    constant = Fraction(0)
+    factors = {}
+    for exponents, coefficient in form.num.to_dict().items():
+        value = Fraction(int(coefficient), den)
+        if any(exponents[1:]):
+            factors[form.field.names[exponents.index(1) - 1]] = value
+        else:
+            constant = value
+    return LinearForm(constant, factors)
+
+
+def parameters_of(form: FunctionPoly) -> list[str]:
+    """The parameters in the numerator."""
+    return [name for name, k in zip(form.field.names, degrees(form), strict=True) if k]
 
 
 def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str, ...]) -> Assumptions:
@@ -287,9 +268,9 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
 def _check_that_agree(name: str, words: Sequence[str]) -> None:
     """Raises `InputError` for assumptions on one parameter that exclude one another, with the two that do."""
     said = _useful(words)
-    if not contradict(said):
+    if not Known(said).is_contradiction():
         return
-    pairs = (pair for pair in combinations(said, 2) if contradict(pair))
+    pairs = (pair for pair in combinations(said, 2) if Known(pair).is_contradiction())
     both = " and ".join(next(pairs, said))
     raise InputError(f"the assumptions on {name} contradict one another: {both}", hint="leave one of them out")
 
@@ -347,17 +328,13 @@ def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero:
     return any(all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms)
 
 
-def _has_number_between(coset: Coset, bounds: Sequence[Bound]) -> bool:
+def _has_number_between(residue: Fraction, modulus: Fraction, bounds: Sequence[Bound]) -> bool:
     """Is there a number of the class within the bounds?"""
     if len(bounds) < 2:
         return True
     low = max(bounds, key=lambda bound: bound.sign)
-    first = coset.start + ceil((low.end - coset.start) / coset.step) * coset.step
-    return _is_within(bounds, first) or _is_within(bounds, first + coset.step)
-
-
-def _is_within(bounds: Sequence[Bound], number: Fraction) -> bool:
-    return all(bound.admits(number) for bound in bounds)
+    first = residue + ceil((low.end - residue) / modulus) * modulus
+    return any(all(bound.admits(number) for bound in bounds) for number in (first, first + modulus))
 
 
 def _written(name: str, words: Iterable[str]) -> list[str]:

@@ -21,7 +21,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import VerificationFailed
-from kovacic.parametric.functions import ParameterPoint, over_parameters
+from kovacic.parametric.functions import Classes, ParameterPoint, over_parameters
 
 
 class Claim(ABC):
@@ -93,35 +93,6 @@ class ThatIs(Claim):
 
 
 @dataclass(frozen=True)
-class Classes:
-    """The rational numbers congruent to one of the `residues` modulo a number; `least` bounds them from below, if it does."""
-
-    residues: tuple[Fraction, ...]
-    modulus: Fraction
-    least: int | None = None
-
-    @classmethod
-    def of(cls, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Classes:
-        return cls(tuple(map(Fraction, residues)), Fraction(modulus))
-
-    def contain(self, number: Fraction) -> bool:
-        if self.least is not None and number < self.least:
-            return False
-        return any((number - residue) % self.modulus == 0 for residue in self.residues)
-
-    def are_one(self, *, up_to_sign: bool) -> bool:
-        """True for a single class, or for r and -r where these say the same."""
-        first = self.residues[0]
-        if len(self.residues) == 1:
-            return True
-        return up_to_sign and {*self.residues} == {first, -first % self.modulus}
-
-
-INTEGERS = Classes.of([0], 1)
-NATURALS = Classes((Fraction(0),), Fraction(1), 0)
-
-
-@dataclass(frozen=True)
 class InClasses(Claim):
     """The value of a form is one of the numbers."""
 
@@ -130,7 +101,7 @@ class InClasses(Claim):
 
     def _holds(self, point: ParameterPoint) -> bool:
         number = rational(point.at(self.form))
-        return number is not None and self.numbers.contain(number)
+        return number is not None and self.numbers.contains(number)
 
 
 @dataclass(frozen=True)
@@ -144,7 +115,7 @@ class SumOfRoots(Claim):
     def _holds(self, point: ParameterPoint) -> bool:
         squares = [point.at(over_parameters(square)) for square in self.squares]
         sums = signed_sums(squares, point.at(self.mean), point.field)
-        return any(map(self.numbers.contain, rational_roots(sums)))
+        return any(map(self.numbers.contains, rational_roots(sums)))
 
 
 @dataclass(frozen=True)
@@ -176,12 +147,12 @@ class IntegerFamily(Claim):
         for zero in self.poles:
             root = point.at(zero.root)
             number = rational(root)
-            if number is not None and self.numbers.contain(number) and not point.at(zero.zero):
+            if number is not None and self.numbers.contains(number) and not point.at(zero.zero):
                 yield root
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
         for number in rational_roots(above - below * point.values[point.names.index(self.parameter)]):
             n = point.field.poly([number])
-            if self.numbers.contain(number) and below(n):
+            if self.numbers.contains(number) and below(n):
                 yield n
 
 
@@ -198,7 +169,7 @@ class EquationFor(Claim):
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Poly]:
         for number in rational_roots(point.at(self.equation)):
-            if self.numbers.contain(number):
+            if self.numbers.contains(number):
                 yield point.field.poly([number])
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
-from itertools import chain
+from itertools import chain, product
 from math import gcd
 from typing import Any, NamedTuple
 
@@ -159,23 +158,46 @@ NO_CONSTANT = ParameterPoint((), ())
 
 
 @dataclass(frozen=True)
-class Coset:
-    """The numbers `start + k step` with integers k; step > 0."""
+class Classes:
+    """The rational numbers congruent to one of the `residues` modulo a number; `least` bounds them from below, if it does."""
 
-    start: Fraction
-    step: Fraction
+    residues: tuple[Fraction, ...]
+    modulus: Fraction
+    least: int | None = None
 
-    def contains(self, value: Fraction) -> bool:
-        return (value - self.start) % self.step == 0
+    @classmethod
+    def of(cls, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Classes:
+        return cls(tuple(map(Fraction, residues)), Fraction(modulus))
 
-    def meets(self, other: Coset) -> bool:
-        return (self.start - other.start) % common_divisor(self.step, other.step) == 0
+    def contains(self, number: Fraction) -> bool:
+        if self.least is not None and number < self.least:
+            return False
+        return any((number - residue) % self.modulus == 0 for residue in self.residues)
 
-    def is_covered_by(self, cosets: Sequence[Coset]) -> bool:
-        """Does each of the numbers lie in one of the cosets?"""
-        period = reduce(common_multiple, (other.step for other in cosets), self.step)
-        numbers = (self.start + k * self.step for k in range(int(period / self.step)))
-        return all(any(other.contains(number) for other in cosets) for number in numbers)
+    def modulo(self, multiple: Fraction) -> list[Fraction]:
+        """The residues modulo a multiple of the modulus."""
+        periods = range(int(multiple / self.modulus))
+        return [residue + k * self.modulus for residue in self.residues for k in periods]
+
+    def meet(self, other: Classes) -> bool:
+        """Is there a number in both, bounds aside?"""
+        step = common_divisor(self.modulus, other.modulus)
+        return any((first - second) % step == 0 for first, second in product(self.residues, other.residues))
+
+    def are_covered_by(self, other: Classes) -> bool:
+        """Does each of the numbers belong to the others, which have no bound?"""
+        return all(map(other.contains, self.modulo(common_multiple(self.modulus, other.modulus))))
+
+    def are_one(self, *, up_to_sign: bool) -> bool:
+        """True for a single class, or for r and -r where these say the same."""
+        first = self.residues[0]
+        if len(self.residues) == 1:
+            return True
+        return up_to_sign and {*self.residues} == {first, -first % self.modulus}
+
+
+INTEGERS = Classes.of([0], 1)
+NATURALS = Classes((Fraction(0),), Fraction(1), 0)
 
 
 def common_divisor(a: Fraction, b: Fraction) -> Fraction:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain, count, product
+from itertools import chain, count
 from math import ceil, lcm
 from random import Random
 from typing import NamedTuple
@@ -18,10 +18,10 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import INTEGERS as INTEGER_CLASS
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, Classes, InClasses, IsNonzero, rational_roots
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, InClasses, IsNonzero, rational_roots
 from kovacic.parametric.functions import (
-    Coset,
+    INTEGERS,
+    Classes,
     ParameterPoint,
     common_multiple,
     degrees,
@@ -103,16 +103,16 @@ class Congruence(Statement):
         return over_parameters(-self.equation[0]) if self.equation.degree == 1 else None
 
     @property
-    def cosets(self) -> list[Coset]:
-        """The classes of N."""
-        return [Coset(residue, self.modulus) for residue in self.residues]
+    def numbers(self) -> Classes:
+        """Those of which N has to be one."""
+        return Classes(self.residues, self.modulus)
 
     def _holds(self, point: ParameterPoint) -> bool:
         return self._has_one_of(rational_roots(point.at(self.equation)))
 
     def _has_one_of(self, numbers: Iterable[Fraction]) -> bool:
         """Does one of the numbers lie in one of the classes?"""
-        return any(coset.contains(N) for coset, N in product(self.cosets, numbers))
+        return any(map(self.numbers.contains, numbers))
 
     def holds_for(self, equation: Poly) -> bool | None:
         """Is it true where this is the equation?  None where there are parameters in it."""
@@ -136,17 +136,10 @@ class Congruence(Statement):
         if relation is None:
             return None
         common = common_multiple(self.modulus, other.modulus)
-        numbers = self._numbers_below(common)
-        numbers += [relation.sign * number + relation.shift for number in other._numbers_below(common)]
+        numbers = self.numbers.modulo(common)
+        numbers += [relation.sign * number + relation.shift for number in other.numbers.modulo(common)]
         made = Congruence.make(self.equation, numbers, common)
         return replace(made, setting=self.setting)
-
-    def _numbers_below(self, multiple: Fraction) -> list[Fraction]:
-        """The classes for a multiple of the modulus."""
-        found: list[Fraction] = []
-        for residue in self.residues:
-            found += [residue + k * self.modulus for k in range(int(multiple / self.modulus))]
-        return found
 
     def _relation(self, other: FunctionPoly) -> _Relation | None:
         """Between the roots of the other equation and those of this one."""
@@ -168,11 +161,11 @@ class Congruence(Statement):
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
-            return assumptions.meets_classes(self.form, self.cosets)
+            return assumptions.meets_classes(self.form, self.numbers)
         if not assumptions:
             return None
         for factor, _ in self.equation.field.factor(self.equation):
-            if factor.degree == 1 and assumptions.meets_classes(over_parameters(-factor[0]), self.cosets):
+            if factor.degree == 1 and assumptions.meets_classes(over_parameters(-factor[0]), self.numbers):
                 return True
         return None
 
@@ -203,10 +196,10 @@ class Congruence(Statement):
     @cached_property
     def claim(self) -> Claim:
         if self.form is None:
-            return self._solved(self.equation, Classes(self.residues, self.modulus))
+            return self._solved(self.equation, self.numbers)
         if len(self.residues) == 1:
             return self._one_class(self.form)
-        return InClasses(self.form, Classes(self.residues, self.modulus))
+        return InClasses(self.form, self.numbers)
 
     def _solved(self, equation: FunctionPoly, numbers: Classes) -> Claim:
         """An equation for an integer, with what holds where the parameter for which it was solved is free."""
@@ -237,7 +230,7 @@ class Congruence(Statement):
         multiple = over_parameters(form * below)
         remainder = residue * below
         if modulus.numerator == 1:
-            return InClasses(over_parameters(multiple - remainder), INTEGER_CLASS)
+            return InClasses(over_parameters(multiple - remainder), INTEGERS)
         if modulus.numerator == 2 and remainder.denominator == 1:
             return InClasses(multiple, Classes.of([remainder], 2))
         scale = lcm(residue.denominator, below)
@@ -245,7 +238,7 @@ class Congruence(Statement):
         has_several_parameters = sum(map(bool, degrees(equation))) > 1
         if has_several_parameters and all_solved(equation, self.setting.fixed):
             return self._solved(equation, Classes.of([residue * scale], modulus * scale))
-        return InClasses(form, Classes(self.residues, modulus))
+        return InClasses(form, self.numbers)
 
 
 class _Relation(NamedTuple):

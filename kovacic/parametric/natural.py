@@ -48,8 +48,8 @@ from kovacic.parametric.exponents import (
 )
 from kovacic.parametric.formulas import in_sum, shown
 from kovacic.parametric.functions import (
+    INTEGERS,
     NO_CONSTANT,
-    Coset,
     ParameterPoint,
     degrees,
     irreducible_factors,
@@ -304,10 +304,8 @@ class _GivenBy(NamedTuple):
 
 def _has_no_natural_root(factor: FunctionPoly, assumptions: Assumptions) -> bool:
     """Is the root of a linear polynomial never natural, or the polynomial positive for all d >= 0?"""
-    if factor.degree == 1:
-        natural = [Coset(Fraction(0), Fraction(1))]
-        if assumptions.meets_classes(-factor[0] / factor[1], natural) is False:
-            return True
+    if factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], INTEGERS) is False:
+        return True
     if not assumptions.is_positive(over_parameters(factor[0])):
         return False
     return all(assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c)

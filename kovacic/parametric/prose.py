@@ -14,12 +14,10 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.parametric.claims import (
-    INTEGERS,
     AllOf,
     Alternatives,
     AnyOf,
     Claim,
-    Classes,
     DegreeBySum,
     DegreeClaim,
     DegreeExists,
@@ -33,7 +31,15 @@ from kovacic.parametric.claims import (
     ThatIs,
 )
 from kovacic.parametric.formulas import SidesOfEquation, in_product, in_sum, root_written, sides_of_equation, written
-from kovacic.parametric.functions import constant_term, degrees, irreducible_factors, numerator, over_parameters
+from kovacic.parametric.functions import (
+    INTEGERS,
+    Classes,
+    constant_term,
+    degrees,
+    irreducible_factors,
+    numerator,
+    over_parameters,
+)
 from kovacic.writing.formula import Math, latex_text
 
 #: Words and formulas, one after the other.

@@ -24,11 +24,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY
 from kovacic.parametric import prose
 from kovacic.parametric.claims import (
-    INTEGERS,
-    NATURALS,
     Alternatives,
     Claim,
-    Classes,
     EquationFor,
     Free,
     IntegerFamily,
@@ -38,6 +35,9 @@ from kovacic.parametric.claims import (
 )
 from kovacic.parametric.formulas import shortest_length
 from kovacic.parametric.functions import (
+    INTEGERS,
+    NATURALS,
+    Classes,
     constant_term,
     degrees,
     element,
@@ -133,7 +133,7 @@ def possible(poles: Sequence[Free], numbers: Classes) -> tuple[Free, ...]:
     found = []
     for pole in poles:
         number = pole.root.field.rational_value(pole.root)
-        if number is None or numbers.contain(number):
+        if number is None or numbers.contains(number):
             found.append(pole)
     return tuple(found)
 
@@ -294,7 +294,7 @@ def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
     for factor in irreducible_factors(equation):
         is_number = factor.degree == 1 and not any(degrees(factor))
         root = factor.field.rational_value(-factor[0] / factor[1]) if is_number else None
-        is_possible = any(degrees(factor)) if root is None else NATURALS.contain(root)
+        is_possible = any(degrees(factor)) if root is None else NATURALS.contains(root)
         if factor.degree > 0 and is_possible:
             found.append(factor)
     return found

@@ -23,7 +23,8 @@ from printed import printed_verdict, wrongly_printed
 import kovacic
 from kovacic.decision import Structure
 from kovacic.parametric import solutions
-from kovacic.parametric.claims import Classes, DegreeExists
+from kovacic.parametric.claims import DegreeExists
+from kovacic.parametric.functions import Classes
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import RegionVerdict
 
