@@ -114,10 +114,14 @@ class Atoms:
             raise TypeError("the rational numbers have no generator")
         key = (str(field.base), field.modulus.key())
         if key not in self._generators:
-            self._generators[key] = self._new_generator(field)
+            self.call(field, self._new_generator(field))
             if self._generators[key].has(sympy.CRootOf):
                 self.notes.append(f"{field.name} stands for {self._generators[key]}")
         return self._generators[key]
+
+    def call(self, field: AlgebraicField, expression: Expr) -> None:
+        """Write the generator of an extension as this expression."""
+        self._generators[str(field.base), field.modulus.key()] = expression
 
     def _new_generator(self, field: AlgebraicField) -> Expr:
         modulus = field.modulus

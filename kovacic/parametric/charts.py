@@ -7,7 +7,7 @@ True only where a statement holds at all values of a chart.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain, product
 
 from kovacic.algebra.extension import ExtensionPoly
@@ -151,12 +151,8 @@ def vanishing(statements: Iterable[Statement]) -> list[Vanishes]:
 # ------------------------------------------------------------------------------- the equation in a region
 
 
-@dataclass(frozen=True)
-class EquationThere:
-    """The equation that was given, on one piece of a region; `zeros` vanish there and not on every piece."""
-
-    equation: Equation
-    zeros: tuple[FunctionPoly, ...] = ()
+#: The equation that was given, on one piece of a region; the functions vanish there and not on every piece.
+EquationThere = tuple[Equation, tuple[FunctionPoly, ...]]
 
 
 def equations_on(statement: Statement, equation: Equation) -> list[EquationThere]:
@@ -170,12 +166,12 @@ def equations_on(statement: Statement, equation: Equation) -> list[EquationThere
         [one.function for one in vanishing(parts)] for parts in alternatives if len(vanishing(parts)) == len(parts)
     ]
     pieces = [*product(*zeros)]
-    found = []
+    found: list[EquationThere] = []
     for piece in pieces:
         generic = _generic_zero(piece) if piece else None
         there = equation_at(equation, generic) if generic else equation
         if there is not None and (generic or not piece):
-            found.append(EquationThere(there, piece if len(pieces) > 1 else ()))
+            found.append((there, piece if len(pieces) > 1 else ()))
     return found
 
 

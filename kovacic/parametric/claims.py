@@ -238,7 +238,7 @@ class Alternatives(DegreeClaim):
         parts: tuple[IntegerFamily | EquationFor, ...] = (*self.families, *self.equations)
         for part in parts:
             try:
-                found |= natural_numbers(part.numbers_at(point))
+                found |= natural_numbers(map(rational, part.numbers_at(point)))
             except ZeroDivisionError:
                 continue
         for one in self.where:
@@ -248,48 +248,35 @@ class Alternatives(DegreeClaim):
 
 
 @dataclass(frozen=True)
-class SignedDegree(DegreeClaim):
-    """d - constant = +- the roots, with all signs."""
-
-    letter: str
-    constant: Fraction
-    squares: tuple[Poly, ...]
-
-    def numbers_at(self, point: ParameterPoint) -> set[int]:
-        squares = [point.at(over_parameters(square)) for square in self.squares]
-        return _natural(rational_roots(signed_sums(squares, self.constant, point.field)))
-
-
-@dataclass(frozen=True)
 class DegreeBySum(DegreeClaim):
-    """d = constant + the sum of j times the root for integers j within bounds; `has_zero`: they can all be 0."""
+    """d = constant + the sum of j times the root for integers j, from -bound to bound; `has_zero`: they can all be 0.
+
+    Without `names` for the integers, each of them is 1 or -1.
+    """
 
     letter: str
     constant: Fraction
     squares: tuple[Poly, ...]
-    names: tuple[str, ...]
-    bounds: tuple[int, ...]
-    has_zero: bool
+    names: tuple[str, ...] = ()
+    bounds: tuple[int, ...] = ()
+    has_zero: bool = False
 
     def numbers_at(self, point: ParameterPoint) -> set[int]:
         squares = [point.at(over_parameters(square)) for square in self.squares]
+        choices: Iterable[tuple[int, ...]] = [(1,) * len(squares)]
+        if self.names:
+            choices = product(*(range(bound + 1) for bound in self.bounds))
         found: set[int] = set()
-        for chosen in product(*(range(bound + 1) for bound in self.bounds)):
-            if not any(chosen) and not self.has_zero:
-                continue
-            multiples = [j * j * square for j, square in zip(chosen, squares, strict=True) if j]
-            found |= _natural(rational_roots(signed_sums(multiples, self.constant, point.field)))
+        for chosen in choices:
+            if any(chosen) or self.has_zero or not self.names:
+                multiples = [j * j * square for j, square in zip(chosen, squares, strict=True) if j]
+                found |= natural_numbers(rational_roots(signed_sums(multiples, self.constant, point.field)))
         return found
 
 
-def natural_numbers(values: Iterable[Poly]) -> set[int]:
-    """Those of the constants that are natural numbers."""
-    numbers = map(rational, values)
-    return _natural(number for number in numbers if number is not None)
-
-
-def _natural(numbers: Iterable[Fraction]) -> set[int]:
-    return {int(number) for number in numbers if number.denominator == 1 and number >= 0}
+def natural_numbers(numbers: Iterable[Fraction | None]) -> set[int]:
+    """The natural numbers among rational ones, and None for others."""
+    return {int(number) for number in numbers if number is not None and number.denominator == 1 and number >= 0}
 
 
 class Existence(Protocol):

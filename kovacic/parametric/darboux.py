@@ -10,10 +10,9 @@ References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Gra
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 import sympy
 
@@ -33,7 +32,7 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.restriction import undefined
 from kovacic.parametric.search import degree_equation
-from kovacic.parametric.solutions import Origin, PolynomialSolution, derivative, general
+from kovacic.parametric.solutions import PolynomialSolution, derivative
 
 #: Degrees of P up to which an E0 is looked for.
 _DEGREE = 4
@@ -49,27 +48,11 @@ class Transformation:
     exceptions: tuple[FunctionPoly, ...]
 
 
-@dataclass(frozen=True)
-class Back:
-    """The solutions v of the simpler equation as y = v' + W v."""
-
-    origin: Origin
-    W: RatFunc
-    variable: str
-
-    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        return tuple(replace(solution, y=self.carried(solution.y)) for solution in self.origin(number))
-
-    def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
-        """All of them in one, with symbols for the signs; None where there is no such formula."""
-        found = general(self.origin, signs)
-        return None if found is None else replace(found, y=self.carried(found.y))
-
-    def carried(self, v: Any) -> Any:
-        """v' + W v."""
-        x = sympy.Symbol(self.variable)
-        W = self.W.num.to_sympy(x) / self.W.den.to_sympy(x)
-        return derivative(v, x) + sympy.factor(W) * v
+def carried_back(W: RatFunc, variable: str, solution: PolynomialSolution) -> PolynomialSolution:
+    """A solution v of the simpler equation as y = v' + W v."""
+    x = sympy.Symbol(variable)
+    quotient = W.num.to_sympy(x) / W.den.to_sympy(x)
+    return replace(solution, y=derivative(solution.y, x) + sympy.factor(quotient) * solution.y)
 
 
 def transformation(problem: Problem) -> Transformation | None:

@@ -112,13 +112,12 @@ def _finished(
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
     statement = region.statement
     if region.origin is not None:
-        there = equations_on(region.statement, equation)
-        pieces = tuple((one.equation, one.zeros) for one in there)
+        pieces = tuple(equations_on(region.statement, equation))
         # With an algebraic constant the statement knows its value; the origin is about all values.
         origin: Origin = region.origin
         if isinstance(statement, Natural) and statement.constant.names:
             origin = partial(statement.solutions, equation.variable)
-        region = replace(region, origin=GivenSolutions(origin, pieces, letters) if there else None)
+        region = replace(region, origin=GivenSolutions(origin, pieces, letters) if pieces else None)
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region
     return replace(region, shown_degree=max_degree, limits=budget.limits)

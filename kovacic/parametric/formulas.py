@@ -81,20 +81,15 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
     for factor, k in S.field.factor(S.den):
         power = factor**k
         above = rest * (S.den // power).inverse_modulo(power) % power
-        for j, digit in enumerate(_digits_from_above(above, factor, k), 1):
+        digits_of_it = []
+        for _ in range(k):  # above/factor^k = d_1/factor + d_2/factor^2 + ..., d_k first
+            above, digit = divmod(above, factor)
+            digits_of_it.append(digit)
+        for j, digit in enumerate(reversed(digits_of_it), 1):
             if digit:
                 top, bottom, names = _cleared(RatFunc(digit, factor**j), variable)
                 terms.append(_sum([_factored(top, bottom)], names))
     return _joined(terms)
-
-
-def _digits_from_above(polynomial: Poly, factor: Poly, count: int) -> list[Poly]:
-    """d_1, ..., d_count with polynomial/factor^count = d_1/factor + d_2/factor^2 + ..."""
-    found = []
-    for _ in range(count):
-        polynomial, digit = divmod(polynomial, factor)
-        found.append(digit)
-    return found[::-1]
 
 
 def _monomial(coefficient: Poly, variable: str, k: int) -> str:

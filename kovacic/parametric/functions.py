@@ -217,27 +217,6 @@ class ValuesAtIntegers(NamedTuple):
     values: dict[int, Fraction]
 
 
-class _Moebius(NamedTuple):
-    """(a t + b)/(c t + d) with integers a, b, c, d, c != 0."""
-
-    a: int
-    b: int
-    c: int
-    d: int
-
-    @property
-    def determinant(self) -> int:
-        """a d - b c."""
-        return self.a * self.d - self.b * self.c
-
-    def at(self, t: int) -> Fraction | None:
-        """The value; None at the pole."""
-        below = self.c * t + self.d
-        if not below:
-            return None
-        return Fraction(self.a * t + self.b, below)
-
-
 def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | None:
     """The values of a form (a t + b)/(c t + d) with denominators up to the largest, at all integers t.
 
@@ -248,34 +227,22 @@ def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | N
     if form.degree > 0 or len(used) != 1:
         return None
     (k,) = used
-    quotient = _moebius(form, k)
-    if quotient is None:
-        return None
-    most = largest * abs(quotient.determinant)
-    if most > _MOST_INTEGERS:
-        return None
-    end = (most + abs(quotient.d)) // abs(quotient.c)
-    values = {t: quotient.at(t) for t in range(-end, end + 1)}
-    found = {t: value for t, value in values.items() if value is not None and value.denominator <= largest}
-    return ValuesAtIntegers(form.field.names[k - 1], found)
-
-
-def _moebius(form: FunctionPoly, k: int) -> _Moebius | None:
-    """A quotient in generator number k alone; None where its parts aren't linear, or it has no pole."""
     if int(form.den.degrees()[k]) != 1 or int(form.num.degrees()[k]) > 1:
         return None
-    a, b = _coefficients_of_line(form.num, k)
-    c, d = _coefficients_of_line(form.den, k)
-    return _Moebius(a, b, c, d)
 
+    def parts_at(t: int) -> tuple[int, int]:
+        point = [0] * k + [t] + [0] * (len(form.field.names) - k)
+        return int(form.num(*point)), int(form.den(*point))
 
-def _coefficients_of_line(polynomial: Any, k: int) -> tuple[int, int]:
-    """a and b of a t + b with t as generator number k."""
-    parts = by_power(polynomial, k)
-    return _number(parts.get(1)), _number(parts.get(0))
-
-
-def _number(constant: Any) -> int:
-    if constant is None or constant.is_zero():
-        return 0
-    return int(constant.leading_coefficient())
+    b, d = parts_at(0)
+    a, c = (first - second for first, second in zip(parts_at(1), (b, d), strict=True))
+    most = largest * abs(a * d - b * c)
+    if most > _MOST_INTEGERS:
+        return None
+    end = (most + abs(d)) // abs(c)
+    found: dict[int, Fraction] = {}
+    for t in range(-end, end + 1):
+        above, below = parts_at(t)
+        if below and Fraction(above, below).denominator <= largest:
+            found[t] = Fraction(above, below)
+    return ValuesAtIntegers(form.field.names[k - 1], found)

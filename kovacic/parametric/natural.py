@@ -33,7 +33,7 @@ from kovacic.parametric.claims import (
     DegreeBySum,
     DegreeClaim,
     DegreeExists,
-    SignedDegree,
+    natural_numbers,
     rational_roots,
 )
 from kovacic.parametric.exponents import (
@@ -167,7 +167,7 @@ class Natural(Statement):
         roots: set[Fraction] = set()
         for factor in self.factors or ():
             roots.update(rational_roots(point.at(factor)))
-        return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
+        return sorted(natural_numbers(roots))
 
     def _holds(self, point: ParameterPoint) -> bool:
         """Decided by the rank of the systems at the point."""
@@ -284,7 +284,7 @@ class Natural(Statement):
             return None
         squares = tuple(root.square for root in numbers.roots)
         if numbers.only_signs:
-            return SignedDegree(self.letter, numbers.constant, squares)
+            return DegreeBySum(self.letter, numbers.constant, squares)
         distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         has_zero = self.factors is None or distance in self.factors
         letters: list[str] = []

@@ -43,6 +43,7 @@ from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
+from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line
 from kovacic.writing.formula import Formulas, Math
 
@@ -664,7 +665,12 @@ def _check_names(given: Collection[str], parameters: Collection[str]) -> None:
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
     """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
-    read = read_input(_in_one_polynomial(values, limits), var="x_", limits=limits).S
+    import sympy
+
+    # As coefficients of powers of x_ they are read together.
+    x = sympy.Symbol("x_")
+    terms = [_as_sympy(value, limits) * x**k for k, value in enumerate(values)]
+    read = read_input(sympy.Add(*terms), var="x_", limits=limits).S
     are_numbers = read.is_polynomial and read.num.degree < len(values)
     if not are_numbers or read.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
@@ -680,25 +686,11 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
     return ParameterPoint(together, (*numbers, *constant.values), field)
 
 
-def _in_one_polynomial(values: list[Any], limits: Limits) -> Any:
-    """The values as coefficients of powers of x_, so that they are read together: in text, or as SymPy's if they are."""
-    kinds = {type(value) for value in values}
-    is_sympy = any(kind.__module__.startswith("sympy") for kind in kinds)
-    if is_sympy and str not in kinds:
-        return _in_sympy_polynomial(values)
-    terms = [f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values)]
-    return " + ".join(terms)
-
-
-def _in_sympy_polynomial(values: list[Any]) -> Any:
-    """Raises `InputError` for what isn't an expression."""
+def _as_sympy(value: Any, limits: Limits) -> Any:
+    """A number as SymPy's.  Raises `InputError` for anything else."""
     import sympy
 
-    try:
-        coefficients = [sympy.sympify(value, strict=True) for value in values]
-    except sympy.SympifyError as error:
-        raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
-    if not all(isinstance(coefficient, sympy.Expr) for coefficient in coefficients):
-        raise InputError("the values of parameters are numbers")
-    x = sympy.Symbol("x_")
-    return sum((coefficient * x**k for k, coefficient in enumerate(coefficients)), sympy.Integer(0))
+    found = value if isinstance(value, sympy.Basic) else read_expression(number_text(value, limits))
+    if not isinstance(found, sympy.Expr) or found.free_symbols:
+        raise InputError(f"the values of parameters are numbers, not {value!r}")
+    return found

@@ -29,12 +29,12 @@ from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, count_work
 from kovacic.parametric import prose, restriction
-from kovacic.parametric.darboux import Back, Transformation, transformation
+from kovacic.parametric.darboux import Transformation, carried_back, transformation
 from kovacic.parametric.functions import denominators, irreducible_factors, union
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, all_half_integers, search
-from kovacic.parametric.solutions import solutions_there
+from kovacic.parametric.solutions import Carried, solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.writing.formula import Math
@@ -138,8 +138,9 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     regions = _degenerate(problem.S, found.exceptions, settings)
     regions += _pieces(problem.S, found.special, settings)
     inner = partition(found.simpler, settings)
+    back = partial(carried_back, found.W, settings.variable)
     for region in filter(lambda one: one.defined, inner.regions):
-        origin = region.origin and Back(region.origin, found.W, settings.variable)
+        origin = region.origin and Carried(region.origin, back)
         regions.append(replace(region, origin=origin))
     complete = together(regions) if inner.complete is True else inner.complete
     theory = inner.theory.also(", after Darboux' transformation", "Dar82")

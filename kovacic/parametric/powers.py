@@ -5,11 +5,10 @@ On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated; on 4 W + 1 =
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import gcd
-from typing import Any
 
 import sympy
 
@@ -20,7 +19,7 @@ from kovacic.parametric.functions import element, irreducible_factors, over_para
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion
-from kovacic.parametric.solutions import Origin, PolynomialSolution
+from kovacic.parametric.solutions import Carried, PolynomialSolution
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
 from kovacic.writing.formula import caret
 
@@ -37,33 +36,18 @@ class InPowers:
         field = self.S.field
         assert isinstance(field, FunctionField)
         names = dict(zip(field.names, self.powers, strict=True))
-        origin = None if region.origin is None else _PowersForT(region.origin, tuple(names.items()))
+        origin = region.origin and Carried(region.origin, partial(_with_powers, names))
         statement = _in_factors(region.statement.rewritten(partial(_raised, powers=names)))
         return replace(region, statement=statement, origin=origin)
 
 
-@dataclass(frozen=True)
-class _PowersForT:
-    """Solutions with t^k for T."""
-
-    origin: Origin
-    powers: tuple[tuple[str, int], ...]
-
-    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        return tuple(self._of(solution) for solution in self.origin(number))
-
-    def _of(self, solution: PolynomialSolution) -> PolynomialSolution:
-        values = {sympy.Symbol(name): sympy.Symbol(name) ** k for name, k in self.powers}
-
-        def raised(expression: Any) -> Any:
-            return expression.xreplace(values)
-
-        conditions = tuple(map(raised, solution.conditions))
-        where = solution.where
-        if conditions or not where:
-            where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in conditions)
-        parameters = tuple(map(raised, solution.jacobi))
-        return PolynomialSolution(raised(solution.y), raised(solution.degree), conditions, where, parameters)
+def _with_powers(powers: Mapping[str, int], solution: PolynomialSolution) -> PolynomialSolution:
+    """A solution with t^k for T."""
+    raised = solution.with_values({sympy.Symbol(name): sympy.Symbol(name) ** k for name, k in powers.items()})
+    if not raised.conditions and raised.where:
+        return raised
+    where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in raised.conditions)
+    return replace(raised, where=where)
 
 
 def in_powers(S: RatFunc) -> InPowers | None:
@@ -106,13 +90,10 @@ def _in_factors(statement: Statement) -> Statement:
     if isinstance(statement, Congruence) and statement.form is None:
         return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
     if isinstance(statement, Natural) and statement.factors is not None:
-        return replace(statement, factors=tuple(union(map(_over_q_factors, statement.factors))))
+        factored = [equation.field.factor(equation) for equation in statement.factors]  # over Q(t)
+        factors = union([over_parameters(factor) for factor, _ in one] for one in factored)
+        return replace(statement, factors=tuple(factors))
     return statement
-
-
-def _over_q_factors(equation: FunctionPoly) -> list[FunctionPoly]:
-    """The irreducible factors of a polynomial over Q(t)."""
-    return [over_parameters(factor) for factor, _ in equation.field.factor(equation)]
 
 
 def _raised(function: FunctionPoly, powers: dict[str, int]) -> FunctionPoly:

@@ -26,7 +26,6 @@ from kovacic.parametric.claims import (
     IntegerFamily,
     IsNonzero,
     IsZero,
-    SignedDegree,
     SumOfRoots,
     ThatIs,
 )
@@ -432,14 +431,12 @@ def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
     return not total or (is_free and total.field.rational_value(total.num) is None)
 
 
-def _signed_degree(claim: SignedDegree) -> Words:
-    roots = [in_sum(root_written(square)) for square in claim.squares]
-    shift = f" - {claim.constant}" if claim.constant > 0 else f" + {-claim.constant}"
-    d = claim.letter + (shift if claim.constant else "")
-    return (with_both_signs(roots, f"{d} = +-"),)
-
-
 def _degree_by_sum(claim: DegreeBySum) -> Words:
+    if not claim.names:  # d - constant = +-sqrt(b) +- c
+        roots = [in_sum(root_written(square)) for square in claim.squares]
+        shift = f" - {claim.constant}" if claim.constant > 0 else f" + {-claim.constant}"
+        d = claim.letter + (shift if claim.constant else "")
+        return (with_both_signs(roots, f"{d} = +-"),)
     terms = [str(claim.constant)]
     bounds: list[Words] = []
     for name, square, bound in zip(claim.names, claim.squares, claim.bounds, strict=True):
@@ -470,7 +467,6 @@ _WRITERS: dict[type, Callable[[Any], Words]] = {
     EquationFor: lambda claim: (*head_of(claim), *numbers_of(claim)),
     ThatIs: lambda claim: (*sentence(claim.first), ", that is ", *sentence(claim.second)),
     Alternatives: _alternatives,
-    SignedDegree: _signed_degree,
     DegreeBySum: _degree_by_sum,
     DegreeExists: _degree_exists,
 }

@@ -55,10 +55,6 @@ class RankConditions:
     system: tuple[FunctionPoly, ...] | None = ()
     deficient: bool = False
 
-    @property
-    def complete(self) -> bool:
-        return self.system is not None
-
 
 def has_kernel(images: Sequence[Poly]) -> bool:
     """Are polynomials over Q linearly dependent?
@@ -69,19 +65,16 @@ def has_kernel(images: Sequence[Poly]) -> bool:
     width = max((image.degree for image in images), default=-1) + 1
     if width < count:
         return True
-    rows = [_integers(image, width) for image in images]
+    rows = []
+    for image in images:  # the coefficients of a multiple, padded
+        coefficients = image.rational_coefficients()
+        common = lcm(*(int(c.q) for c in coefficients))
+        numbers = [int(c.p) * (common // int(c.q)) for c in coefficients]
+        rows.append([*numbers, *[0] * (width - len(numbers))])
     residues = [entry % _PRIME for entry in chain.from_iterable(rows)]
     if nmod_mat(count, width, residues, _PRIME).rank() == count:
         return False
     return bool(fmpz_mat(rows).rank() < count)
-
-
-def _integers(image: Poly, width: int) -> list[int]:
-    """The coefficients of a multiple, padded."""
-    coefficients = image.rational_coefficients()
-    common = lcm(*(int(c.q) for c in coefficients))
-    numbers = [int(c.p) * (common // int(c.q)) for c in coefficients]
-    return [*numbers, *[0] * (width - len(numbers))]
 
 
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
@@ -139,7 +132,11 @@ class _Matrix:
         smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
         different = {tuple(map(str, row)): row for row in map(_normalised, smaller.rows)}
         rows = [*different.values()]
-        rank = _generic_rank(rows, field, surface)
+        rank = 0
+        if rows:  # at a random point: a lower bound, and the generic rank but for a probability of about 1/_PRIME
+            p, point = _random_point(field, surface)
+            residues = [int(entry(0, *point)) % p for entry in chain.from_iterable(rows)]
+            rank = int(nmod_mat(len(rows), len(rows[0]), residues, p).rank())
         return cls(field, rows, rank, deficient=smaller.eliminated + rank < len(images))
 
     @property
@@ -188,15 +185,6 @@ class _Matrix:
             products[reduce(mul, parts)] = None
         shortest_first = sorted(products, key=lambda function: (len(function.num), str(function)))
         return RankConditions(factors, tuple(shortest_first), self.deficient)
-
-
-def _generic_rank(rows: Sequence[Sequence[Any]], field: FunctionField, surface: _Surface | None) -> int:
-    """The rank at a random point: a lower bound, and the generic rank but for a probability of about 1/_PRIME."""
-    if not rows:
-        return 0
-    p, point = _random_point(field, surface)
-    residues = [int(entry(0, *point)) % p for entry in chain.from_iterable(rows)]
-    return int(nmod_mat(len(rows), len(rows[0]), residues, p).rank())
 
 
 @dataclass(frozen=True)

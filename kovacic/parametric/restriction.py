@@ -12,7 +12,6 @@ larger space that is right at all of its points is right on the slice, and if it
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, combinations, count
@@ -104,34 +103,17 @@ def generic_conditions(answer: Answer) -> GenericConditions:
     if answer.S.field.ground == QQ or answer.assumed:
         return GenericConditions((), ())
     problem = analyse(answer.S, Budget())
-    changes = [structure_changes(problem), *_changes_of_riccati(answer)]
+    changes = [structure_changes(problem)]
+    riccati = answer.decision.riccati
+    if riccati is not None:  # where a polynomial in omega's equation isn't defined
+        for polynomial in (riccati.P, riccati.D, *riccati.numerators):
+            changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
     constants = answer.constants
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))
-    return GenericConditions(tuple(union(changes)), tuple(union([_irrational_squares(problem)])))
-
-
-def _changes_of_riccati(answer: Answer) -> list[list[FunctionPoly]]:
-    """Where a polynomial in omega's equation isn't defined."""
-    riccati = answer.decision.riccati
-    if riccati is None:
-        return []
-    found = []
-    for polynomial in (riccati.P, riccati.D, *riccati.numerators):
-        found += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
-    return found
-
-
-def _irrational_squares(problem: Problem) -> list[FunctionPoly]:
-    """Of the exponent differences at regular places, those that depend on the parameters."""
-    found = []
-    for place in problem.places:
-        square = place.delta_squared
-        if place.kind is not Kind.REGULAR or square is None:
-            continue
-        if problem.field.rational_value(square) is None:
-            found.append(_down(square))
-    return found
+    squares = [place.delta_squared for place in problem.places if place.kind is Kind.REGULAR]
+    irrational = [_down(square) for square in squares if square and problem.field.rational_value(square) is None]
+    return GenericConditions(tuple(union(changes)), tuple(union([irrational])))
 
 
 def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:
@@ -203,7 +185,11 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
     names = function.field.names
     powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
-    i = _to_be_eliminated(powers, leading)
+    linear = [i for i in leading if powers[i] == 1]
+    if linear:  # constants come first, then the shortest
+        i = min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
+    else:
+        i = min(leading, key=lambda i: powers[i])
     smaller, values = functions.without_parameter(i, names)
     coefficients = functions.coefficients_in(function, i, values, smaller)
     if powers[i] == 1:
@@ -217,100 +203,43 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
     return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
 
 
-def _to_be_eliminated(powers: Sequence[int], leading: Mapping[int, FunctionPoly]) -> int:
-    """The number of the parameter with the lowest power; among linear ones, the one with the simplest coefficient."""
-    linear = [i for i in leading if powers[i] == 1]
-    if linear:  # constants come first, then the shortest
-        return min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
-    return min(leading, key=lambda i: powers[i])
-
-
-class _PowerTerm(NamedTuple):
-    """coefficient * t_i^power, i the number of a parameter."""
-
-    i: int
-    power: int
-    coefficient: int
-
-
-@dataclass(frozen=True)
-class _TwoPowers:
-    """A u^p + B v^q = 0 with coprime p, q > 1, as u = alpha T^q, v = beta T^p for the parameters with the numbers i and j.
-
-    A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q), where s p = 1 modulo q and
-    r = -s modulo q.  T is the monomial (u/alpha)^a/(v/beta)^((a q - 1)/p) with a q = 1 modulo p.
-    """
-
-    i: int
-    p: int
-    j: int
-    q: int
-    alpha: Fraction
-    beta: Fraction
-
-    @classmethod
-    def of(cls, first: _PowerTerm, second: _PowerTerm) -> _TwoPowers:
-        """From the terms A u^p and B v^q."""
-        p = first.power
-        q = second.power
-        A = Fraction(first.coefficient)
-        B = Fraction(second.coefficient)
-        s = pow(p, -1, q)
-        r = -s % q
-        alpha = A**r * (-B) ** s
-        beta = A ** ((1 + r * p) // q) * (-B) ** ((s * p - 1) // q)
-        return cls(first.i, p, second.i, q, alpha, beta)
-
-    def parameter(self, u: FunctionPoly, v: FunctionPoly) -> FunctionPoly:
-        """T by u and v."""
-        a = pow(self.q, -1, self.p)
-        return (u / self.alpha) ** a / (v / self.beta) ** ((a * self.q - 1) // self.p)
-
-
 def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
-    """A u^p + B v^q = 0 with coprime p, q > 1, by T, which isn't defined at u = v = 0; None for any other."""
-    powers = _two_powers(function)
-    if powers is None:
-        return None
-    names = function.field.names
-    u_name = names[powers.i]
-    v_name = names[powers.j]
-    others = tuple(name for name in names if name not in (u_name, v_name))
-    letter = next(name for name in chain(["T"], map("T{}".format, count(1))) if name not in names)
-    field = FunctionField((*others, letter))
-    T = field.generator(letter)
-    values: dict[str, Poly] = {name: field.generator(name) for name in others}
-    values[u_name] = T**powers.q * powers.alpha
-    values[v_name] = T**powers.p * powers.beta
-    u = function.field.generator(u_name)
-    v = function.field.generator(v_name)
-    first = u if powers.i < powers.j else v
-    ordered = tuple(values[name] for name in names)
-    return Hypersurface(names, ordered, field, (T,), (first,), Curve(letter, powers.parameter(u, v)))
+    """A u^p + B v^q = 0 with coprime p, q > 1, by T, which isn't defined at u = v = 0; None for any other function.
 
-
-def _two_powers(function: FunctionPoly) -> _TwoPowers | None:
-    """The two terms of a function, powers of two parameters with coprime exponents; None for any other."""
+    u = alpha T^q and v = beta T^p with A alpha^p + B beta^q = 0: alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q)
+    for s p = 1 modulo q, r = -s modulo q.  T is the monomial (u/alpha)^a/(v/beta)^((a q - 1)/p) with a q = 1 modulo p.
+    """
     terms = _powers_of_parameters(function)
-    if terms is None or len(terms) != 2:
+    if len(terms) != 2:
         return None
-    first, second = terms
-    if first.i == second.i or gcd(first.power, second.power) > 1:
+    (u, p, A), (v, q, B) = terms
+    if u == v or gcd(p, q) > 1 or min(p, q) < 2:
         return None
-    if min(first.power, second.power) < 2:
-        return None
-    return _TwoPowers.of(first, second)
+    s = pow(p, -1, q)
+    r = -s % q
+    alpha = A**r * (-B) ** s
+    beta = A ** ((1 + r * p) // q) * (-B) ** ((s * p - 1) // q)
+    names = function.field.names
+    letter = next(name for name in chain(["T"], map("T{}".format, count(1))) if name not in names)
+    field = FunctionField((*(name for name in names if name not in (u, v)), letter))
+    T = field.generator(letter)
+    values: dict[str, Poly] = {name: field.generator(name) for name in field.names}
+    values |= {u: T**q * alpha, v: T**p * beta}
+    first, second = map(function.field.generator, (u, v))
+    a = pow(q, -1, p)
+    curve = Curve(letter, (first / alpha) ** a / (second / beta) ** ((a * q - 1) // p))
+    missed = min(first, second, key=[*map(function.field.generator, names)].index)
+    return Hypersurface(names, tuple(values[name] for name in names), field, (T,), (missed,), curve)
 
 
-def _powers_of_parameters(function: FunctionPoly) -> list[_PowerTerm] | None:
-    """The terms; None where one of them isn't a power of one parameter."""
+def _powers_of_parameters(function: FunctionPoly) -> list[tuple[str, int, Fraction]]:
+    """The terms: the name of a parameter, its power and the coefficient; none where a term isn't a power of one parameter."""
     found = []
     for exponents, coefficient in function.num.to_dict().items():
-        powers = [(i, int(n)) for i, n in enumerate(exponents[1:]) if n]
+        powers = [(name, int(n)) for name, n in zip(function.field.names, exponents[1:], strict=True) if n]
         if exponents[0] or len(powers) != 1:
-            return None
-        i, power = powers[0]
-        found.append(_PowerTerm(i, power, int(coefficient)))
+            return []
+        found.append((*powers[0], Fraction(int(coefficient))))
     return found
 
 

@@ -12,7 +12,7 @@ exactly when.  Cases 2 and 3 are treated in the same way through the invariants 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
@@ -146,8 +146,9 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None where an
     exponent difference isn't a rational number.
     """
-    differences = _rational_differences(problem)
-    if differences is None:
+    places = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
+    differences = [place.delta for place in places if place.delta is not None]
+    if len(differences) < len(places):
         return None
     found: Degrees = {}
     is_ramified = _is_ramified(problem)
@@ -161,18 +162,6 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
         if not is_ramified:
             found.setdefault(12, []).append(Structure.TETRAHEDRAL)
     return dict(sorted(found.items()))
-
-
-def _rational_differences(problem: Problem) -> list[Fraction] | None:
-    """The exponent differences at the places that have some; None where one of them isn't a rational number."""
-    found = []
-    for place in problem.places:
-        if place.kind not in (Kind.REGULAR, Kind.UNRAMIFIED):
-            continue
-        if place.delta is None:
-            return None
-        found.append(place.delta)
-    return found
 
 
 def _has_logarithms(problem: Problem) -> bool:
@@ -199,48 +188,30 @@ def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
 def _obstruction(place: Place) -> Poly | None:
     """What n (n - Delta) c_n = s_1 c_(n-1) + s_2 c_(n-2) + ... asks to vanish for n = Delta, S = s_0/t^2 + s_1/t + s_2 + ...
 
-    c_n are the coefficients of the solution with the smaller exponent.  None where Delta isn't a small positive integer.
+    c_n are the coefficients of the solution with the smaller exponent.  None unless the place is a rational pole of order 2,
+    and Delta a small positive integer.
     """
-    delta = _small_integer_difference(place)
-    if delta is None:
-        return None
-    s = _laurent_coefficients(place, delta)
-    c = [place.factor.field.poly([1])]
-    for n in range(1, delta):
-        c.append(_right_side(s, c, n) / (n * (n - delta)))
-    return _right_side(s, c, delta)
-
-
-def _small_integer_difference(place: Place) -> int | None:
-    """The exponent difference at a rational pole of order 2, where it is an integer from 1 to `_SERIES`."""
-    if place.order != 2 or place.degree > 1:
-        return None
     delta = place.delta
-    if delta is None or delta.denominator > 1:
+    if place.order != 2 or place.degree > 1 or delta is None:
         return None
-    if not 0 < delta <= _SERIES:
+    if delta.denominator > 1 or not 0 < delta <= _SERIES:
         return None
-    return delta.numerator
-
-
-def _laurent_coefficients(place: Place, last: int) -> list[Poly]:
-    """s_0, ..., s_last of S = s_0/t^2 + s_1/t + ..., t = x - c, by long division from below: den = den_2 t^2 + ..."""
-    field = place.factor.field
-    x = field.poly([0, 1]) - place.factor[0]
+    # By long division from below: with t = x - c, den = den_2 t^2 + ...
+    x = place.factor.field.poly([0, 1]) - place.factor[0]
     num = place.num(x)
     den = place.den(x)
     s: list[Poly] = []
-    for k in range(last + 1):
+    for k in range(delta.numerator + 1):
         known = [den[2 + j] * s[k - j] for j in range(1, k + 1)]
-        s.append((num[k] - sum(known, field.poly([]))) / den[2])
-    return s
-
-
-def _right_side(s: Sequence[Poly], c: Sequence[Poly], n: int) -> Poly:
-    """s_1 c_(n-1) + ... + s_n c_0."""
-    check_time()
-    terms = [s[k] * c[n - k] for k in range(1, n + 1)]
-    return sum(terms, 0 * c[0])
+        s.append((num[k] - sum(known, 0 * num)) / den[2])
+    c = [place.factor.field.poly([1])]
+    for n in range(1, delta.numerator + 1):
+        check_time()
+        right = sum((s[k] * c[n - k] for k in range(1, n + 1)), 0 * c[0])
+        if n == delta:
+            return right
+        c.append(right / (n * (n - delta)))
+    return None
 
 
 def _degrees_that_are_possible(problem: Problem) -> Degrees:
@@ -258,17 +229,16 @@ def _degrees_that_are_possible(problem: Problem) -> Degrees:
 
 
 def _has_two_branch_points(problem: Problem) -> bool:
-    """Are there two places that can be branch points of case 2, which the square root of an invariant needs?"""
-    return sum(place.degree for place in problem.places if _may_be_branch_point(place)) >= 2
+    """Are there two places that can be branch points of case 2, which the square root of an invariant needs?
 
-
-def _may_be_branch_point(place: Place) -> bool:
-    """Can it be one of case 2: is the exponent difference a half-integer, or not known?"""
-    if place.kind is Kind.RAMIFIED:
-        return True
-    if place.kind is not Kind.REGULAR:
-        return False
-    return place.delta is None or place.delta.denominator == 2
+    There an exponent difference is a half-integer, or not known.
+    """
+    points = 0
+    for place in problem.places:
+        is_half_integer = place.delta is None or place.delta.denominator == 2
+        if place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and is_half_integer):
+            points += place.degree
+    return points >= 2
 
 
 def degree_equation(problem: Problem) -> Poly | None:
@@ -307,9 +277,7 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
 def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
     """Is the degree a number, for which the candidates are all that is special?  They are added in any case."""
     root = _number_root(factor)
-    if root is None:
-        return False
-    found = conditions_of_degree(problem, int(root))
+    found = None if root is None else conditions_of_degree(problem, int(root))
     if found is None:
         return False
     are_complete = [findings.add(conditions) for conditions in found]
@@ -353,8 +321,8 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
     have the other sign, so that this is another solution, and the same sign at the other one.  The Wronskian of the two
     solutions y1, y2 is y1 y2 times a rational function, a constant; but y1 y2 has an essential singularity at the other point.
     """
-    center = _center_of_symmetry(problem)
-    if center is None:
+    center = mean_of_singular_points(problem.S)  # the mean of the poles, or of the zeros of a polynomial
+    if center is None or problem.S(2 * center - problem.field.poly([0, 1])) != problem.S:
         return False
     changes = set()
     for place in problem.places:
@@ -363,13 +331,6 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
             # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
             changes.add(place.order // 2 % 2 == 0)
     return len(changes) == 2
-
-
-def _center_of_symmetry(problem: Problem) -> Poly | None:
-    """c with S(2c - x) = S(x), the mean of the poles, or of the zeros of a polynomial; None where there is none."""
-    center = mean_of_singular_points(problem.S)
-    is_one = center is not None and problem.S(2 * center - problem.field.poly([0, 1])) == problem.S
-    return center if is_one else None
 
 
 def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:

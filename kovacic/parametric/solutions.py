@@ -21,7 +21,6 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.product import Product
 from kovacic.closed_form.product import product as product_of_powers
 from kovacic.closed_form.structure import Diagonal, build
 from kovacic.engine.decide import decide
@@ -121,6 +120,13 @@ class PolynomialSolution:
         y = self.y.xreplace(values)
         return None if y == 0 else y
 
+    def with_values(self, values: Mapping[Any, Any]) -> PolynomialSolution:
+        """The solution with other expressions in the place of the parameters, by symbol."""
+        conditions = tuple(condition.xreplace(values) for condition in self.conditions)
+        parameters = tuple(parameter.xreplace(values) for parameter in self.jacobi)
+        y, degree = self.y.xreplace(values), sympy.sympify(self.degree).xreplace(values)
+        return replace(self, y=y, degree=degree, conditions=conditions, jacobi=parameters)
+
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
         where = self.where or self._degree_in_words()
@@ -175,12 +181,29 @@ class Signed:
         if by_signs is None:
             return ()
         found = map(by_signs, product((1, -1), repeat=self.signs))
-        return tuple(dict.fromkeys(solution for solution in found if may_be_natural(solution.degree)))
+        possible = [one for one in found if one.degree.free_symbols or (one.degree.is_Integer and one.degree >= 0)]
+        return tuple(dict.fromkeys(possible))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
         """All of them in one, with symbols for the signs."""
         by_signs = self.formula()
         return None if by_signs is None else by_signs(signs[: self.signs])
+
+
+@dataclass(frozen=True)
+class Carried:
+    """The solutions of another equation, each changed into one of this equation."""
+
+    origin: Origin
+    change: Callable[[PolynomialSolution], PolynomialSolution]
+
+    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        return tuple(map(self.change, self.origin(number)))
+
+    def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
+        """All of them in one, with symbols for the signs; None where there is no such formula."""
+        found = general(self.origin, signs)
+        return None if found is None else self.change(found)
 
 
 @dataclass(frozen=True)
@@ -216,14 +239,7 @@ class GivenSolutions:
 
     def spelled(self, solution: PolynomialSolution) -> PolynomialSolution:
         """The solution in the user's parameters."""
-        if not self.letters:
-            return solution
-        meanings = {sympy.Symbol(name): meaning for name, meaning in self.letters}
-        y, degree, *conditions = (
-            part.xreplace(meanings) for part in (solution.y, solution.degree, *solution.conditions)
-        )
-        jacobi = tuple(part.xreplace(meanings) for part in solution.jacobi)
-        return replace(solution, y=y, degree=degree, conditions=tuple(conditions), jacobi=jacobi)
+        return solution.with_values({sympy.Symbol(name): meaning for name, meaning in self.letters})
 
 
 @lru_cache(maxsize=64)
@@ -341,42 +357,44 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
 def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
     """The solutions with a rational omega where S has some, by the engine; `degree` is that of the P in the first one.
 
-    () where the constants in it are no square roots, or the exponents at conjugate points differ.
+    () where the constants in it are no square roots, or have long numbers, or the exponents at conjugate points differ.
     """
     decision = decide(S, Budget())
     riccati = decision.riccati
     if riccati is None or riccati.degree > 1:
         return ()
     omega = -riccati.coefficients[0]
-    x = sympy.Symbol(variable)
-    constant = _constant(omega.field, S.field)
+    atoms = Atoms(sympy.Symbol(variable))
+    if isinstance(S.field, AlgebraicField):  # that of a hypersurface: a parameter is its generator
+        atoms.call(S.field, sympy.Symbol(S.field.name))
     y = product_of_powers(omega)
-    if constant is None or y.roots:
+    if y.roots or not _is_written(omega.field, S.field, atoms):
         return ()
+    structure = build(S, decision, 0 * S) if omega.field == S.field else None
+    found = [y]
+    if isinstance(structure, Diagonal):
+        found += [one for one in (structure.first, structure.second) if one.logarithmic_derivative != omega]
     degree = sympy.Integer(max(riccati.P.degree, 0))
     where = "the region's statement holds"
-    found = [PolynomialSolution(_product(y, x, S.field, constant), degree, (), where)]
-    structure = build(S, decision, 0 * S) if omega.field == S.field else None
-    if isinstance(structure, Diagonal):
-        others = (other for other in (structure.first, structure.second) if other.logarithmic_derivative != omega)
-        found += [PolynomialSolution(_product(other, x, S.field, constant), degree, (), where) for other in others]
-    return tuple(found)
+    return tuple(PolynomialSolution(_in_factors(display(one, atoms), atoms.x), degree, (), where) for one in found)
 
 
-def _product(y: Product, x: Any, field: Field, constant: Any) -> Any:
-    """A product of powers over the field, or over its extension by the constant."""
+def _is_written(field: Field, below: Field, atoms: Atoms) -> bool:
+    """Is a field that below, or its extension by the square root of a number that isn't long?"""
+    if field == below:
+        return True
+    assert isinstance(field, AlgebraicField)
+    return field.base == below and field.dimension == 2 and not has_long_numbers(atoms.generator(field))
 
-    def shown(polynomial: Poly) -> Any:
-        if polynomial.field == field:
-            return polynomial.to_sympy(x)
-        return sympy.Add(*(part.to_sympy(x) * constant**k for k, part in enumerate(polynomial.parts)))
 
+def _in_factors(y: Any, x: Any) -> Any:
+    """A product with the exponents of its powers in factors, and bases without denominators."""
     factors = []
-    for power in y.powers:
-        base = _without_constant(shown(power.base), x)
-        factors.append(base ** sympy.factor(shown(power.exponent)))
-    exponential = sympy.exp(sympy.expand(shown(y.exponential.num) / shown(y.exponential.den)))
-    return sympy.Mul(*factors, exponential)
+    for factor in sympy.Mul.make_args(y):
+        base, exponent = factor.as_base_exp()
+        is_exponential = base == sympy.E
+        factors.append(factor if is_exponential else _without_constant(base, x) ** sympy.factor(exponent))
+    return sympy.Mul(*factors)
 
 
 def _without_constant(base: Any, x: Any) -> Any:
@@ -401,38 +419,6 @@ def _letters_under_roots(expression: Any) -> dict[Any, int]:
                 if letter.is_Symbol:
                     signs[letter] = sign
     return signs
-
-
-def _constant(field: Field, below: Field) -> Any:
-    """The generator of an extension by a square root as a radical, 0 where there is no extension; None for any other, and for
-    that of a long number.
-
-    Its name isn't used: it can be that of a parameter.
-    """
-    if field == below:
-        return sympy.Integer(0)
-    assert isinstance(field, AlgebraicField)
-    if field.base != below or field.dimension > 2:
-        return None
-    x = sympy.Symbol("x")
-    half = (field.modulus[1] / 2).to_sympy(x)
-    rest = field.modulus[0].to_sympy(x)
-    square = sympy.factor(half**2 - rest)
-    return None if has_long_numbers(square) else _square_root(square) - half
-
-
-def _square_root(square: Any) -> Any:
-    """One of the square roots of an expression in factors, with those that are squares outside of it."""
-    inside: list[Any] = []
-    outside: list[Any] = []
-    for factor in sympy.Mul.make_args(square):
-        base, k = factor.as_base_exp()
-        is_even = k.is_Integer and k % 2 == 0
-        if is_even and not base.is_number:
-            outside.append(base ** (k / 2))
-        else:
-            inside.append(factor)
-    return sympy.Mul(*outside) * sympy.sqrt(sympy.Mul(*inside))
 
 
 def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:
@@ -471,13 +457,6 @@ def _conditions(value: Poly) -> list[Poly]:
     rest = value * element(field, denominator) / element(field, content)
     is_product_of_roots = len(leaves) == 1
     return factors if is_product_of_roots else [*factors, rest]
-
-
-def may_be_natural(degree: Any) -> bool:
-    """Is it a natural number, or can it be one for some values of the parameters?"""
-    if degree.free_symbols:
-        return True
-    return bool(degree.is_Integer and degree >= 0)
 
 
 def root(square: Poly) -> Any:

@@ -215,16 +215,11 @@ def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
         yield N * (sign * modulus) + numbers.residues[0] + modulus * shift
 
 
-def _mean_of_roots(equation: Poly) -> Poly:
-    k = equation.degree
-    return -equation[k - 1] / (equation.lc * k)
-
-
 def _roots(equation: FunctionPoly, numbers: Classes) -> SumOfRoots | None:
     """The roots as a mean +- the square roots of one, two or three squares, for an equation of degree 2, 4 or 8."""
     if equation.degree not in (2, 4, 8):
         return None
-    mean = over_parameters(_mean_of_roots(equation))
+    mean = over_parameters(-equation[equation.degree - 1] / (equation.lc * equation.degree))
     shifted = equation(equation.field.poly([0, 1]) + mean) / equation.lc
     squares = _squares(shifted)
     if squares is None:
@@ -240,11 +235,8 @@ def _squares(shifted: Poly) -> list[Poly] | None:
         return None
     if k == 2:
         return [-shifted[0]]
-    return _two_squares(shifted) if k == 4 else _three_squares(shifted)
-
-
-def _two_squares(shifted: Poly) -> list[Poly] | None:
-    """Of roots whose sums, with all signs, are the roots of a polynomial N^4 + ..."""
+    if k == 8:
+        return _three_squares(shifted)
     difference = shifted.field.sqrt(shifted[0])
     if difference is None:
         return None
