@@ -17,7 +17,6 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.check import check_each_region
 from kovacic.parametric.derivation import derived
-from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.letters import Letters, nonzero, own_parameters, spelled
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.restriction import with_free_constant
@@ -77,6 +76,10 @@ def conditions_of(
     if parsed.equation is not None:  # an algebraic constant of the gauge is one of the answer
         parsed = replace(parsed, S=over(parsed.S, parsed.equation.a.field))
     _, shown, constant = with_free_constant(parsed.S)
+    notices = [notice for notice in parsed.notices if notice in parsed.guesses or "parameter" not in notice]
+    if isinstance(constant.field, AlgebraicField):  # the constant has its own name among the parameters
+        name = rf"\b{re.escape(constant.field.name)}\b"
+        notices = [re.sub(name, constant.names[0], notice) for notice in notices]
     found = derived(parsed.S, parsed.variable, parsed.equation, known, budget, max_degree, letters)
     answer = ParametricAnswer(
         S=shown,
@@ -87,7 +90,7 @@ def conditions_of(
         complete=found.complete,
         theory=found.theory,
         limits=limits,
-        notices=_notices(parsed, constant),
+        notices=tuple(notices),
         assumptions=known,
         constant=constant,
         equation=parsed.equation,
@@ -96,15 +99,6 @@ def conditions_of(
     with budget.watched(), suppress(LimitExceeded):  # as far as time allows
         check_each_region(answer)
     return answer
-
-
-def _notices(parsed: Parsed, constant: ParameterPoint) -> tuple[str, ...]:
-    """What was noticed at reading, with the constant's own name among the parameters."""
-    notices = [notice for notice in parsed.notices if notice in parsed.guesses or "parameter" not in notice]
-    if isinstance(constant.field, AlgebraicField):
-        name = rf"\b{re.escape(constant.field.name)}\b"
-        notices = [re.sub(name, constant.names[0], notice) for notice in notices]
-    return tuple(notices)
 
 
 def under_assumptions(

@@ -26,20 +26,14 @@ from kovacic.parametric.statements import Both, Either, Statement, Vanishes, alt
 
 def everything(statement: Statement) -> list[ParameterPoint]:
     """All values of the parameters, as one chart; none for a statement in which no function occurs."""
-    field = field_of(statement)
-    return [] if field is None else [ParameterPoint.generic(field)]
-
-
-def field_of(statement: Statement) -> FunctionField | None:
-    """That of the functions in a statement."""
-    found: list[FunctionField] = []
+    fields: dict[FunctionField, None] = {}
 
     def noted(function: FunctionPoly) -> FunctionPoly:
-        found.append(function.field)
+        fields[function.field] = None
         return function
 
     statement.rewritten(noted)
-    return next(iter(found), None)
+    return [ParameterPoint.generic(field) for field in fields][:1]
 
 
 def within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:

@@ -54,7 +54,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, verdict_of
-from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution
+from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement, Vanishes, both
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 
@@ -123,19 +123,20 @@ def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
 
 def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
     """The functions of the parameters that are denominators in what is printed: it isn't defined at their zeros."""
-    if isinstance(claim, AllOf | AnyOf):
-        for part in claim.parts:
-            yield from _strata(part)
-    elif isinstance(claim, ThatIs):
-        yield from _strata(claim.second)
-    elif isinstance(claim, DegreeExists):
-        yield from _strata(claim.degree)
-    elif isinstance(claim, Alternatives):
-        for family in claim.families:
-            yield from _strata(family)
-    elif isinstance(claim, IntegerFamily):
+    parts: tuple[Claim | DegreeClaim, ...] = ()
+    if isinstance(claim, IntegerFamily):
         below = over_parameters(claim.value.cleared()[1])
         yield from (factor for factor in irreducible_factors(below) if not factor.degree)
+    elif isinstance(claim, AllOf | AnyOf):
+        parts = claim.parts
+    elif isinstance(claim, ThatIs):
+        parts = (claim.second,)
+    elif isinstance(claim, DegreeExists):
+        parts = (claim.degree,)
+    elif isinstance(claim, Alternatives):
+        parts = claim.families
+    for part in parts:
+        yield from _strata(part)
 
 
 def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:
@@ -184,20 +185,15 @@ def _false_formulas(
     if not natural:
         numbers = [None]
     for number in numbers:
-        for solution in _solutions_at(region, number, values):
+        formulas = region.formulas
+        if not isinstance(formulas, GivenSolutions):
+            return
+        # Formulas that aren't meant at these values aren't even translated to the equation that was given.
+        meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
+        for solution in formulas.of(meant):
             y = solution.at(values)
             if y is not None and (y.has(sympy.nan, sympy.zoo, sympy.oo) or _is_false(y, S, equation, values)):
                 yield f"{solution} is no solution"
-
-
-def _solutions_at(
-    region: ParameterRegion, number: int | None, values: Mapping[Any, Any]
-) -> Iterator[PolynomialSolution]:
-    """The formulas that are meant at these values, the others not even translated to the equation that was given."""
-    formulas = region.formulas
-    if isinstance(formulas, GivenSolutions):
-        meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
-        yield from formulas.of(meant)
 
 
 def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any]) -> bool:

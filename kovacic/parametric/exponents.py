@@ -137,8 +137,8 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
     for place in problem.places:
         if place.kind is Kind.REGULAR and place.delta_squared is None:
             continue
-        square = _square_with_parameters(place)
-        if square is not None:
+        square = place.delta_squared if place.kind is Kind.REGULAR else None
+        if square is not None and square.field.rational_value(square) is None:
             largest = m // 2 * place.degree
             roots.append(ExponentRoot(square, largest))
             room -= largest
@@ -148,16 +148,6 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
             return None
         room -= valuation * place.degree
     return Numbers(Fraction(room), tuple(roots))
-
-
-def _square_with_parameters(place: Place) -> Poly | None:
-    """The square of the exponent difference at a regular point, where it isn't a number."""
-    square = place.delta_squared
-    if place.kind is not Kind.REGULAR or square is None:
-        return None
-    if square.field.rational_value(square) is not None:
-        return None
-    return square
 
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
@@ -194,7 +184,12 @@ def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Pol
 
     The coordinates of an image are put into one polynomial, one behind the other for each power.
     """
-    basis = _basis(field, below)
+    basis = [field.poly([1])]  # products of powers of the generators
+    level = field
+    while level != below:
+        assert isinstance(level, AlgebraicField)
+        basis = [element * level.generator**k for k in range(level.dimension) for element in basis]
+        level = level.base
     if len(basis) == 1:
         return list(images)
     found = []
@@ -204,17 +199,6 @@ def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Pol
             size = max(part.degree for part in parts) + 1
             found.append(below.poly([part[k] for k in range(size) for part in parts]))
     return found
-
-
-def _basis(field: Field, below: Field) -> list[Poly]:
-    """The products of powers of the generators, a basis over the field below."""
-    basis = [field.poly([1])]
-    level = field
-    while level != below:
-        assert isinstance(level, AlgebraicField)
-        basis = [element * level.generator**k for k in range(level.dimension) for element in basis]
-        level = level.base
-    return basis
 
 
 def _parts(polynomial: Poly, below: Field) -> list[Poly]:

@@ -57,7 +57,11 @@ def plot(
     with `axes.figure.savefig`.  Nothing is ever shown on a screen.  With one parameter, a strip is drawn.  Raises
     `InputError` for names that aren't parameters.
     """
-    chosen = _chosen(names, parameters, fixed or {})
+    chosen = tuple(parameters or names[:2])
+    if len(chosen) not in (1, 2) or not {*chosen} <= {*names}:
+        raise InputError("a map needs one parameter or two", hint=f"the parameters are {', '.join(names)}")
+    if any(name in chosen for name in fixed or {}):
+        raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
     grids = _grids(chosen, ranges, steps)
     columns = grids[0]
     is_map = len(chosen) == 2
@@ -82,16 +86,6 @@ def plot(
         axes.set(yticks=[])
     axes.set_title(title, fontsize="medium")
     return axes
-
-
-def _chosen(names: Sequence[str], parameters: Sequence[str] | None, fixed: Mapping[str, Any]) -> tuple[str, ...]:
-    """The parameters that vary.  Raises `InputError`."""
-    chosen = tuple(parameters or names[:2])
-    if len(chosen) not in (1, 2) or not {*chosen} <= {*names}:
-        raise InputError("a map needs one parameter or two", hint=f"the parameters are {', '.join(names)}")
-    if any(name in chosen for name in fixed):
-        raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
-    return chosen
 
 
 def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, steps: int) -> list[list[Fraction]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import Any
@@ -329,7 +329,11 @@ class ParametricAnswer:
         if isinstance(values, ParameterPoint):
             return values
         given = {str(name): value for name, value in values.items()}
-        _check_names(given, self.parameters)
+        missing = ", ".join(name for name in self.parameters if name not in given)
+        unknown = ", ".join(name for name in given if name not in self.parameters)
+        if missing or unknown:
+            hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
+            raise InputError(f"values are needed for {', '.join(self.parameters)}", hint=hint)
         given |= values_of_letters(given, self.letters)
         point = _point(self.names, [given[name] for name in self.names], self.constant, self.limits)
         for name, value in zip(point.names, point.values, strict=True):
@@ -568,9 +572,15 @@ class ParametricAnswer:
         complete = f"complete {self.complete}"
         if self.complete is True:
             complete = "proven to be complete"
+        regions = in_lines(self.regions)
+        shown = regions if all or len(regions) <= _SCREEN + 1 else regions[:_SCREEN]
+        more = []
+        if len(shown) < len(regions):
+            more.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
         lines = [
             *self._heading(),
-            *self._region_lines(is_whole=all),
+            *(f"  {region}" for region in shown),
+            *more,
             f"  {self._where_generic}: {self.generic}",
             f"  ({complete}; {self.theory})",
         ]
@@ -585,17 +595,6 @@ class ParametricAnswer:
         lines = [first, *(f"  note: {notice}" for notice in self.notices)]
         if self.equation is not None and self.equation.change is not None:
             lines.append(f"  cases and groups over {self.equation.change.field}")
-        return lines
-
-    def _region_lines(self, *, is_whole: bool) -> list[str]:
-        """The regions, those in a row with the same case in one line; a screen of them, or all."""
-        regions = in_lines(self.regions)
-        shown = regions
-        if not is_whole and len(regions) > _SCREEN + 1:
-            shown = regions[:_SCREEN]
-        lines = [f"  {region}" for region in shown]
-        if len(shown) < len(regions):
-            lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
         return lines
 
     @limited
@@ -616,8 +615,11 @@ class ParametricAnswer:
         """
         lines = [self.text(all=True)]
         for region in self.regions:
-            lines += ["", f"{region.statement.text()}: {said_of(region)}"]
-            lines += [f"  {line}" for line in _solutions_of(region)]
+            known = [*region.solution()]  # in all of the region, and for the first natural numbers
+            for number in range(len(region.determinants)):
+                known += region.solution(number)
+            said = [*map(str, known)] or [region.why_no_solution] * (region.case == 1)
+            lines += ["", f"{region.statement.text()}: {said_of(region)}", *(f"  {line}" for line in said)]
         return visible("\n".join(lines))
 
     def __str__(self) -> str:
@@ -627,16 +629,6 @@ class ParametricAnswer:
         names = ", ".join(self.parameters)
         regions = f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
         return f"<Conditions on {names} for y'' = {self.right.text}: {regions}>"
-
-
-def _solutions_of(region: ParameterRegion) -> list[str]:
-    """Those that are known in all of the region, and those for the first natural numbers; in case 1 why there is none."""
-    known = [*region.solution()]
-    for number in range(len(region.determinants)):
-        known += region.solution(number)
-    if region.case == 1 and not known:
-        return [region.why_no_solution]
-    return [*map(str, known)]
 
 
 @lru_cache(maxsize=16)
@@ -652,15 +644,6 @@ def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
 
 def _origin_of(answer: ParametricAnswer, statement: Statement) -> Origin | None:
     return _origins(answer).get(statement)
-
-
-def _check_names(given: Collection[str], parameters: Collection[str]) -> None:
-    """Raises `InputError` unless each parameter has a value, and nothing else has one."""
-    missing = ", ".join(name for name in parameters if name not in given)
-    unknown = ", ".join(name for name in given if name not in parameters)
-    if missing or unknown:
-        hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
-        raise InputError(f"values are needed for {', '.join(parameters)}", hint=hint)
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:

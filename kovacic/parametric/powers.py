@@ -55,19 +55,12 @@ def in_powers(S: RatFunc) -> InPowers | None:
     field = S.field
     assert isinstance(field, FunctionField)
     parts = [over_parameters(part) for part in S.cleared()]
-    powers = tuple(_common_power(parts, i) for i in range(len(field.names)))
+    occurring = [[n for part in parts for n in powers_of(part, i)] for i in range(len(field.names))]
+    powers = tuple(gcd(*found) or 1 for found in occurring)  # the largest k for which t occurs in powers of t^k only
     if max(powers) == 1:
         return None
     num, den = (_lowered(part, powers) for part in parts)
     return InPowers(RatFunc(num, den), powers)
-
-
-def _common_power(functions: Sequence[FunctionPoly], i: int) -> int:
-    """The largest k for which parameter number i occurs in powers of t^k only; 1 where it doesn't occur."""
-    occurring: list[int] = []
-    for function in functions:
-        occurring += powers_of(function, i)
-    return gcd(*occurring) or 1
 
 
 def _lowered(function: FunctionPoly, powers: Sequence[int]) -> FunctionPoly:

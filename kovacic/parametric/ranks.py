@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from itertools import chain, combinations
+from itertools import chain, combinations, product
 from math import comb, gcd, lcm
 from operator import mul
 from random import Random
@@ -130,7 +130,11 @@ class _Matrix:
         """That of the images, each row once."""
         # By powers of x, without denominators.
         smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
-        different = {tuple(map(str, row)): row for row in map(_normalised, smaller.rows)}
+        different: dict[tuple[str, ...], list[Any]] = {}
+        for row in smaller.rows:  # with coprime coefficients, the leading one positive
+            sign = 1 if int(next(filter(None, row)).leading_coefficient()) > 0 else -1
+            normalised = [sign * entry for entry in _primitive(dict(enumerate(row))).values()]
+            different.setdefault(tuple(map(str, normalised)), normalised)
         rows = [*different.values()]
         rank = 0
         if rows:  # at a random point: a lower bound, and the generic rank but for a probability of about 1/_PRIME
@@ -233,14 +237,6 @@ def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, 
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _normalised(row: list[Any]) -> list[Any]:
-    """The multiple by a number with coprime coefficients, the leading one positive."""
-    reduced = _primitive(dict(enumerate(row)))
-    first = next(entry for entry in row if entry)
-    sign = 1 if int(first.leading_coefficient()) > 0 else -1
-    return [sign * entry for entry in reduced.values()]
-
-
 class WithoutPivots(NamedTuple):
     """A matrix whose rank is smaller than that of another one, by the number of rows that were `eliminated`."""
 
@@ -255,35 +251,24 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
     among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
     so that this is the elimination of its coefficients by their recurrence.
     """
-    rows = _rows_of(columns)
+    entries: dict[int, dict[int, Any]] = {}
+    for k, column in enumerate(columns):
+        for i, entry in column.items():
+            row = entries.setdefault(i, {})
+            if entry:
+                row[k] = entry
+    rows = [entries[i] for i in sorted(entries)]
     eliminated = 0
     pivot = _constant_entry(rows)
     while pivot is not None:
         chosen = rows.pop(pivot.row)
-        rows = _with_cleared_column(rows, pivot.column, chosen)
+        rows = [_cleared(row, pivot.column, chosen) if pivot.column in row else row for row in rows]
         eliminated += 1
         pivot = _constant_entry(rows)
-    return WithoutPivots(_dense([row for row in rows if row]), eliminated)
-
-
-def _dense(rows: Sequence[dict[int, Any]]) -> list[list[Any]]:
-    """The rows with zeros, in the columns that occur."""
-    if not rows:
-        return []
-    columns = sorted(set().union(*rows))
-    zero = 0 * next(iter(rows[0].values()))
-    return [[row.get(k, zero) for k in columns] for row in rows]
-
-
-def _rows_of(columns: Sequence[dict[int, Any]]) -> list[dict[int, Any]]:
-    """The entries that aren't zero, by rows, without rows that have none."""
-    rows: dict[int, dict[int, Any]] = {}
-    for k, column in enumerate(columns):
-        for i, entry in column.items():
-            row = rows.setdefault(i, {})
-            if entry:
-                row[k] = entry
-    return [rows[i] for i in sorted(rows)]
+    left = [row for row in rows if row]
+    numbers = sorted(set().union(*left))
+    zero = 0 * next(iter(left[0].values())) if left else 0
+    return WithoutPivots([[row.get(k, zero) for k in numbers] for row in left], eliminated)
 
 
 class _ConstantPivot(NamedTuple):
@@ -308,16 +293,6 @@ def _constant_entry(rows: Sequence[dict[int, Any]]) -> _ConstantPivot | None:
             if best is None or pivot < best:
                 best = pivot
     return best
-
-
-def _with_cleared_column(rows: Sequence[dict[int, Any]], k: int, chosen: dict[int, Any]) -> list[dict[int, Any]]:
-    """The rows, with a multiple of the chosen one subtracted where there is an entry in column k."""
-    found = []
-    for row in rows:
-        if k in row:
-            row = _cleared(row, k, chosen)
-        found.append(row)
-    return found
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
@@ -367,18 +342,9 @@ def _determinant(rows: list[list[Any]]) -> Any:
         if pivot is None:
             return rows[k][k]
         rows[k], rows[pivot] = rows[pivot], rows[k]
-        _eliminate_below(rows, k, previous)
-        previous = rows[k][k]
-    return rows[-1][-1]
-
-
-def _eliminate_below(rows: list[list[Any]], k: int, previous: Any) -> None:
-    """Minors with the pivot rows[k][k] in the place of the entries below, divided by the last pivot, None at first."""
-    n = len(rows)
-    for i in range(k + 1, n):
-        for j in range(k + 1, n):
+        for i, j in product(range(k + 1, n), repeat=2):  # minors in the place of the entries below
             check_time()
             minor = _product(rows[k][k], rows[i][j]) - _product(rows[i][k], rows[k][j])
-            if previous is not None:
-                minor = minor // previous
-            rows[i][j] = minor
+            rows[i][j] = minor if previous is None else minor // previous
+        previous = rows[k][k]
+    return rows[-1][-1]

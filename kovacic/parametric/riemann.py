@@ -409,24 +409,14 @@ def _rational(names: Iterable[str]) -> str:
 
 def _imprimitive_group(split: _Split) -> str:
     """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
-    beside = _beside_two_half_integers(split.constants)
+    is_half = [difference is not None and difference.denominator == 2 for difference in split.constants]
+    halves = [difference for difference, half in zip(split.constants, is_half, strict=True) if half]
+    beside = [difference for difference, half in zip(split.constants, is_half, strict=True) if not half] + halves[2:]
     if len(split.constants) >= 2 and beside:
         return "the infinite dihedral group" if beside[0] is None else "dicyclic"
     if len(split.constants) == 2 and split.variable is not None:
         return f"dicyclic where `{root_written(split.variable)}` is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
-
-
-def _beside_two_half_integers(constants: Sequence[Fraction | None]) -> list[Fraction | None]:
-    """The differences without two half-integers, those that aren't half-integers first."""
-    halves: list[Fraction | None] = []
-    others: list[Fraction | None] = []
-    for difference in constants:
-        if difference is not None and difference.denominator == 2:
-            halves.append(difference)
-        else:
-            others.append(difference)
-    return [*others, *halves[2:]]
 
 
 def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
@@ -435,7 +425,10 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
         yield Structure.REDUCIBLE, ALWAYS
         return
     cubic = squares_of_differences(problem)
-    yield Structure.REDUCIBLE, integer_roots(_squares_of_sums(cubic), [1], 2)
+    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
+    z = over_parameters(cubic.field.poly([0, 0, 1]))
+    sums = over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)  # its roots N are the four sums, up to signs
+    yield Structure.REDUCIBLE, integer_roots(sums, [1], 2)
     constants = _split(cubic).constants
     always = kimura(constants)
     if always is not None:
@@ -454,15 +447,6 @@ def _irreducible_structures(
             yield structure, _classes(single, structure)
         elif _is_possible(structure, constants):
             yield structure, _in_table(cubic, structure, constants)
-
-
-def _squares_of_sums(cubic: FunctionPoly) -> FunctionPoly:
-    """The polynomial of the module's head, in N: its roots are the four sums, up to signs."""
-    s1 = -cubic[2]
-    s2 = cubic[1]
-    s3 = -cubic[0]
-    z = over_parameters(cubic.field.poly([0, 0, 1]))
-    return over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)
 
 
 def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> bool:

@@ -368,8 +368,13 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
     if isinstance(S.field, AlgebraicField):  # that of a hypersurface: a parameter is its generator
         atoms.call(S.field, sympy.Symbol(S.field.name))
     y = product_of_powers(omega)
-    if y.roots or not _is_written(omega.field, S.field, atoms):
+    if y.roots:
         return ()
+    if omega.field != S.field:  # an extension by a square root is written, unless its number is long
+        assert isinstance(omega.field, AlgebraicField)
+        is_quadratic = omega.field.base == S.field and omega.field.dimension == 2
+        if not is_quadratic or has_long_numbers(atoms.generator(omega.field)):
+            return ()
     structure = build(S, decision, 0 * S) if omega.field == S.field else None
     found = [y]
     if isinstance(structure, Diagonal):
@@ -377,14 +382,6 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
     degree = sympy.Integer(max(riccati.P.degree, 0))
     where = "the region's statement holds"
     return tuple(PolynomialSolution(_in_factors(display(one, atoms), atoms.x), degree, (), where) for one in found)
-
-
-def _is_written(field: Field, below: Field, atoms: Atoms) -> bool:
-    """Is a field that below, or its extension by the square root of a number that isn't long?"""
-    if field == below:
-        return True
-    assert isinstance(field, AlgebraicField)
-    return field.base == below and field.dimension == 2 and not has_long_numbers(atoms.generator(field))
 
 
 def _in_factors(y: Any, x: Any) -> Any:

@@ -119,13 +119,16 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
         if center:
             S = S(x + center)
         square = S * x * x
-        n = gcd(*_exponents(square.num), *_exponents(square.den))
+        parts = (square.num, square.den)
+        n = gcd(*(i for part in parts for i, coefficient in enumerate(part) if coefficient))  # powers that occur
         base, weight = variable, "1"
         if pole is not None:
             weight = shifted(variable, pole)
             base = f"1/({weight})" if pole else f"1/{variable}"
         coordinate = Coordinate(shifted(base, center), n, weight)
-        yield Symmetric(coordinate, _every(n, square.num), _every(n, square.den))
+        # As polynomials in s^n; numbers for n = 0.
+        num, den = (problem.field.poly([part[i] for i in range(0, part.degree + 1, n or 1)]) for part in parts)
+        yield Symmetric(coordinate, num, den)
 
 
 def mean_of_singular_points(S: RatFunc) -> Poly | None:
@@ -134,16 +137,6 @@ def mean_of_singular_points(S: RatFunc) -> Poly | None:
     if points.degree < 1:
         return None
     return -points[points.degree - 1] / (points.lc * points.degree)
-
-
-def _every(n: int, f: Poly) -> Poly:
-    """f as a polynomial in x^n; a number for n = 0."""
-    return f.field.poly([f[i] for i in range(0, f.degree + 1, n or 1)])
-
-
-def _exponents(f: Poly) -> list[int]:
-    """Of the powers that occur."""
-    return [i for i, coefficient in enumerate(f) if coefficient]
 
 
 def kimura(problem: Problem, variable: str) -> Theorem | None:
@@ -347,7 +340,14 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     author = "Whittaker" if form.q else "Bessel"
     name = Theory(f"{author}'s equation in `{form.coordinate}`: Martinet & Ramis", "MR89", "DLR92")
     origin = Signed(partial(laguerre_formula, form, variable), 2)
-    region = ParameterRegion(_condition(form), _verdict(form), origin=origin)
+    verdict = RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=ABELIAN)
+    if not form.q:
+        verdict = RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
+    elif form.r:
+        family = phrase("the Borel group, or `G_m` where both exponential factors occur")
+        where = ("abelian exactly where both exponential factors occur",)
+        verdict = RegionVerdict(Structure.REDUCIBLE, family=family, abelian=where)
+    region = ParameterRegion(_condition(form), verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
 
 
@@ -362,18 +362,6 @@ def _condition(form: Confluent) -> Statement:
         equation = z - 4 * delta_squared
     n = form.coordinate.n
     return integer_roots(over_parameters(equation), [n], 2 * n)
-
-
-def _verdict(form: Confluent) -> RegionVerdict:
-    """What holds under the condition."""
-    if not form.q:
-        return RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
-    if not form.r:
-        return RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=ABELIAN)
-    family = phrase("the Borel group, or `G_m` where both exponential factors occur")
-    return RegionVerdict(
-        Structure.REDUCIBLE, family=family, abelian=("abelian exactly where both exponential factors occur",)
-    )
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:
