@@ -442,8 +442,8 @@ class Spectrum:
 def _is_admitted(known: Known, value: Any) -> bool:
     """True unless a real number contradicts what is assumed."""
     if value.is_Rational:
-        return known.facts.admit(Fraction(int(value.p), int(value.q)))
-    return known.rational is not True and known.facts.admit_real(BallEvaluator({})(value))
+        return known.admits_number(Fraction(int(value.p), int(value.q)))
+    return known.rational is not True and known.admits_ball(BallEvaluator({})(value))
 
 
 def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[BoundState]:

@@ -163,10 +163,11 @@ class Known:
         if self.rational is True:
             return False
         has_sign = getattr(value.field, "approximation", None) is not None
-        if not self.inequalities or not has_sign:
-            return True
-        ball = enclosure(value)
-        return ball.imag.contains(0) and not any(bound.excludes(ball.real) for bound in self.inequalities)
+        return not self.inequalities or not has_sign or self.admits_ball(enclosure(value))
+
+    def admits_ball(self, ball: Any) -> bool:
+        """May it be a number in a complex ball, by the bounds?"""
+        return bool(ball.imag.contains(0)) and not any(bound.excludes(ball.real) for bound in self.inequalities)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
