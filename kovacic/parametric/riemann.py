@@ -88,18 +88,12 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
     >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
     <Structure.OCTAHEDRAL: 'octahedral'>
     """
-    known = _known(differences)
-    half_integers = [d for d in known if d.denominator == 2]
-    if len(half_integers) >= 2:
+    known = [difference for difference in differences if difference is not None]
+    if sum(difference.denominator == 2 for difference in known) >= 2:
         return Structure.IMPRIMITIVE
     if len(known) < 3 or any(d.denominator > LARGEST for d in known):
         return None
     return _table().get(_key(known))
-
-
-def _known(differences: Iterable[Fraction | None]) -> list[Fraction]:
-    """Those that are rational."""
-    return [d for d in differences if d is not None]
 
 
 @lru_cache(maxsize=1)
@@ -167,20 +161,12 @@ class Schwarz(Statement, Claim):
                 continue
             known = values_at_integers(difference, LARGEST)
             if known is not None and assumptions.is_integer(known.name):
-                return self._at_values(known.name, known.values, assumptions)
+                parameter = self.cubic.field.generator(known.name)
+                values = [Vanishes(over_parameters(parameter - number)) for number in known.values]
+                possible = [here for here in values if here.decided(assumptions) is not False]
+                there = [self._on(hypersurface(here.function)) for here in possible]
+                return either(*(both(*pair) for pair in zip(possible, there, strict=True) if pair[1] != NEVER))
         return self
-
-    def _at_values(self, name: str, numbers: Iterable[int], assumptions: Assumptions) -> Statement:
-        """The same at some values of one parameter."""
-        found: list[Statement] = []
-        for number in numbers:
-            here = Vanishes(over_parameters(self.cubic.field.generator(name) - number))
-            if here.decided(assumptions) is False:
-                continue
-            there = self._on(hypersurface(here.function))
-            if there != NEVER:
-                found.append(both(here, there))
-        return either(*found)
 
     def _on(self, surface: Hypersurface) -> Statement:
         """The same for fewer parameters, said in all of them."""
@@ -207,43 +193,36 @@ class Schwarz(Statement, Claim):
     def resolved(self) -> ResolvedDifferences:
         """The classes modulo 1 or 2, up to signs, of two differences beside a constant one, with their names.
 
-        Else no names, and the rows of Schwarz's table.
+        Else no names, and the rows of Schwarz's table: the differences modulo 1, and whether the sum of the integers is even.
         """
         constants = _split(self.cubic).constants
         names = _without_numbers(differences(self.cubic))
-        is_pair_beside_one = len(constants) == 1 and len(names) == 2
-        if not is_pair_beside_one or constants[0] is None:
-            return ResolvedDifferences([], self._rows_of_the_table())
-        return ResolvedDifferences(names, self._rows_beside(constants[0]))
-
-    def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
-        """The classes of the other two differences, modulo 1 where these say it."""
-        found = self._pairs_beside(third)
-        lattice = "2*Z"
-        if _is_symmetric(found):
-            lattice = "Z"
-            found = [pair for pair in found if max(pair.u, pair.v) <= 30]
-        found.sort(key=lambda pair: (self.structures.index(pair.structure), pair.u, pair.v))
-        return [(pair.structure, [_class(pair.u, lattice), _class(pair.v, lattice)]) for pair in found]
-
-    def _rows_of_the_table(self) -> list[tuple[Structure, list[Words]]]:
-        """The differences modulo 1, and whether the sum of the integers must be even."""
-        found = []
+        if len(constants) == 1 and len(names) == 2 and constants[0] is not None:
+            return ResolvedDifferences(names, self._rows_beside(constants[0]))
+        rows: list[tuple[Structure, list[Words]]] = []
         for row in _SCHWARZ.values():
             if row.structure in self.structures:
                 residues = ", ".join(map(str, row.differences))
-                parity = "even" if row.is_even else "any"
-                found.append((row.structure, [prose.phrase(f"`{residues}`"), (parity,)]))
-        return found
+                rows.append((row.structure, [prose.phrase(f"`{residues}`"), ("even" if row.is_even else "any",)]))
+        return ResolvedDifferences([], rows)
 
-    def _pairs_beside(self, third: Fraction) -> list[_DifferencePair]:
-        """The other two differences in sixtieths, up to signs modulo 2, with one of these structures."""
+    def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
+        """The classes of the other two differences, in sixtieths up to signs: modulo 2, or modulo 1 where these say it."""
         found = []
         for u, v in product(range(61), repeat=2):
             structure = _table().get(tuple(sorted((u, v, _sixtieths(third)))))
             if structure in self.structures:
-                found.append(_DifferencePair(structure, u, v))
-        return found
+                found.append((structure, u, v))
+        pairs = {*found}
+        # The same structures for u and 1 - u, and for v and 1 - v: they are those of the differences modulo 1.
+        is_symmetric = pairs == {(s, 60 - u, v) for s, u, v in found} == {(s, u, 60 - v) for s, u, v in found}
+        lattice = "Z" if is_symmetric else "2*Z"
+        found.sort(key=lambda pair: (self.structures.index(pair[0]), pair[1], pair[2]))
+        return [
+            (structure, [_class(u, lattice), _class(v, lattice)])
+            for structure, u, v in found
+            if not is_symmetric or max(u, v) <= 30
+        ]
 
     def merged(self, other: Statement) -> Schwarz | None:
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
@@ -266,23 +245,6 @@ def _class(sixtieths: int, lattice: str) -> Words:
     latex = latex_text(lattice.replace("Z", "")) + r"\mathbb{Z}"
     number = with_both_signs([str(_F(sixtieths, 60))], "+-")
     return (Math(f"{number.text} + {lattice}", f"{number.latex} + {latex}"),)
-
-
-@dataclass(frozen=True)
-class _DifferencePair:
-    """The structure with two exponent differences, in sixtieths, beside a constant one."""
-
-    structure: Structure
-    u: int
-    v: int
-
-
-def _is_symmetric(found: Sequence[_DifferencePair]) -> bool:
-    """Are the structures those of the differences modulo 1: the same for u and 1 - u, and for v and 1 - v?"""
-    pairs = {*found}
-    if {replace(pair, u=60 - pair.u) for pair in found} != pairs:
-        return False
-    return {replace(pair, v=60 - pair.v) for pair in found} == pairs
 
 
 def _without_numbers(names: Iterable[str]) -> list[str]:
@@ -466,7 +428,7 @@ def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fra
     """That the exponent differences are in the rows of the structure."""
     if structure is not Structure.IMPRIMITIVE:
         return Schwarz(cubic, (structure,))
-    if any(d % 1 == _F(1, 2) for d in _known(constants)):
+    if any(d is not None and d.denominator == 2 for d in constants):
         return _half_integers(cubic, 1)
     if any(multiplicity > 1 for _, multiplicity in cubic.field.factor(cubic)):
         return _half_integers(cubic, 2)
@@ -585,16 +547,12 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
     if admitted and single.root is not None:
         equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
         return Congruence.make(equation, admitted, period)
-    return _classes_up_to_sign(single.square, admitted, period)
-
-
-def _classes_up_to_sign(square: FunctionPoly, admitted: Sequence[Fraction], period: Fraction) -> Statement:
-    """That w is admitted modulo the period, where only w^2 is known: w and -w are the same."""
+    # Only w^2 is known: w and -w are the same.
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
         residues = [int(D * w) for w in admitted if w.denominator == denominator]
-        equation = over_parameters(square.field.poly([-(D**2) * square, 0, 1]))
+        equation = over_parameters(single.square.field.poly([-(D**2) * single.square, 0, 1]))
         statements.append(integer_roots(equation, residues, int(D * period)))
     return either(*statements)
 
