@@ -201,7 +201,7 @@ NOTHING_ASSUMED = Assumptions()
 
 
 @dataclass(frozen=True)
-class LinearForm:
+class LinearCombination:
     """constant + the sum of factor * parameter, by the parameter's name, with rational numbers."""
 
     constant: Fraction
@@ -225,7 +225,7 @@ class LinearForm:
         return Classes(residues, values.modulus / abs(factor))
 
 
-def linear_of(form: FunctionPoly) -> LinearForm | None:
+def linear_of(form: FunctionPoly) -> LinearCombination | None:
     """An element of Q(t) as a linear form; None for anything else."""
     if not form.den.is_constant() or form.num.total_degree() > 1:
         return None
@@ -238,7 +238,7 @@ def linear_of(form: FunctionPoly) -> LinearForm | None:
             factors[form.field.names[exponents.index(1) - 1]] = value
         else:
             constant = value
-    return LinearForm(constant, factors)
+    return LinearCombination(constant, factors)
 
 
 def parameters_of(form: FunctionPoly) -> list[str]:

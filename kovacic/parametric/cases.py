@@ -73,8 +73,11 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
         elif _proves_a_solution(region):
             found.append(Case(region.statement, (region,)))
         else:
+            # The unsolvable ones that the statement meets outside of the cases before.
             before = [case.statement for case in found if not case.without]
-            found.append(Case(region.statement, (region,), _exceptions(region.statement, unsolvable, before)))
+            charts = within(region.statement, everything(region.statement))
+            without = [other for other in unsolvable if not covered(within(other, charts), before)]
+            found.append(Case(region.statement, (region,), tuple(without)))
     return grouped(found, _is_same)
 
 
@@ -82,14 +85,6 @@ def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions as they are listed: those in a row in which the same case holds are one."""
     cases = [Case(region.statement, (region,)) for region in regions]
     return [case.region for case in grouped(cases, lambda first, second: first.case == second.case)]
-
-
-def _exceptions(
-    statement: Statement, unsolvable: Iterable[Statement], before: Sequence[Statement]
-) -> tuple[Statement, ...]:
-    """The unsolvable ones that a statement meets outside of the cases before."""
-    charts = within(statement, everything(statement))
-    return tuple(other for other in unsolvable if not covered(within(statement, within(other, charts)), before))
 
 
 def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:

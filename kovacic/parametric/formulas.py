@@ -135,8 +135,9 @@ def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
         solved = _power_in_linear_factors(above)
     if solved is not None:
         return SidesOfEquation(_polynomial(solved.left, names), _shortest(solved.values, names))
-    right = _negative_one_of_two(above)
-    if right is not None:
+    negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
+    if len(above) == 2 and len(negative) == 1:
+        right = above.context().from_dict(negative)
         return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
     return SidesOfEquation(_polynomial(above, names), "0")
 
@@ -177,15 +178,6 @@ def _power_in_linear_factors(polynomial: Any) -> _SolvedFor | None:
         if all(factor.total_degree() == 1 for factor, _ in value.top):
             return _SolvedFor(polynomial.context().gen(i) ** degree, [[value]])
     return None
-
-
-def _negative_one_of_two(polynomial: Any) -> Any:
-    """Minus the negative one of two terms with different signs; None for any other polynomial."""
-    terms = polynomial.to_dict()
-    negative = {exponents: -int(c) for exponents, c in terms.items() if int(c) < 0}
-    if len(terms) != 2 or len(negative) != 1:
-        return None
-    return polynomial.context().from_dict(negative)
 
 
 def root_written(square: Poly, factor: str = "") -> str:
@@ -237,7 +229,11 @@ class _FormulaTerm:
 def _forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
     """Sums of terms that are equal to the quotient of two polynomials over Z; the last one is in factors, if it isn't 0."""
     whole = [_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]
-    apart = _term_by_term(above, below)
+    apart = []  # each of a few terms over a monomial
+    most = 2 if below.is_constant() else _TERMS
+    if len(below) == 1 and 1 < len(above) <= most:
+        single = [above.context().from_dict({exponents: c}) for exponents, c in above.to_dict().items()]
+        apart.append([_factored(term, below) for term in single])
     if below.is_constant():
         yield whole
         yield from apart
@@ -253,16 +249,6 @@ def _forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
             generator = above.context().gen(i)
             yield [_factored(part * generator**power, below) for power, part in sorted(parts.items())]
     yield [_factored(above, below)]
-
-
-def _term_by_term(above: Any, below: Any) -> list[list[_FormulaTerm]]:
-    """The form in which each of a few terms stands over a monomial; none for other quotients."""
-    most = 2 if below.is_constant() else _TERMS
-    is_short = len(below) == 1 and 1 < len(above) <= most
-    if not is_short:
-        return []
-    terms = above.to_dict().items()
-    return [[_factored(above.context().from_dict({exponents: c}), below) for exponents, c in terms]]
 
 
 def _factored(above: Any, below: Any) -> _FormulaTerm:

@@ -8,7 +8,7 @@ has a root among these integers, null where there are too many; and an invariant
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -50,9 +50,8 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         structures = [structure.value for structure in statement.structures]
         return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
     if isinstance(statement, Both | Either):
-        parts = [statement_data(part) for part in statement.parts]
         kind = "and" if isinstance(statement, Both) else "or"
-        return {"kind": kind, "parts": parts}
+        return {"kind": kind, "parts": [*map(statement_data, statement.parts)]}
     raise TypeError(f"{type(statement).__name__} isn't a kind of statement that is written")
 
 
@@ -180,9 +179,24 @@ class StatementReader:
     def statement(self, data: Mapping[str, Any]) -> Statement:
         """The statement that `statement_data` wrote.  Raises `InputError` for any other data."""
         kind = data.get("kind")
-        if not isinstance(kind, str) or kind not in _READERS:
-            raise InputError(f"{kind!r} isn't a kind of condition")
-        return _READERS[kind](self, data)
+        match kind:
+            case "zero":
+                return Vanishes(self.polynomial(data["function"]))
+            case "and" | "or":
+                parts = tuple(map(self.statement, data["parts"]))
+                return Both(parts) if kind == "and" else Either(parts)
+            case "lattice":
+                equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
+                return Congruence.make(equation, _residues(data), fraction(data["modulus"]))
+            case "integer root":
+                equation = self.polynomial(data["equation"], data.get("unknown", "x"))
+                return Congruence(equation, _residues(data), fraction(data["modulus"]))
+            case "natural number":
+                return self.natural(data)
+            case "schwarz":
+                squares = self.polynomial(data["squares"], data.get("unknown", "x"))
+                return Schwarz(squares, tuple(map(Structure, data["structures"])))
+        raise InputError(f"{kind!r} isn't a kind of condition")
 
     def region(self, data: Mapping[str, Any]) -> ParameterRegion:
         """What `region_data` wrote."""
@@ -194,21 +208,6 @@ class StatementReader:
             shown_degree=len(data["determinants"]) - 1 if "determinants" in data else None,
         )
 
-    def statements(self, data: Mapping[str, Any]) -> tuple[Statement, ...]:
-        """The parts of one that is made of others."""
-        return tuple(map(self.statement, data["parts"]))
-
-    def vanishes(self, data: Mapping[str, Any]) -> Statement:
-        return Vanishes(self.polynomial(data["function"]))
-
-    def lattice(self, data: Mapping[str, Any]) -> Statement:
-        equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
-        return Congruence.make(equation, _residues(data), fraction(data["modulus"]))
-
-    def integer_root(self, data: Mapping[str, Any]) -> Statement:
-        equation = self.polynomial(data["equation"], data.get("unknown", "x"))
-        return Congruence(equation, _residues(data), fraction(data["modulus"]))
-
     def natural(self, data: Mapping[str, Any]) -> Statement:
         letter = data.get("unknown", "x")
         equations = None
@@ -217,23 +216,7 @@ class StatementReader:
         S = self.function(data["S"], data["variable"])
         return Natural(S, data["degree"], equations, Structure(data["structure"]))
 
-    def schwarz(self, data: Mapping[str, Any]) -> Statement:
-        squares = self.polynomial(data["squares"], data.get("unknown", "x"))
-        return Schwarz(squares, tuple(map(Structure, data["structures"])))
-
 
 def _residues(data: Mapping[str, Any]) -> tuple[Fraction, ...]:
     """The classes; that of 0 where none are written."""
     return tuple(map(Fraction, data.get("residues", [0])))
-
-
-#: How each kind of statement is read.
-_READERS: dict[str, Callable[[StatementReader, Mapping[str, Any]], Statement]] = {
-    "zero": StatementReader.vanishes,
-    "and": lambda reader, data: Both(reader.statements(data)),
-    "or": lambda reader, data: Either(reader.statements(data)),
-    "lattice": StatementReader.lattice,
-    "integer root": StatementReader.integer_root,
-    "natural number": StatementReader.natural,
-    "schwarz": StatementReader.schwarz,
-}

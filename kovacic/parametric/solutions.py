@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, reduce
 from itertools import chain, count, product
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 
@@ -30,7 +30,7 @@ from kovacic.limits import Budget
 from kovacic.numbers.exact import has_long_numbers
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose
-from kovacic.parametric.exponents import Exponents, LocalPart, local_parts
+from kovacic.parametric.exponents import Exponents, local_parts
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.parametric.letters import Letters
 from kovacic.parametric.powers_of_factors import gathered
@@ -283,14 +283,7 @@ def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution |
     return None if together is None else together(signs)
 
 
-class WeightBySigns(NamedTuple):
-    """The solution for signs, and how many of them there are."""
-
-    solution: BySigns
-    signs: int
-
-
-def weight_by_signs(problem: Problem, variable: str) -> WeightBySigns | None:
+def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
     """exp(int theta), by which P of the `degree` is a solution, for all choices of the exponents, which signs choose.
 
     None where the exponents need too large an extension, or other roots than square roots.
@@ -304,27 +297,18 @@ def weight_by_signs(problem: Problem, variable: str) -> WeightBySigns | None:
         y = degree = sympy.Integer(1)
         left = list(signs)
         for choices in parts:
-            sign = left.pop(0) if len(choices) > 1 else None
-            exponent, main = _with_sign(choices, sign, x)
+            exponent = choices[0].exponent.to_sympy(x)
+            main = choices[0].main.to_sympy(x)
+            if len(choices) > 1:  # the first one for the sign 1, the other one for -1
+                sign = left.pop(0)
+                other = choices[-1].exponent.to_sympy(x)
+                exponent = sympy.factor((exponent + other) / 2) + sign * sympy.factor((exponent - other) / 2)
+                main *= sign
             y *= _local_factor(choices[0].factor, exponent, main, x)
             degree -= exponent
         return PolynomialSolution(y, sympy.expand(degree))
 
-    number_of_signs = sum(len(choices) > 1 for choices in parts)
-    return WeightBySigns(by_signs, number_of_signs)
-
-
-def _with_sign(choices: Sequence[LocalPart], sign: Any, x: Any) -> tuple[Any, Any]:
-    """Exponent and main part of the first of two choices for the sign 1, of the other one for -1; or of the only one."""
-    first = choices[0]
-    exponent = first.exponent.to_sympy(x)
-    main = first.main.to_sympy(x)
-    if sign is None:
-        return exponent, main
-    other = choices[-1].exponent.to_sympy(x)
-    mean = sympy.factor((exponent + other) / 2)
-    difference = sympy.factor((exponent - other) / 2)
-    return mean + sign * difference, sign * main
+    return Signed(lambda: by_signs, sum(len(choices) > 1 for choices in parts))
 
 
 def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:

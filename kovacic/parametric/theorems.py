@@ -51,6 +51,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from itertools import chain
 from math import gcd
 from typing import Any, NamedTuple
 
@@ -143,7 +144,10 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
     if not riemann.is_fuchsian(problem):
         return None
-    for coordinate, equation in _quotients(problem, variable):
+    quotients = (
+        (one.coordinate, one.quotient(problem)) for one in symmetries(problem, variable) if one.coordinate.n > 1
+    )
+    for coordinate, equation in chain([(Coordinate(variable), problem)], quotients):
         if not riemann.is_fuchsian(equation) or riemann.singular_points(equation) > 3:
             continue
         points = "singular points" if coordinate.n == 1 else f"singular points in `{coordinate}`"
@@ -153,21 +157,18 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     return None
 
 
-def _quotients(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Problem]]:
-    """The equation itself, and those that it becomes in z = s^n, n > 1."""
-    yield Coordinate(variable), problem
-    for symmetric in symmetries(problem, variable):
-        if symmetric.coordinate.n > 1:
-            yield symmetric.coordinate, symmetric.quotient(problem)
-
-
 def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRegion]:
     """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it.
 
     `origin` has the solutions where the equation in z = x^n is reducible.
     """
     for structure, statement in riemann.structures(problem):
-        yield from _smaller_in_x(problem, structure, n)
+        # Where an equation in z = x^n with this structure is one with a smaller group in x, with other solutions.
+        if structure is Structure.IMPRIMITIVE and n % 2 == 0:
+            yield ParameterRegion(_with_denominators(problem, (2, 2)), RegionVerdict(Structure.REDUCIBLE))
+        if structure is Structure.TETRAHEDRAL and n % 3 == 0:
+            quaternion = RegionVerdict(Structure.IMPRIMITIVE, family=("the quaternion group",))
+            yield ParameterRegion(_with_denominators(problem, (3, 3, 2)), quaternion)
         family = riemann.group(problem, structure)
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             family = ("binary tetrahedral, or octahedral",)
@@ -176,19 +177,6 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
             solutions = origin
         verdict = RegionVerdict(structure, family=family, abelian=riemann.abelian(problem, structure))
         yield ParameterRegion(statement, verdict, origin=solutions)
-
-
-def _smaller_in_x(problem: Problem, structure: Structure, n: int) -> Iterator[ParameterRegion]:
-    """Where an equation in z = x^n with a structure is one with a smaller group in x.
-
-    Two half-integers make the one in x reducible, for an even n, with other solutions than those in z.
-    """
-    if structure is Structure.IMPRIMITIVE and n % 2 == 0:
-        diagonal = _with_denominators(problem, (2, 2))
-        yield ParameterRegion(diagonal, RegionVerdict(Structure.REDUCIBLE))
-    if structure is Structure.TETRAHEDRAL and n % 3 == 0:
-        threefold = _with_denominators(problem, (3, 3, 2))
-        yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family=("the quaternion group",)))
 
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:

@@ -328,9 +328,9 @@ class _TheoremWriter:
 
         P = sympy.Symbol(f"P_{natural.letter}")
         weight = weight_by_signs(analyse(natural.S, Budget(DEFAULT_LIMITS)), self.answer.variable)
-        if weight is None or weight.signs > len(self.signs):
+        solution = None if weight is None or weight.signs > len(self.signs) else weight.general(self.signs)
+        if solution is None:
             return
-        solution = weight.solution(self.signs)
         if isinstance(region.formulas, GivenSolutions):
             equation, _ = region.formulas.pieces[0]
             solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))

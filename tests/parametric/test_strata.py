@@ -27,6 +27,7 @@ from kovacic.parametric.claims import DegreeExists
 from kovacic.parametric.functions import Classes
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import RegionVerdict
+from kovacic.parametric.solving import integer_condition
 
 x = sympy.Symbol("x")
 #: k g^2 = n^2 and its kin: at the zeros of g, or of a product, every k is possible.
@@ -75,8 +76,10 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
     "a stratum isn't said": ("k*(1+g/x)", "kovacic.parametric.solving.on_zeros", lambda rest, zero: rest * 0 + 1),
     "a class is wrong": (
         "k*(1+g/x)",
-        "kovacic.parametric.integers.Classes",
-        lambda residues, modulus: Classes(residues, 2 * modulus),
+        "kovacic.parametric.integers.integer_condition",
+        lambda equation, numbers, *rest: integer_condition(
+            equation, Classes(numbers.residues, 2 * numbers.modulus), *rest
+        ),
     ),
     "a gauge is the generic one": (
         "(1+L*x)*y''+b*y'+c*y=0",
@@ -88,16 +91,19 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
         "kovacic.parametric.solutions.translated",
         lambda y, equation: y + x**7,
     ),
-    "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems._verdict", lambda form: G_M),
+    "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems.RegionVerdict", lambda *_, **__: G_M),
 }
 G_M = RegionVerdict(Structure.REDUCIBLE, family=("G_m",), abelian=("abelian",))
 
 
 @pytest.mark.parametrize("fault", PLANTED)
-def test_conditions_that_are_false_never_leave(fault: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_conditions_that_are_false_never_leave(
+    fault: str, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
     S, where, wrong = PLANTED[fault]
     monkeypatch.setattr(where, wrong)
     solutions._given.cache_clear()  # what was right before
+    request.addfinalizer(solutions._given.cache_clear)
     with pytest.raises(kovacic.VerificationFailed, match="failed their own check"):
         kovacic.conditions(S, var="x", max_degree=0)
 
