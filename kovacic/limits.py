@@ -91,9 +91,8 @@ def seconds_of(given: Any, name: str) -> float | None:
         seconds = float(given)
     else:
         exact = exact_real(given, name)
-        seconds = (
-            float(exact) if abs(exact) < 10**300 else inf * (1 if exact > 0 else -1)
-        )  # infinite beyond the doubles
+        seconds = float(exact) if abs(exact) < 10**300 else inf
+        seconds = seconds if exact >= 0 else -inf
     if seconds < 0:
         raise InputError(f"{name} = {plain_text(given)[:60]}: a time isn't negative")
     return seconds
@@ -147,10 +146,7 @@ class Budget:
 
     def check(self) -> None:
         if CLOCK.now() > self._deadline:
-            raise self._used_up()
-
-    def _used_up(self) -> LimitExceeded:
-        return LimitExceeded(f"the time limit of {self.seconds:g} s is used up", limit="seconds")
+            raise LimitExceeded(f"the time limit of {self.seconds:g} s is used up", limit="seconds")
 
     @property
     def seconds_left(self) -> float:
@@ -181,14 +177,12 @@ class Budget:
 _WATCHED: ContextVar[Budget | None] = ContextVar("watched", default=None)
 
 
+@dataclass
 class _Work:
-    """The amount of work that may still be counted, and the bound."""
+    """The bound on the work, and the amount that may still be counted."""
 
-    __slots__ = ("left", "most")
-
-    def __init__(self, most: int) -> None:
-        self.most = most
-        self.left = most
+    most: int
+    left: int
 
 
 _COUNTED_WORK: ContextVar[_Work | None] = ContextVar("counted", default=None)
@@ -204,7 +198,7 @@ def bounded_work(most: int) -> Iterator[None]:
     Traceback (most recent call last):
     kovacic.errors.LimitExceeded: more than 3 units of work are needed
     """
-    token = _COUNTED_WORK.set(_Work(most))
+    token = _COUNTED_WORK.set(_Work(most, left=most))
     try:
         yield
     finally:
@@ -249,8 +243,8 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
 def check_time() -> None:
     """Raise `LimitExceeded` if the watched budget has expired."""
     budget = _WATCHED.get()
-    if budget is not None and CLOCK.now() > budget._deadline:
-        raise budget._used_up()
+    if budget is not None:
+        budget.check()
 
 
 def watched_seconds(most: float) -> float:

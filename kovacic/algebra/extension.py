@@ -18,7 +18,7 @@ from flint import fmpq, nmod_poly
 
 from kovacic.algebra import splitting
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
-from kovacic.algebra.lifting import Lifter, inverse_by_primes
+from kovacic.algebra.lifting import Lifter, inverse_by_primes, lifted
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import characteristic_polynomial, coefficients_from_traces, power_sums
@@ -315,17 +315,7 @@ def _root_by_primes(element: Poly, f: Poly, modulus: Poly) -> Poly:
         return -A * inverse % reduced
 
     # y = -A(e)/B(e), since f(y) = A(e) + y B(e) = 0 for y^2 = e.
-    lifter = Lifter(element.field)
-    for bundle in element.field.bundles():
-        check_time()
-        try:
-            images = [[root_modulo(h)] for h in bundle]
-        except BadPrimeError:
-            continue
-        proposal = lifter.add(bundle, images)
-        if proposal is not None and not (proposal[0] * proposal[0] - element) % modulus:
-            return proposal[0]
-    raise AssertionError("there are infinitely many primes")
+    return lifted(element.field, root_modulo, lambda root: not (root * root - element) % modulus)
 
 
 def norm(polynomial: Poly) -> Poly:

@@ -6,7 +6,7 @@ A field reduces its elements to coordinates modulo p (`Field.coordinates`); thes
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from itertools import count
 from typing import Any
@@ -88,6 +88,20 @@ class Lifter:
         return None if proposal is None else self._field.assemble(proposal)
 
 
+def lifted(field: Field, image: Callable[[Homomorphism], Any], is_right: Callable[[Poly], bool]) -> Poly:
+    """The polynomial with these images modulo primes, which is verified; `image` may raise `BadPrimeError`."""
+    lifter = Lifter(field)
+    for bundle in field.bundles():
+        check_time()
+        try:
+            proposal = lifter.add(bundle, [[image(h)] for h in bundle])
+        except BadPrimeError:
+            continue
+        if proposal is not None and is_right(proposal[0]):
+            return proposal[0]
+    raise AssertionError("there are infinitely many primes")
+
+
 def inverse_by_primes(element: Poly, modulus: Poly) -> Any:
     """The inverse modulo a polynomial, from inverses modulo primes: as many as the result needs.
 
@@ -95,21 +109,15 @@ def inverse_by_primes(element: Poly, modulus: Poly) -> Any:
     """
     if element.gcd(modulus).degree > 0:
         raise ZeroDivisionError("not invertible: the polynomials have a common factor")
-    lifter = Lifter(element.field)
-    for bundle in element.field.bundles():
-        check_time()
-        try:
-            moduli = [h.keeping_degree(modulus) for h in bundle]
-            found = [h(element).xgcd(reduced) for h, reduced in zip(bundle, moduli, strict=True)]
-        except BadPrimeError:
-            continue
-        if any(common.degree() > 0 for common, _, _ in found):
-            continue
-        images = [[cofactor % reduced] for (_, cofactor, _), reduced in zip(found, moduli, strict=True)]
-        proposal = lifter.add(bundle, images)
-        if proposal is not None and (proposal[0] * element - 1) % modulus == 0:
-            return proposal[0]
-    raise AssertionError("there are infinitely many primes")
+
+    def inverse_modulo_prime(h: Homomorphism) -> Any:
+        reduced = h.keeping_degree(modulus)
+        common, cofactor, _ = h(element).xgcd(reduced)
+        if common.degree() > 0:
+            raise BadPrimeError("not invertible modulo this prime")
+        return cofactor % reduced
+
+    return lifted(element.field, inverse_modulo_prime, lambda inverse: (inverse * element - 1) % modulus == 0)
 
 
 class Residues(Collector):

@@ -34,6 +34,7 @@ from typing import Any
 from sympy import Add, Integer, Symbol, expand, symbols, sympify
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.factors import combination
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.engine.places import Kind, Place, Problem
@@ -44,13 +45,12 @@ from kovacic.limits import check_time
 #: Families that are enumerated, or sums that are counted apart; all of a few are shown and tried.
 _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
-#: Points beyond which families aren't counted.
-_MOST_SUMMED_POINTS = 24
+#: The highest order of a pole: longer singular parts fill a screen each.
 _HIGHEST_POLE_ORDER = 40
 #: The degree over Q of the coefficients of r, and the one from which on no further roots are adjoined.
 _HIGHEST_DEGREE = 6
 _MOST_ROOTS = 256
-#: Multiplications of coefficients.
+#: Multiplications of coefficients for all trials together: a few seconds.
 _MOST_TRIAL_WORK = 1_000_000
 #: Coefficients of P whose conditions are written out.
 _MOST_UNKNOWNS = 3
@@ -229,9 +229,7 @@ def _points_of_place(place: Place, roots: Roots) -> list[SingularPoint]:
 
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:
-    """The number of families with a natural d, conjugate poles counted one by one; None for many poles."""
-    if len(points) > _MOST_SUMMED_POINTS:
-        return None
+    """The number of families with a natural d, conjugate poles counted one by one; None for too many sums."""
     # By d, and whether all e are even so far, which for m = 2 excludes the family.
     sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
     for point, chosen in zip(points, choices, strict=True):
@@ -366,7 +364,13 @@ class _Trial:
         # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
         images = [numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]
         theta = self._theta(family)
-        P = _highest_null_polynomial(images)
+        # P of the highest degree: x^k - c_(k-1) x^(k-1) - ... - c_0, if the image of x^k is the sum of c_j times that of x^j.
+        P = None
+        for k in reversed(range(d + 1)):
+            found = combination(images[k], images[:k])
+            if found is not None:
+                P = self.field.poly([*(-c for c in found), 1])
+                break
         if P is not None or d > _MOST_UNKNOWNS:
             return replace(family, theta=theta, P=P)
         unknowns, conditions = _vanishing_conditions(images, parameters_of(self.field))
@@ -396,25 +400,6 @@ class _Trial:
             terms += [in_sympy(c, x) * base**power for power, c in choice.singular]
         terms += [in_sympy(c, x) * x**power for power, c in at_infinity.singular]
         return Add(*terms)
-
-
-def _highest_null_polynomial(images: Sequence[Poly]) -> Poly | None:
-    """The monic polynomial P of the highest degree whose image is zero, those of 1, x, x^2, ... being given."""
-    found = None
-    reduced = dict[int, tuple[Poly, Poly]]()
-    x = images[0].field.poly([0, 1])
-    for k, image in enumerate(images):
-        P = x**k
-        while image and image.degree in reduced:
-            other, Q = reduced[image.degree]
-            factor = image.lc / other.lc
-            image = image - other * factor
-            P = P - Q * factor
-        if image:
-            reduced[image.degree] = image, P
-        else:
-            found = P
-    return found
 
 
 def _vanishing_conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:

@@ -262,15 +262,28 @@ class Solution(Answer):
         Parameters
         ----------
         start, stop : number
-            The ends of the interval, real; singular points between them are marked.
+            The ends of the interval, real, exact: 0.5 and "1/3"; singular points between them are marked.
         title : str
             Above the picture; the equation by default.
         output : str or Path
-            A file to which the picture is saved: png, svg or pdf.
-        x0, y0, dy0, frobenius, which
-            The solution to be drawn; by default y1 and y2 if they are known, else y(x0) = 1, y'(x0) = 0.
-        points, digits, params, method, limits
-            As for `kovacic.views.plot.plot`.
+            A file to which the picture is saved; its suffix is png, svg or pdf.
+        x0, y0, dy0 : number
+            The solution with y(x0) = y0 and y'(x0) = dy0, 1 and 0 by default, x0 being `start` by default.  Without any of
+            them y1 and y2 are drawn if they are known, else the solution with the default values at the middle of the longest
+            interval without singular points.  The legend says which.
+        frobenius, which
+            The solution at a singular point x0 instead, as for `kovacic.evaluate`.
+        points : int
+            The least number of samples, 400 by default; more are taken where the solution oscillates or bends.
+        digits : int
+            The accuracy of the samples: 8 by default.
+        params, method, limits
+            As for `kovacic.evaluate`.
+
+        Raises
+        ------
+        InputError
+            Unless start < stop, and as `kovacic.evaluate`.
 
         Examples
         --------

@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
@@ -198,57 +197,9 @@ def plot(
 ) -> Figure:
     """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero.
 
-    Parameters
-    ----------
-    equation
-        S or an equation, as for `kovacic.evaluate`, real for real x.  For an answer of `solve`, without initial values, its
-        solutions y1 and y2 are drawn.
-    start, stop : number
-        The ends of the interval, real, exact: 0.5 and "1/3".  Singular points may lie between them; they are marked.
-    title : str
-        Above the picture; the equation by default.
-    output : str or Path
-        A file to which the picture is saved; its type follows the suffix (png, svg, pdf).  None by default: nothing is saved.
-    x0 : number
-        Where the initial values are given, real; by default `start`, or the middle of the longest interval without singular
-        points where there are no values.  The legend says where.
-    y0, dy0 : number
-        y(x0) and y'(x0); 1 and 0 by default.
-    frobenius, which
-        Or else the solution at a singular point x0, as for `kovacic.evaluate`.
-    points : int
-        The least number of samples, 400 by default; more are taken where the solution oscillates or bends.
-    digits : int
-        To how many digits they are found: 8 by default.
-    params : mapping
-        Values of the parameters by name: {"a": 2}.
-    var : str
-        The name of the variable, where the equation is text or a SymPy expression; by default as for `kovacic.solve`.
-    method : str
-        "taylor" or "closed form"; by default the one that is faster for this equation.
-    limits : Limits
-        Bounds on the work; by default those of `Limits()`.
+    `equation` is an answer of `solve`, S or an equation, as for `kovacic.evaluate`, real for real x; `var` is its variable, and
+    `Solution.plot` describes the other keywords.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Not shown anywhere, unless it is the result of a notebook's cell.
-
-    Raises
-    ------
-    InputError
-        If start isn't below stop, and what `kovacic.evaluate` raises.
-    TypeError
-        For an unknown keyword.
-
-    Examples
-    --------
-    The solutions of an answer, the solution with given values, and a picture in a file:
-
-    >>> import io, kovacic
-    >>> figure = plot(kovacic.solve("x^2 + 3"), -1, 1, points=20)
-    >>> [line.get_label()[:4] for line in figure.axes[0].get_lines()][:2]
-    ['$y_1', '$y_2']
     >>> figure = plot("a*x", -5, 1, x0=0, y0=1, dy0=0, params={"a": 1}, title="Airy", points=20)
     >>> figure.axes[0].get_title()
     'Airy'
@@ -290,7 +241,12 @@ def plot(
     figure.legend(loc="outside lower center", ncols=ncols, frameon=False, fontsize=size)
     if output is not None:
         figure.savefig(output, dpi=150)
-    figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
+
+    def png() -> bytes:
+        figure.savefig(file := BytesIO(), format="png")
+        return file.getvalue()
+
+    figure._repr_png_ = png  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
     return figure
 
 
@@ -412,17 +368,7 @@ def _solution_curves(
     import sympy
 
     x = sympy.Symbol(_axis_names(answer)[0])
-    form = derived.closed_form(answer)
-    pair = tuple(derived.special(answer) if form is None else form)
-    try:
-        letters = {name: read_expression(plain_text(value)) for name, value in (options.get("params") or {}).items()}
-    except InputError:  # an enclosure, which no formula has
-        return []
-    pair = tuple(y.subs(letters) for y in pair)
-    for y in pair:
-        is_long = has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED
-        if is_long or y.has(sympy.Integral) or not y.free_symbols <= {x}:
-            return []
+    pair = _evaluable_pair(answer, x, options.get("params") or {})
     if not pair:
         return []
     a, b = _interval_of(start, stop)
@@ -440,24 +386,42 @@ def _solution_curves(
         asked: PlotOptions = {**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])}
         return sample(answer, start, stop, **asked)
 
-    names = [_typeset(f"{_axis_names(answer)[1]}_{k}") for k in (1, 2)]
-    if len(_independent(list(zip(names, data, strict=True)))) < 2:  # for these values of parameters
+    solutions = [(_typeset(f"{_axis_names(answer)[1]}_{k}"), values) for k, values in enumerate(data, start=1)]
+    if len(_independent(solutions)) < 2:  # for these values of parameters
         return []
     if len(intervals) == 1 and not all(value.is_real for values in data for value in values):
         # The equation is real: real and imaginary parts solve it on an interval without a singular point.
-        parts = [
-            (f"{part} {name}", [take(value) for value in values])
-            for name, values in zip(names, data, strict=True)
-            for part, take in (("Re", sympy.re), ("Im", sympy.im))
-        ]
+        parts = []
+        for name, values in solutions:
+            parts += [
+                (f"Re {name}", [sympy.re(value) for value in values]),
+                (f"Im {name}", [sympy.im(value) for value in values]),
+            ]
         return [(_Label(name), sampled(values)) for name, values in _independent(parts)]
     found = []
-    for name, y, values in zip(names, pair, data, strict=True):
+    for (name, values), y in zip(solutions, pair, strict=True):
         curve = sampled(values)
         text = of_sympy(y)
         is_shown = len(text.text) <= _LONGEST_LABEL and _agrees(y, x, curve)
         found.append((_Label(name, text.latex if is_shown else ""), curve))
     return found
+
+
+def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> list[Any]:
+    """The formulas of y1 and y2 for these values of parameters; empty unless SymPy evaluates them in a moment."""
+    import sympy
+
+    form = derived.closed_form(answer)
+    try:
+        letters = {name: read_expression(plain_text(value)) for name, value in params.items()}
+    except InputError:  # an enclosure, which no formula has
+        return []
+    pair = [y.subs(letters) for y in (derived.special(answer) if form is None else form)]
+    for y in pair:
+        is_long = has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED
+        if is_long or y.has(sympy.Integral) or not y.free_symbols <= {x}:
+            return []
+    return pair
 
 
 def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
@@ -572,8 +536,3 @@ def _cut_axis(axes: Axes, lines: list[_DrawnPart], width: float) -> None:
         low, high = axes.get_ylim()
         axes.set_ylim(max(low, -1.1 * height), min(high, 1.1 * height))
         axes.set_ylabel(f"{axes.get_ylabel()} (cut off at {height:.2g})")
-
-
-def _png(figure: Figure) -> bytes:
-    figure.savefig(file := BytesIO(), format="png")
-    return file.getvalue()
