@@ -36,9 +36,7 @@ def function_of_x(equation: Equation) -> Any:
 
 def user_variable(equation: Equation) -> Any:
     """x as a SymPy symbol."""
-    if equation.change is None:
-        return sympy.Symbol(equation.variable)
-    return sympy.Symbol(equation.change.variable)
+    return sympy.Symbol(equation.variable if equation.change is None else equation.change.variable)
 
 
 def is_of_a_line(equation: Equation) -> bool:
@@ -85,15 +83,19 @@ def in_x(equation: Equation, expression: Any) -> Any:
     own = sympy.Symbol(equation.variable)
     x = user_variable(equation)
     t = function_of_x(equation)
-    with_integrals = _with_integrals_in_x(equation, expression)
+    integrals = {  # int f(t(x)) t'(x) dx for int f(t) dt
+        integral: sympy.Integral(in_x(equation, integral.function) * t.diff(x), x)
+        for integral in expression.atoms(sympy.Integral)
+        if integral.limits == (sympy.Tuple(own),)
+    }
+    with_integrals = expression.xreplace(integrals)
     if is_power(equation):
         return _with_powers(with_integrals, own, t.exp, x)
     result = _continued(with_integrals.xreplace({own: t}), t)
-    if t.func in (sympy.cos, sympy.cosh):
-        return _with_half_angles(result, t)
-    if t.func is sympy.exp:
-        return _with_joined_powers(result, x)
-    return result
+    if t.func in _SINES:  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
+        roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
+        return result.xreplace({e: _by_halves(t, e) for e in roots})
+    return _with_joined_powers(result, x) if t.func is sympy.exp else result
 
 
 #: For t(w): what an inverse function of t is, a polynomial q(t), and the function s with q(t) = s^2, where w is between 0 and
@@ -124,18 +126,6 @@ def _continued(expression: Any, t: Any) -> Any:
     square, other, sign = _ROOTS[t.func]
     powers = {e for e in expression.atoms(sympy.Pow) if e.base == square(t) and (2 * e.exp).is_Integer}
     return expression.xreplace({e: other(w) ** (2 * sign * e.exp) for e in powers})
-
-
-def _with_integrals_in_x(equation: Equation, expression: Any) -> Any:
-    """With int f(t(x)) t'(x) dx in the place of int f(t) dt."""
-    own = sympy.Symbol(equation.variable)
-    x = user_variable(equation)
-    slope = function_of_x(equation).diff(x)
-    integrals: dict[Any, Any] = {}
-    for integral in expression.atoms(sympy.Integral):
-        if integral.limits == (sympy.Tuple(own),):
-            integrals[integral] = sympy.Integral(in_x(equation, integral.function) * slope, x)
-    return expression.xreplace(integrals)
 
 
 def solution_in_x(equation: Equation, y: Any) -> Any:
@@ -184,26 +174,23 @@ def with_roots_of_factors(expression: Any, x: Any) -> Any:
 def _with_joined_powers(expression: Any, x: Any) -> Any:
     """One exponential function in each product, hyperbolic functions for exp(k x) + 1, no logarithm of an exponential."""
 
-    def is_product_with_x(e: Any) -> bool:
-        return bool(e.is_Pow and e.base.is_Mul and e.base.has(x))
-
     def is_log_of_exponential(e: Any) -> bool:
         return e.func is sympy.log and e.args[0].func is sympy.exp
+
+    def is_exponential_and_one(e: Any) -> bool:
+        return bool(e.is_Add and len(e.args) == 2 and e.args[0] in (1, -1) and e.args[1].func is sympy.exp)
+
+    def is_product_with_x(e: Any) -> bool:
+        return bool(e.is_Pow and e.base.is_Mul and e.base.has(x))
 
     def is_power_of_exponential(e: Any) -> bool:
         return bool(e.is_Pow and e.base.func is sympy.exp)
 
     found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
-    found = found.replace(_is_exponential_and_one, _hyperbolic)
+    found = found.replace(is_exponential_and_one, _hyperbolic)
     found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True))
     found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
     return sympy.powsimp(found, combine="exp")
-
-
-def _with_half_angles(expression: Any, t: Any) -> Any:
-    """With roots of t + 1 and t - 1, for a cosine t, as powers that join where t is 1 or -1."""
-    roots = {e for e in expression.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
-    return expression.xreplace({e: _by_halves(t, e) for e in roots})
 
 
 #: The function s with t - 1 = 2 sign s(w/2)^2 for t = cos(w) or cosh(w), and the sign.
@@ -216,22 +203,12 @@ def _by_halves(t: Any, power: Any) -> Any:
     if power.base == t + 1:
         return sympy.Integer(2) ** power.exp * t.func(half) ** (2 * power.exp)
     function, sign = _SINES[t.func]
-    if power.base != t - 1:
-        sign = -sign
-    return sympy.Integer(2 * sign) ** power.exp * function(half) ** (2 * power.exp)
-
-
-def _is_exponential_and_one(e: Any) -> bool:
-    """exp(w) + 1 or exp(w) - 1."""
-    if not e.is_Add or len(e.args) != 2:
-        return False
-    number, other = e.args
-    return number in (1, -1) and other.func is sympy.exp
+    factor = sympy.Integer(2 * sign if power.base == t - 1 else -2 * sign)
+    return factor**power.exp * function(half) ** (2 * power.exp)
 
 
 def _hyperbolic(e: Any) -> Any:
     """exp(w) + 1 = 2 exp(w/2) cosh(w/2), and exp(w) - 1 with sinh."""
     number, exponential = e.args
     half = exponential.exp / 2
-    function = sympy.cosh if number == 1 else sympy.sinh
-    return 2 * sympy.exp(half) * function(half)
+    return 2 * sympy.exp(half) * (sympy.cosh(half) if number == 1 else sympy.sinh(half))

@@ -83,8 +83,12 @@ class Constants:
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
-        if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:
-            return _root_of_large(radicand).over(self.field)
+        if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:  # too long for a name
+            root = QQ.sqrt(radicand)
+            if root is None:
+                said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
+                raise LimitExceeded(said, limit="bits")
+            return root.over(self.field)
         if not value:
             return self._with_parameters(value)
         rational = self.numbers.rational_value(value)
@@ -124,8 +128,9 @@ class Constants:
         if node is sympy.I:
             return self.radical(QQ.poly([-1]), 2, "I")
         exact = node.as_expr() if isinstance(node, sympy.AlgebraicNumber) else node
+        minimal = exact.poly if isinstance(exact, sympy.CRootOf) else None
         try:
-            minimal = _minimal_polynomial(exact)
+            minimal = minimal or sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
         except NotImplementedError:
             return None
         coefficients = [Fraction(int(c.p), int(c.q)) for c in reversed(minimal.all_coeffs())]
@@ -145,7 +150,10 @@ class Constants:
         factor = vanishing_factor(equation, target)
         if factor.degree == 1:
             return -factor[0]
-        self._check_degree(factor.degree * self.numbers.absolute_degree)
+        degree = factor.degree * self.numbers.absolute_degree
+        if degree > self.limits.constants:
+            said = f"constants in a field of degree {degree} over the rational numbers, above the limit of"
+            raise LimitExceeded(f"{said} {self.limits.constants}", limit="constants")
         is_irreducible = factor.degree == equation.degree
         name = label if label and is_irreducible else "alpha"
         theta, root = adjoined_root(factor, target, name)
@@ -153,12 +161,6 @@ class Constants:
         if radical is not None:
             radicals.append(Radical(*radical, root))
         raise Enlarged(replace(self, numbers=root.field, radicals=tuple(radicals)))
-
-    def _check_degree(self, degree: int) -> None:
-        limit = self.limits.constants
-        if degree > limit:
-            said = f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}"
-            raise LimitExceeded(said, limit="constants")
 
     def _with_parameters(self, number: Poly) -> Poly:
         """An element of the number field in the whole field."""
@@ -205,35 +207,11 @@ class Constants:
         numbers = self.numbers
         if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
             real, imaginary = map(float, numbers.approximation or ())
-            where = _complex_text(real, imaginary)
+            where = f"{real:.6g}"
+            if imaginary:
+                where += f" {'-' if imaginary < 0 else '+'} {abs(imaginary):.6g}*I"
             found.append(f"alpha is the root of {numbers.modulus.to_str('alpha')} near {where}")
         return found
-
-
-def _minimal_polynomial(number: Any) -> Any:
-    """SymPy's polynomial over Q.  Raises `NotImplementedError` where SymPy has none."""
-    import sympy
-
-    if isinstance(number, sympy.CRootOf):
-        return number.poly
-    return sympy.minimal_polynomial(number, sympy.Dummy(), polys=True)
-
-
-def _root_of_large(radicand: Poly) -> Poly:
-    """The root of a rational number that is too long for a name.  Raises `LimitExceeded` where it isn't rational."""
-    root = QQ.sqrt(radicand)
-    if root is None:
-        said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
-        raise LimitExceeded(said, limit="bits")
-    return root
-
-
-def _complex_text(real: float, imaginary: float) -> str:
-    """Six digits of each part."""
-    if imaginary == 0:
-        return f"{real:.6g}"
-    sign = "-" if imaginary < 0 else "+"
-    return f"{real:.6g} {sign} {abs(imaginary):.6g}*I"
 
 
 class Enlarged(Exception):

@@ -37,22 +37,15 @@ class EquationReader(RationalReader):
 
     arithmetic: LinearArithmetic
 
-    def __init__(self, variable: str, unknown: str, limits: Limits, constants: Constants) -> None:
-        arithmetic = LinearArithmetic(limits, variable, unknown, self.coefficient)
-        super().__init__({variable: VARIABLE}, variable, arithmetic, constants)
-        self.unknown = unknown
+    def __init__(self, source: Any, limits: Limits, constants: Constants) -> None:
+        """The `source` says which names are declared, and whether D is an operator, and g(x) a function that is given."""
+        arithmetic = LinearArithmetic(limits, source.variable, source.unknown, self.coefficient)
+        super().__init__({source.variable: VARIABLE}, source.variable, arithmetic, constants)
+        self.source = source
+        self.unknown = source.unknown
+        self.declared = source.declared
         #: The letters that stand for numbers which aren't algebraic.
         self.letters: dict[str, Any] = {}
-        #: D stands for the derivative.
-        self.has_operator = False
-        #: g(x) is a function that is given.
-        self.has_functions = False
-
-    def take_names_of(self, source: Any) -> None:
-        """What a source says of names: which are declared, and whether D is an operator."""
-        self.declared = source.declared
-        self.has_operator = source.has_operator
-        self.has_functions = source.has_functions
 
     def coefficient(self, expression: Any) -> Any:
         """A rational function of x and pi, or of x and e, with a letter for that number."""
@@ -89,7 +82,11 @@ class EquationReader(RationalReader):
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
         order = max((k for k, c in coefficients.items() if c), default=0)
         if order != _ORDER:
-            raise self._of_other_order(order, text)
+            what = f"is of order {order}" if order else f"contains no derivative of {self.unknown}"
+            said = f"an equation of second order is expected, and this one {what}"
+            hint = f"for example {self.unknown}'' = (x^2 + 3) {self.unknown}"
+            position = None if text is None else 0
+            raise NotLinear(said, hint=hint, text=text, position=position, length=len(text or ""))
         h = None
         if not is_rational(rest):
             rest, h = self._rational_part(rest)
@@ -98,29 +95,14 @@ class EquationReader(RationalReader):
         r, c, b, a = (over(coefficients.get(k, nothing), self.constants.field) for k in (REST, 0, 1, 2))
         return Equation(a, b, c, -r, h, self.variable, self.unknown)
 
-    def _of_other_order(self, order: int, text: str | None) -> NotLinear:
-        """What to say of an equation that isn't one of second order."""
-        y = self.unknown
-        what = f"is of order {order}" if order else f"contains no derivative of {y}"
-        said = f"an equation of second order is expected, and this one {what}"
-        hint = f"for example {y}'' = (x^2 + 3) {y}"
-        if text is None:
-            return NotLinear(said, hint=hint)
-        return NotLinear(said, hint=hint, text=text, position=0, length=len(text))
-
     def _rational_part(self, rest: Any) -> tuple[Any, Any]:
         """The rational terms of a SymPy expression, and minus the sum of its other ones, h; None where there are none."""
         from kovacic.reading.symbolic import walked
 
-        rational: list[Any] = [Monomial(0, 0)]
-        others = []
-        for term in rest.as_ordered_terms():
-            value = walked(term, self)
-            if is_rational(value):
-                rational.append(value)
-            else:
-                others.append(term)
-        return self.arithmetic.sum(rational), -sum(others) or None
+        values = {term: walked(term, self) for term in rest.as_ordered_terms()}
+        rational = [value for value in values.values() if is_rational(value)]
+        others = [term for term, value in values.items() if not is_rational(value)]
+        return self.arithmetic.sum([Monomial(0, 0), *rational]), -sum(others) or None
 
     def other_leaf(self, node: Any) -> Any:
         """The unknown function, or a derivative; on the right-hand side a function that isn't rational."""
@@ -134,9 +116,8 @@ class EquationReader(RationalReader):
 
         plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
         if node.func.__name__ == self.unknown:
-            raise NotLinear(
-                f"{plain} beside {self.unknown}({self.variable}): the argument is another one, as with delays"
-            )
+            said = f"{plain} beside {self.unknown}({self.variable}): the argument is another one, as with delays"
+            raise NotLinear(said)
         if any(f.func.__name__ == self.unknown for f in functions_in(plain)):
             raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
         return plain
@@ -151,10 +132,7 @@ class EquationReader(RationalReader):
         order = int(node.derivative_count)
         if self._is_unknown(node.expr):
             return _derivative_of_unknown(order)
-        value = walked(node.expr, self)
-        for _ in range(order):
-            value = self.arithmetic.derivative(value)
-        return value
+        return self._derived(walked(node.expr, self), order)
 
     def _is_unknown(self, node: Any) -> bool:
         """Is it the unknown function of the variable?"""
@@ -165,7 +143,7 @@ class EquationReader(RationalReader):
     def name(self, name: str) -> Any:
         if name == self.unknown:
             return _derivative_of_unknown(0)
-        if name == OPERATOR and self.has_operator:
+        if name == OPERATOR and self.source.has_operator:
             return DerivativeOperator({1: Monomial(1, 0)})
         if name in self.names:
             return self.names[name]
@@ -215,14 +193,19 @@ class EquationReader(RationalReader):
         if head.rstrip(PRIMES) == self.unknown:
             return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
-            return self._differentiated(arguments)
+            function, *by = arguments
+            order = differentiations(by, self._is_variable, self.arithmetic, self.variable)
+            if isinstance(function, tuple) or order > _LARGEST_ORDER:
+                raise NotLinear("this isn't a derivative that can be read")
+            return self._derived(function, order)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise ParseError(f"{head} is followed by a parenthesis like a function", hint=hint)
         try:
             return super().call(head, arguments, site)
         except NotRational:
-            if self.has_functions and head.isidentifier() and len(arguments) == 1 and self._is_variable(arguments[0]):
+            is_given = self.source.has_functions and head.isidentifier()
+            if is_given and len(arguments) == 1 and self._is_variable(arguments[0]):
                 import sympy
 
                 return sympy.Function(head)(sympy.Symbol(self.variable))
@@ -240,24 +223,18 @@ class EquationReader(RationalReader):
         (argument,) = arguments
         if self._is_variable(argument):
             return _derivative_of_unknown(_order_of(head[len(y) :]))
-        hint = None
-        if is_rational(argument) and self.arithmetic.number(argument) is not None:
-            hint = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1"
-        beside = f"{site.text()} beside {y}({self.variable})"
-        raise NotLinear(f"{beside}: the argument is another one, as with delays", hint=hint)
+        is_value = is_rational(argument) and self.arithmetic.number(argument) is not None
+        hint = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1" if is_value else None
+        said = f"{site.text()} beside {y}({self.variable}): the argument is another one, as with delays"
+        raise NotLinear(said, hint=hint)
 
     def _is_variable(self, value: Any) -> bool:
         return is_rational(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
 
-    def _differentiated(self, arguments: list[Any]) -> Any:
-        """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
-        function, *by = arguments
-        order = differentiations(by, self._is_variable, self.arithmetic, self.variable)
-        if isinstance(function, tuple) or order > _LARGEST_ORDER:
-            raise NotLinear("this isn't a derivative that can be read")
+    def _derived(self, value: Any, order: int) -> Any:
         for _ in range(order):
-            function = self.arithmetic.derivative(function)
-        return function
+            value = self.arithmetic.derivative(value)
+        return value
 
 
 def _derivative_of_unknown(order: int) -> LinearForm:

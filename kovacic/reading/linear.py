@@ -98,7 +98,12 @@ class LinearArithmetic(Arithmetic):
             return sympy.Rational(number)
         parts = ([c.to_sympy(x) * x**k for k, c in enumerate(part) if c] for part in function.cleared())
         num, den = (sympy.Add(*terms) for terms in parts)
-        return _with_chosen_root(num / den, function.field)
+        field = function.field
+        # Any name that isn't an identifier is that of a radical.
+        if not isinstance(field, AlgebraicField) or not field.name.isidentifier() or field.name == "I":
+            return num / den
+        root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
+        return (num / den).xreplace({sympy.Symbol(field.name): root})
 
     def _checked(self, value: Any) -> Any:
         """A result of SymPy, a number in our own form."""
@@ -116,13 +121,8 @@ class LinearArithmetic(Arithmetic):
     def sum(self, terms: Sequence[Any]) -> Any:
         if any(isinstance(term, LinearForm) for term in terms):
             return self._sum_of_forms(terms)
-        rational = []
-        others = []
-        for term in terms:
-            if is_rational(term):
-                rational.append(term)
-            else:
-                others.append(term)
+        rational = [term for term in terms if is_rational(term)]
+        others = [term for term in terms if not is_rational(term)]
         if not others:
             return super().sum(rational)
         from sympy import Add
@@ -133,18 +133,19 @@ class LinearArithmetic(Arithmetic):
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
         """The sum, some terms of which have no unknown function."""
-        are_operators = [isinstance(term, DerivativeOperator) for term in terms if isinstance(term, LinearForm)]
-        if any(are_operators) and not all(are_operators):
+        kinds = {type(term) for term in terms if isinstance(term, LinearForm)}
+        if len(kinds) > 1:
             raise NotLinear("an operator beside what it is applied to", hint=f"write (D^2 + 1) {self.unknown} = 0")
-        constant = 0 if any(are_operators) else REST
-        kind = DerivativeOperator if any(are_operators) else LinearForm
+        (kind,) = kinds
         parts: dict[int, list[Any]] = {}
         for term in terms:
+            own: Mapping[int, Any] = {REST: term}
             if isinstance(term, LinearForm):
-                for k, c in term.parts.items():
-                    parts.setdefault(k, []).append(c)
-            else:
-                parts.setdefault(constant, []).append(self._coefficient_of(term) if constant == 0 else term)
+                own = term.parts
+            elif kind is DerivativeOperator:
+                own = {0: self._coefficient_of(term)}
+            for k, c in own.items():
+                parts.setdefault(k, []).append(c)
         return kind({k: self.sum(coefficients) for k, coefficients in parts.items()})
 
     def multiply(self, left: Any, right: Any) -> Any:
@@ -153,13 +154,15 @@ class LinearArithmetic(Arithmetic):
         if isinstance(left, DerivativeOperator):
             return self._applied(left, right if isinstance(right, LinearForm) else DerivativeOperator({0: right}))
         if isinstance(left, LinearForm) and isinstance(right, LinearForm):
-            said = f"a product of {self.unknown} or its derivatives: the equation isn't linear"
-            raise NotLinear(said, hint=LINEAR_HINT)
+            raise self._not_linear(f"a product of {self.unknown} or its derivatives")
         if isinstance(left, LinearForm):
             return self._multiple(left, right)
         if isinstance(right, LinearForm):
             return self._multiple(right, left)
         return self._checked(self.expression(left) * self.expression(right))
+
+    def _not_linear(self, what: str) -> NotLinear:
+        return NotLinear(f"{what}: the equation isn't linear", hint=LINEAR_HINT)
 
     def _multiple(self, form: LinearForm, factor: Any) -> LinearForm:
         """A form times what has no unknown function."""
@@ -180,10 +183,10 @@ class LinearArithmetic(Arithmetic):
         import sympy
 
         function = getattr(sympy, SEVERAL_ARGUMENTS[head])
-        if function is not sympy.Piecewise and not any(isinstance(argument, tuple) for argument in arguments):
-            return self._checked(function(*map(self.expression, arguments)))
-        if function is not sympy.Piecewise or not all(isinstance(argument, tuple) for argument in arguments):
+        if {isinstance(argument, tuple) for argument in arguments} != {function is sympy.Piecewise}:
             raise NotRational(f"{head} doesn't have such arguments", hint=_ARGUMENTS_HINT)
+        if function is not sympy.Piecewise:
+            return self._checked(function(*map(self.expression, arguments)))
         return self._checked(function(*((self.expression(value), self._condition(case)) for value, case in arguments)))
 
     def _condition(self, case: Any) -> Any:
@@ -204,8 +207,7 @@ class LinearArithmetic(Arithmetic):
 
     def divide(self, left: Any, right: Any) -> Any:
         if isinstance(right, LinearForm):
-            said = f"{self.unknown} or a derivative of it in a denominator: the equation isn't linear"
-            raise NotLinear(said, hint=LINEAR_HINT)
+            raise self._not_linear(f"{self.unknown} or a derivative of it in a denominator")
         if isinstance(left, LinearForm):
             return self.multiply(left, self.divide(self.constant(1), right))
         if is_rational(left) and is_rational(right):
@@ -227,9 +229,7 @@ class LinearArithmetic(Arithmetic):
                 power = self._applied(base, power)
             return power
         if n != 1:
-            raise NotLinear(
-                f"a power of {self.unknown} or of a derivative: the equation isn't linear", hint=LINEAR_HINT
-            )
+            raise self._not_linear(f"a power of {self.unknown} or of a derivative")
         return base
 
     def symbolic_power(self, base: Any, exponent: Any) -> Any:
@@ -265,9 +265,8 @@ class LinearArithmetic(Arithmetic):
             self._check_exponent(argument)
         value = getattr(sympy, FUNCTION_NAMES[head])(argument)
         if value.has(sympy.zoo, sympy.nan, sympy.oo):
-            raise InputError(
-                f"{head}({argument}) isn't finite", hint="leave the point out where the function is infinite"
-            )
+            hint = "leave the point out where the function is infinite"
+            raise InputError(f"{head}({argument}) isn't finite", hint=hint)
         return self._checked(value)
 
     def derivative(self, value: Any) -> Any:
@@ -304,15 +303,14 @@ def differentiations(
     order = 0 if by else 1
     follows_variable = False
     for argument in by:
-        if isinstance(argument, tuple) and is_variable(argument[0]):
-            order += order_of(argument[1])
-        elif is_variable(argument):
-            order += 1
-        elif follows_variable and not isinstance(argument, tuple):
+        is_pair = isinstance(argument, tuple)
+        if is_variable(argument[0] if is_pair else argument):
+            order += order_of(argument[1]) if is_pair else 1
+        elif follows_variable and not is_pair:
             order += order_of(argument) - 1
         else:
             raise NotLinear(f"a derivative with respect to something else than {variable}")
-        follows_variable = not isinstance(argument, tuple) and is_variable(argument)
+        follows_variable = not is_pair and is_variable(argument)
     return order
 
 
@@ -321,17 +319,6 @@ def _is_zero(expression: Any) -> bool:
     if expression.is_Mul:
         return any(map(_is_zero, expression.args))
     return not expression.free_symbols and bool(expression.is_zero)
-
-
-def _with_chosen_root(expression: Any, field: Any) -> Any:
-    """With the algebraic number in the place of its name, where it has one."""
-    import sympy
-
-    # Any name that isn't an identifier is that of a radical.
-    if not isinstance(field, AlgebraicField) or not field.name.isidentifier() or field.name == "I":
-        return expression
-    root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
-    return expression.xreplace({sympy.Symbol(field.name): root})
 
 
 class Symbols:

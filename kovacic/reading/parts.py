@@ -20,8 +20,7 @@ Parts = Sequence[Expr]  # a, b, c, r of a y'' + b y' + c y + r = 0
 
 def parts_of(source: Source, limits: Limits) -> tuple[Parts, list[str]]:
     """a, b, c and r, in plain symbols, and what the user should know about how they were read."""
-    reader = EquationReader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
-    reader.take_names_of(source)
+    reader = EquationReader(source, limits, Symbols())  # type: ignore[arg-type]
     reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
     parts = getattr(value, "parts", {}) if source.unknown else {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}

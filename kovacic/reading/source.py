@@ -204,8 +204,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
             return Parsed(S, x, (*source.notes, *reader.notices(), *constants.notices()))
         from kovacic.reading.differential import EquationReader
 
-        reader = EquationReader(x, y, limits, constants)
-        reader.take_names_of(source)
+        reader = EquationReader(source, limits, constants)
         equation = reader.equation_of(source.walk(reader), text)
         notes = (*source.notes, *reader.notices(), *constants.notices(reader.letters))
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))

@@ -89,8 +89,9 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
         return reader.constants.parameter(node.name)
     if node.is_Rational:
         return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
-    if node.is_Float and node.is_finite:
-        exact = _exact_value(node)
+    if node.is_Float and node.is_finite:  # a binary fraction
+        is_negative, mantissa, exponent, _ = node._mpf_
+        exact = Fraction(int(mantissa)) * Fraction(2) ** int(exponent) * (-1) ** is_negative
         reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
         return reader.arithmetic.constant(exact)
     if node.is_number and node.is_algebraic:
@@ -98,15 +99,6 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
         if value is not None:
             return value
     return reader.other_leaf(node)
-
-
-def _exact_value(number: Any) -> Fraction:
-    """The binary fraction that a float of SymPy is."""
-    is_negative, mantissa, exponent, _ = number._mpf_
-    size = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-    if is_negative:
-        return -size
-    return size
 
 
 def names_of(expression: Any) -> list[str]:
@@ -131,9 +123,7 @@ def functions_in(value: Any) -> set[Any]:
 
 def is_sympy_equation(value: Any) -> bool:
     """Is it an `Eq` with an undefined function, or an expression with a derivative of one?"""
-    if not functions_in(value):
-        return False
-    return bool(getattr(value, "is_Equality", False) or value.has(sympy.Derivative))
+    return bool(functions_in(value)) and bool(getattr(value, "is_Equality", False) or value.has(sympy.Derivative))
 
 
 def text_of(given: Any) -> str:
@@ -182,18 +172,17 @@ def read_expression(
     function are its values.  Raises `InputError`, with the position, for anything else (`what` says
     in the message what the text stands for), and `LimitExceeded` for a text, a number or a power that is too large.
     """
-    tokens = tokens_of(text, limits, what=what)
     reader = SymbolicReader(names, what, limits, values or {})
     if values:
         reader.names = {**reader.names, **_INFINITE}
-    return reader.arithmetic.expression(evaluate(tokens, reader))
+    return reader.read(text)
 
 
 def written_expression(text: str) -> Any:
     """The expression that `as_text` wrote, in which e is a letter: Euler's number is exp(1) there."""
     reader = SymbolicReader(None, "a function", LIMITS, {})
     reader.names = {name: value for name, value in reader.names.items() if name != "e"}
-    return reader.arithmetic.expression(evaluate(tokens_of(text, LIMITS, what="a function"), reader))
+    return reader.read(text)
 
 
 def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
@@ -232,6 +221,10 @@ class SymbolicReader(RationalReader):
         reader = cls(None, what, limits, {name: derivative(sympy.Function(name)) for name in unknowns})
         reader.x = x
         return reader
+
+    def read(self, text: str) -> Any:
+        """The expression that a text denotes."""
+        return self.arithmetic.expression(evaluate(tokens_of(text, self.arithmetic.limits, what=self.what), self))
 
     def name(self, name: str) -> Any:
         if self.x is not None and name in self.unknowns:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
@@ -15,6 +16,7 @@ from kovacic.reading.dialects import tokenize
 from kovacic.reading.differential import EquationReader
 from kovacic.reading.expression import parse_with
 from kovacic.reading.parser import evaluate
+from kovacic.reading.source import Source
 
 
 @dataclass(frozen=True)
@@ -59,9 +61,10 @@ def written_equation(text: str, variable: str, unknown: str, known: Constants) -
         }
         if isinstance(field, AlgebraicField):
             values[field.name] = field.generator
-        reader = EquationReader(variable, unknown, constants.limits, constants)
-        plain, names = WrittenReader(field, values, reader.arithmetic).plain(text)
+        plain, names = WrittenReader(field, values, Arithmetic(constants.limits)).plain(text)
+        source = Source(partial(evaluate, tokenize(plain)), variable, unknown)
+        reader = EquationReader(source, constants.limits, constants)
         reader.names = {**reader.names, **names}
-        return reader.equation_of(evaluate(tokenize(plain), reader), plain)
+        return reader.equation_of(source.walk(reader), plain)
 
     return read_with_constants(read, known.limits, known)
