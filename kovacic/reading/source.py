@@ -58,7 +58,10 @@ def source_of(
     if isinstance(given, str):
         check_length(given, limits, what="the text")
         given = taken_apart(given)
-        _check_is_alone(given)
+        values = given.scans("condition")
+        if values:
+            hint = f"give the equation: {given.equation_text()}"
+            raise given.error("initial values are accepted by `dsolve` only", values[0], hint)
     tokens = _only_equation(given)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
     named = vocabulary.equation(tokens) if equation or given.is_equation else vocabulary.S(tokens)
@@ -83,86 +86,42 @@ def _only_equation(paste: Paste) -> Tokens:
         hint = "give S(x), for example x^2 + 3"
         raise ParseError("there is no expression: the text is empty", text=paste.text, position=0, hint=hint)
     if len(scans) > 1:
-        if not paste.is_equation:
-            hint = "decimals are written with a point, and one expression is one S"
-            raise paste.error("one expression is expected, and this is another one", scans[1], hint)
-        said = "one equation is expected, and this is another one"
-        hint = "values follow the equation as y(0) = 1; systems of equations aren't read here"
-        raise paste.error(said, scans[1], hint)
+        what, hint = "expression", "decimals are written with a point, and one expression is one S"
+        if paste.is_equation:
+            what, hint = "equation", "values follow the equation as y(0) = 1; systems of equations aren't read here"
+        raise paste.error(f"one {what} is expected, and this is another one", scans[1], hint)
     (tokens,) = paste.equations
     return tokens
 
 
-def _check_is_alone(paste: Paste) -> None:
-    """Raises `ParseError` for values, where none are expected."""
-    scans = paste.scans("condition")
-    if scans:
-        hint = f"give the equation: {paste.equation_text()}"
-        raise paste.error("initial values are accepted by `dsolve` only", scans[0], hint)
-
-
 def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool) -> Source:
-    from kovacic.reading.symbolic import is_sympy_equation
-
-    if equation or is_sympy_equation(given):
-        return _sympy_equation(given, variable, unknown)
-    return _sympy_S(given, variable)
-
-
-def _sympy_S(given: Any, variable: str | None) -> Source:
+    """S, an `Eq`, or an expression that is zero; `unknown` is y(x), or None where it is the only function."""
     import sympy
 
-    from kovacic.reading.symbolic import walked
+    from kovacic.reading.symbolic import function_of, is_sympy_equation, names_of, walked
 
-    expression = _in_roots(given.as_expr() if isinstance(given, sympy.Poly) else given)
+    is_equation = equation or is_sympy_equation(given)
+    expression = given.as_expr() if isinstance(given, sympy.Poly) else given
+    if is_equation and getattr(given, "is_Equality", False):
+        expression = given.lhs - given.rhs if given.rhs != 0 else given.lhs
     if not isinstance(expression, sympy.Expr):
         hint = "give S alone, from y'' = S(x) y"
         raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)
-    names = _symbols_of(expression)
-    return Source(partial(walked, expression), variable or chosen_variable(names), declared=frozenset(names))
-
-
-def _sympy_equation(given: Any, variable: str | None, unknown: Any) -> Source:
-    """An `Eq`, or an expression that is zero; `unknown` is y(x), or None where it is the only function."""
-    from kovacic.reading.symbolic import function_of, walked
-
-    expression = _in_roots(_difference_of_sides(given))
-    function = unknown
-    if function is None:
-        function = function_of(expression)
+    algebraic = {number: number.expand(func=True) for number in (sympy.GoldenRatio, sympy.TribonacciConstant)}
+    expression = expression.xreplace(algebraic)
+    names = names_of(expression)
+    if PI in names:
+        raise InputError(f"a symbol with the name {PI}, which is a number", hint="rename the symbol")
+    walk, symbols = partial(walked, expression), frozenset(names)
+    if not is_equation:
+        return Source(walk, variable or chosen_variable(names), declared=symbols)
+    function = function_of(expression) if unknown is None else unknown
     if len(function.args) != 1 or not function.args[0].is_Symbol:
         raise NotLinear(f"{function} isn't a function of one variable")
     x = function.args[0].name
     if variable is not None and x != variable:
         raise InputError(f"{function} isn't a function of {variable}")
-    return Source(partial(walked, expression), x, str(function.func), declared=frozenset(_symbols_of(expression)))
-
-
-def _symbols_of(expression: Any) -> list[str]:
-    """The names of the symbols.  Raises `InputError` for one that is called pi, which is the number everywhere."""
-    from kovacic.reading.symbolic import names_of
-
-    names = names_of(expression)
-    if PI in names:
-        raise InputError(f"a symbol with the name {PI}, which is a number", hint="rename the symbol")
-    return names
-
-
-def _in_roots(expression: Any) -> Any:
-    """With (1 + sqrt(5))/2 for the golden ratio."""
-    from sympy import GoldenRatio, TribonacciConstant
-
-    named = {number: number.expand(func=True) for number in (GoldenRatio, TribonacciConstant)}
-    return expression.xreplace(named) if hasattr(expression, "xreplace") else expression
-
-
-def _difference_of_sides(given: Any) -> Any:
-    """What is zero: of an `Eq` the left side minus the right one, and any other expression itself."""
-    if not getattr(given, "is_Equality", False):
-        return given
-    if given.rhs == 0:
-        return given.lhs
-    return given.lhs - given.rhs
+    return Source(walk, x, str(function.func), declared=symbols)
 
 
 def read_with_numbers(source: Source, limits: Limits) -> Parsed:
@@ -170,20 +129,16 @@ def read_with_numbers(source: Source, limits: Limits) -> Parsed:
     try:
         return read_source(source, limits)
     except NotRational:
+        from kovacic.reading.linear import LinearForm
+
+        def walk(reader: Any) -> Any:
+            product = reader.arithmetic.multiply(LinearForm({0: Monomial(1, 0)}), source.walk(reader))
+            return reader.arithmetic.sum([LinearForm({2: Monomial(1, 0)}), reader.arithmetic.negate(product)])
+
         if not source.unknown:
             with suppress(InputError):
-                return read_source(_as_equation(source), limits)
+                return read_source(source._replace(walk=walk, unknown=UNKNOWN), limits)
         raise
-
-
-def _as_equation(source: Source) -> Source:
-    from kovacic.reading.linear import LinearForm
-
-    def walk(reader: Any) -> Any:
-        product = reader.arithmetic.multiply(LinearForm({0: Monomial(1, 0)}), source.walk(reader))
-        return reader.arithmetic.sum([LinearForm({2: Monomial(1, 0)}), reader.arithmetic.negate(product)])
-
-    return source._replace(walk=walk, unknown=UNKNOWN)
 
 
 def read_source(source: Source, limits: Limits) -> Parsed:
@@ -193,11 +148,9 @@ def read_source(source: Source, limits: Limits) -> Parsed:
     text, and `LimitExceeded` before anything would become larger than the limits allow.
     """
     x = source.variable
-    y = source.unknown
-    text = source.text
 
     def read(constants: Constants) -> Parsed:
-        if not y:
+        if not source.unknown:
             reader = RationalReader({x: VARIABLE}, x, Arithmetic(limits), constants)
             reader.declared = source.declared
             S = constants.embedded(reader.arithmetic.rational(source.walk(reader)))
@@ -205,7 +158,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
         from kovacic.reading.differential import EquationReader
 
         reader = EquationReader(source, limits, constants)
-        equation = reader.equation_of(source.walk(reader), text)
+        equation = reader.equation_of(source.walk(reader), source.text)
         notes = (*source.notes, *reader.notices(), *constants.notices(reader.letters))
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 

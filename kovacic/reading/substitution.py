@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
-from kovacic.equation import Change, Parsed, parameters_of
+from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.exact import exact_text
 from kovacic.numbers.numerals import plain_text
 from kovacic.reading.dialects import tokenize
-from kovacic.reading.lexer import Tokens
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
@@ -43,7 +40,10 @@ class Template:
     """
 
     def __init__(self, text: str, names: Sequence[str], variable: str | None = None) -> None:
-        tokens = _tokens(text, names, variable)
+        try:  # products that are glued together are apart, where it can be told
+            tokens = source_of(text, variable, names=names).tokens or tokenize(text)
+        except InputError:  # of which the reader of the filled text will speak
+            tokens = tokenize(text)
         places = [k for k, piece in enumerate(tokens.pieces) if piece in names]
         for k in places:
             if tokens.kinds[k] != "NAME":
@@ -65,27 +65,13 @@ class Template:
     def filled(self, values: Mapping[str, Any]) -> str:
         """The text with these values."""
         first, *others = self._pieces
-        filled = [first]
-        for name, piece in zip(self._names, others, strict=True):
-            filled += [f"({values[name]})", piece]
-        return "".join(filled)
-
-
-def _tokens(text: str, names: Sequence[str], variable: str | None) -> Tokens:
-    """The tokens of a text, products that are glued together apart where it can be told."""
-    try:
-        tokens = source_of(text, variable, names=names).tokens
-    except InputError:  # of which the reader of the filled text will speak
-        return tokenize(text)
-    assert tokens is not None
-    return tokens
+        return first + "".join(f"({values[name]}){piece}" for name, piece in zip(self._names, others, strict=True))
 
 
 def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
     """The value of a parameter as text: a rational or algebraic number.  Raises `InputError` for anything else."""
-    text = exact_text(value, "the value of a parameter")
-    number = read_input(text, var=_NO_VARIABLE, limits=limits).S
-    if not _is_constant(number) or number.field.ground != QQ:
+    text = value_text(value, limits=limits)
+    if parameters_of(read_input(text, var=_NO_VARIABLE, limits=limits).S.field):
         raise InputError(f"{text!r} isn't a number")
     return text
 
@@ -103,27 +89,22 @@ def relations(text: str) -> tuple[str, str] | None:
     return name, f"{_TURNED[sign]}{first} {other}{last}"
 
 
-def value_text(value: Any, parameter: str, variable: str, limits: Limits = DEFAULT_LIMITS) -> str:
-    """The value of a parameter as text: a number, or a function b^2 of other parameters.  Raises `InputError` for others."""
+def value_text(value: Any, *excluded: str, limits: Limits = DEFAULT_LIMITS) -> str:
+    """The value of a parameter as text: a number, or a function b^2 of parameters.
+
+    Raises `InputError` for others, and where it contains one of the `excluded` names.
+    """
     text = exact_text(value, "the value of a parameter")
-    value_read = read_input(text, var=_NO_VARIABLE, limits=limits).S
-    names = parameters_of(value_read.field)
-    if not _is_constant(value_read) or parameter in names or variable in names:
+    read = read_input(text, var=_NO_VARIABLE, limits=limits).S
+    is_constant = read.num.degree <= 0 and read.den.degree <= 0
+    if not is_constant or {*excluded} & {*parameters_of(read.field)}:
         hint = "the value of a parameter is a number, or a function of others"
         raise InputError(f"{text!r} isn't a number", hint=hint)
     return text
 
 
-def _is_constant(function: RatFunc) -> bool:
-    return function.num.degree <= 0 and function.den.degree <= 0
-
-
-class Substituted(NamedTuple):
-    """An input in which values have taken the place of parameters, as it is read, and what is known of the others."""
-
-    given: Any
-    parsed: Parsed
-    assumptions: Mapping[Any, Any] | None
+#: An input in which values have taken the place of parameters, as it is read, and what is known of the others.
+Substituted = tuple[Any, Parsed, Mapping[Any, Any] | None]
 
 
 def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits) -> Substituted:
@@ -137,20 +118,23 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
     ('(4*(3/2)^2 - 1)/(4*x^2) - k', {'k': 'integer'})
     """
     if not isinstance(assume, Mapping):
-        return Substituted(S, parsed, assume)
+        return S, parsed, assume
     values, others = values_among(assume)
     if not values:
-        return Substituted(S, parsed, others or assume)
+        return S, parsed, others or assume
     names = parameters_of(parsed.S.field)
     for name in values:
         if name not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-    texts = {name: value_text(value, name, parsed.variable, limits) for name, value in values.items()}
-    template = _text_with_parameters(S, parsed)
-    filled = Template(template, [*texts], _user_variable(parsed)).filled(texts)
-    declared = words_among(names)
-    read = read_input(filled, var=_user_variable(parsed), limits=limits, exponentials=True, names=declared)
-    return Substituted(filled, read, others or None)
+    texts = {name: value_text(value, name, parsed.variable, limits=limits) for name, value in values.items()}
+    # The user's text, or one where S is none; in the user's variable where there is a change of it.
+    change = None if parsed.equation is None else parsed.equation.change
+    variable = parsed.variable if change is None else change.variable
+    template = parsed.text if change is None and not isinstance(S, str) else plain_text(S).strip()
+    filled = Template(template, [*texts], variable).filled(texts)
+    declared = words_among({*names} - {*dict(parsed.letters)})
+    read = read_input(filled, var=variable, limits=limits, exponentials=True, names=declared)
+    return filled, read, others or None
 
 
 def values_among(assume: Mapping[Any, Any]) -> tuple[dict[str, Any], dict[Any, Any]]:
@@ -162,25 +146,5 @@ def values_among(assume: Mapping[Any, Any]) -> tuple[dict[str, Any], dict[Any, A
 
 def _told(name: str, what: Any) -> Any:
     """What is said of a parameter; an inequality with two ends in two parts."""
-    if not isinstance(what, str):
-        return what
-    chain = relations(what)
-    if chain is None or chain[0] != name:
-        return what
-    return chain[1]
-
-
-def _text_with_parameters(S: Any, parsed: Parsed) -> str:
-    """The input as the user's text, or as one where S is none; in the user's variable where there is a change of it."""
-    if _change(parsed) is None and not isinstance(S, str):
-        return parsed.text
-    return plain_text(S).strip()
-
-
-def _user_variable(parsed: Parsed) -> str:
-    change = _change(parsed)
-    return parsed.variable if change is None else change.variable
-
-
-def _change(parsed: Parsed) -> Change | None:
-    return None if parsed.equation is None else parsed.equation.change
+    chain = relations(what) if isinstance(what, str) else None
+    return what if chain is None or chain[0] != name else chain[1]
