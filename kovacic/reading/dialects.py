@@ -251,9 +251,8 @@ class _Translation:
             self.k = k
             self.close()
         end = max(self.scan[-1].end if self.scan else 0, len(self.text))
-        kinds, pieces, starts, ends = map(list, zip(*self.found, ("$END", "", end, end), strict=True))
         variable = "t" if any(token.kind == "PRIMES" and DOTS in token.text for token in self.scan) else None
-        return Tokens(self.text, kinds, pieces, starts, ends, variable)
+        return Tokens.of(self.text, [*self.found, ("$END", "", end, end)], variable)
 
     # ------------------------------------------------------------------------------------------- writing
 

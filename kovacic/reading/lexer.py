@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
@@ -143,6 +144,15 @@ class Tokens:
     #: The variable that the notation stands for where none is named.
     variable: str | None = None
 
+    @classmethod
+    def of(cls, text: str, rows: Sequence[tuple[str, str, int, int]], variable: str | None = None) -> Tokens:
+        """The tokens in these rows of a kind, a piece and its place; the last row is that of `$END`."""
+        kinds, pieces, starts, ends = map(list, zip(*rows, strict=True))
+        return cls(text, kinds, pieces, starts, ends, variable)
+
+    def rows(self) -> list[tuple[str, str, int, int]]:
+        return list(zip(self.kinds, self.pieces, self.starts, self.ends, strict=True))
+
     @cached_property
     def spaced(self) -> str:
         """The tokens as one text, a space between them, for patterns; "x^2" is "x ^ 2 "."""
@@ -160,30 +170,14 @@ class Tokens:
         """The text of the tokens begin, ..., end - 1."""
         return self.text[self.starts[begin] : self.ends[end - 1]] if end > begin else ""
 
-    def span(self, begin: int, end: int) -> tuple[int, int]:
-        """Position and length of the text of the tokens begin, ..., end - 1."""
-        return self.starts[begin], max(0, self.ends[end - 1] - self.starts[begin])
-
-    def error(
-        self,
-        kind: type[InputError],
-        message: str,
-        begin: int,
-        end: int,
-        *,
-        hint: str | None = None,
-        shell: str | None = None,
-    ) -> InputError:
-        """An error at the tokens begin, ..., end - 1."""
-        position, length = self.span(begin, end)
-        return kind(message, text=self.text, position=position, length=max(1, length), hint=hint, shell=shell)
-
-    def names(self) -> dict[str, int]:
-        """The different plain names in order of appearance, each with the number of its first token."""
-        return self._names
+    def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
+        """An error at the tokens begin, ..., end - 1; `hints` are hint and shell."""
+        length = max(1, self.ends[end - 1] - self.starts[begin])
+        return kind(message, text=self.text, position=self.starts[begin], length=length, **hints)
 
     @cached_property
-    def _names(self) -> dict[str, int]:
+    def names(self) -> dict[str, int]:
+        """The different plain names in order of appearance, each with the number of its first token."""
         found: dict[str, int] = {}
         for k, kind in enumerate(self.kinds):
             if kind == "NAME":

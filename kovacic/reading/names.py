@@ -11,14 +11,10 @@ NUMBERS["GoldenRatio"] = "GoldenRatio"
 #: Names that stand for numbers unless the caller says that the variable has this name.
 NUMBER_NAMES = {
     **{name: f"the number {name}" for name in NUMBERS},
+    **dict.fromkeys(("oo", "zoo", "inf", "infinity", "Infinity"), "infinity"),
     "I": "the imaginary unit",
     "e": "Euler's number",
     "π": "the number pi",
-    "oo": "infinity",
-    "zoo": "infinity",
-    "inf": "infinity",
-    "infinity": "infinity",
-    "Infinity": "infinity",
     "nan": "not a number",
 }
 
@@ -30,26 +26,13 @@ _FUNCTIONS = """
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
 FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
 RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
-FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
-FUNCTION_NAMES |= {
-    "heaviside": "Heaviside",
-    "dirac": "DiracDelta",
-    "abs": "Abs",
-    "Abs": "Abs",
-    "sgn": "sign",
-    "sign": "sign",
-    "Gamma": "gamma",
-}  # gamma(...) may be a product
+FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "heaviside": "Heaviside"}
+FUNCTION_NAMES |= {"dirac": "DiracDelta", "abs": "Abs", "Abs": "Abs", "sgn": "sign", "sign": "sign"}
+FUNCTION_NAMES["Gamma"] = "gamma"  # gamma(...) may be a product
 
 #: The functions of several arguments, by the names of SymPy's.
-SEVERAL_ARGUMENTS = {
-    "max": "Max",
-    "Max": "Max",
-    "min": "Min",
-    "Min": "Min",
-    "SingularityFunction": "SingularityFunction",
-    "Piecewise": "Piecewise",
-}
+SEVERAL_ARGUMENTS = {name: name for name in ("Max", "Min", "SingularityFunction", "Piecewise")}
+SEVERAL_ARGUMENTS |= {"max": "Max", "min": "Min"}
 #: Calls that other systems write about numbers.
 NUMBER_CALLS = frozenset({"Rational", "Integer", "S"})
 #: The functions whose parentheses may be left out.
@@ -102,18 +85,13 @@ def unglued(word: str) -> str:
     >>> unglued("xsinx"), unglued("Fcoswt"), unglued("sin2x"), unglued("EI")
     ('x*sin(x)', 'F*cos(w*t)', 'sin(2*x)', 'E*I')
     """
-    factors: list[str] = []
-    inside: list[str] | None = None
+    text = ""
+    is_inside = False
     for found in _PARTS.finditer(word):
+        if is_inside and found["function"]:
+            text = text.removesuffix("(") if text.endswith("(") else f"{text})"
+        text += f"{'' if not text or text.endswith('(') else '*'}{found[0]}"
         if found["function"]:
-            if inside:
-                factors[-1] += f"({'*'.join(inside)})"
-            factors.append(found[0])
-            inside = []
-        elif inside is None:
-            factors.append(found[0])
-        else:
-            inside.append(found[0])
-    if inside is not None:
-        factors[-1] += f"({'*'.join(inside) or '...'})"
-    return "*".join(factors)
+            is_inside = True
+            text += "("
+    return f"{text}{'...' if text.endswith('(') else ''})" if is_inside else text

@@ -64,10 +64,10 @@ class Vocabulary:
         """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
         guesses = _guesses(tokens)
         has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
-        has_operator = OPERATOR not in self.declared and OPERATOR in tokens.names() and not has_other
+        has_operator = OPERATOR not in self.declared and OPERATOR in tokens.names and not has_other
         y = self.unknown or _primed(tokens, self.declared) or next(iter(differentiated(tokens)), None)
         if y is None:  # what the operator D is applied to
-            usual = [name for name in tokens.names() if name in _USUAL_UNKNOWNS]
+            usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
         _check_stiffness(tokens, self.declared)
         x, why = (self.variable, None) if self.variable else _variable_of(tokens, y, self.declared)
@@ -89,7 +89,7 @@ class Vocabulary:
         if x != "e":
             _check_two_exponents(split, "")
         guesses = [*_guesses(tokens), *products, *self._imaginary_unit(split, x, "")]
-        if self.variable is None and x not in USUAL_VARIABLES and x in split.names():
+        if self.variable is None and x not in USUAL_VARIABLES and x in split.names:
             guesses.append(
                 f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)"
             )
@@ -97,7 +97,7 @@ class Vocabulary:
 
     def _imaginary_unit(self, tokens: Tokens, x: str, y: str) -> list[str]:
         """That i is a parameter, where it is one that wasn't declared."""
-        is_parameter = "i" in tokens.names() and "i" not in (x, y, *self.declared)
+        is_parameter = "i" in tokens.names and "i" not in (x, y, *self.declared)
         return ["i is a parameter; the imaginary unit is I"] if is_parameter else []
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
@@ -105,7 +105,7 @@ class Vocabulary:
         unknown = [k for k, kind in enumerate(tokens.kinds) if kind in _NAMED and not self._is_known(tokens, k, x, y)]
         if not unknown:
             return tokens, []
-        rows = list(zip(tokens.kinds, tokens.pieces, tokens.starts, tokens.ends, strict=True))
+        rows = tokens.rows()
         notes: dict[str, None] = {}
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
@@ -117,22 +117,20 @@ class Vocabulary:
                 raise tokens.error(ParseError, f"{name} in an exponent can be read in two ways", k, k + 1, hint=hint)
             notes[f"{name} was read as {name[0]}*{name[1]}"] = None
             rows[k : k + 1] = [("NAME", name[0], start, start + 1), (kind, piece[1:], start + 1, end)]
-        kinds, pieces, starts, ends = (list(column) for column in zip(*rows, strict=True))
-        return replace(tokens, kinds=kinds, pieces=pieces, starts=starts, ends=ends), list(reversed(notes))
+        return Tokens.of(tokens.text, rows, tokens.variable), list(reversed(notes))
 
     def _is_known(self, tokens: Tokens, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
-        if name in (x, y) or name in self.declared:
+        is_call = tokens.kinds[k] == "HEAD"
+        if name in (x, y, *self.declared, *NUMBER_NAMES) or is_function(name):
             return True
-        if tokens.kinds[k] == "HEAD" and (name in DERIVATIVES or name in NUMBER_CALLS or is_function(name)):
-            return True
-        if name in NUMBER_NAMES or is_function(name):
+        if is_call and (name in DERIVATIVES or name in NUMBER_CALLS):
             return True
         if name.rstrip(_DIGITS) in (x, y) and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
-            numbered = [other for other in tokens.names() if other.rstrip(_DIGITS) in (x, y) and other not in (x, y)]
+            numbered = [other for other in tokens.names if other.rstrip(_DIGITS) in (x, y) and other not in (x, y)]
             if numbered == [name]:
                 return False  # x2 alone may be a product, or a power; x1 and x2 are two points
-        return is_letter(name) or tokens.kinds[k] == "HEAD"
+        return is_letter(name) or is_call
 
     def _unknown_name(self, tokens: Tokens, k: int, x: str, y: str) -> InputError:
         """What to say of a name that means nothing here."""
@@ -161,8 +159,9 @@ class Vocabulary:
 
 def _guesses(tokens: Tokens) -> list[str]:
     """What may have been meant in another way: x^1/2 is x/2."""
+    found = _ROOT.search(tokens.spaced)
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
-    return [said.format(found[1]) for found in _ROOT.finditer(tokens.spaced)][:1]
+    return [said.format(found[1])] if found else []
 
 
 def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
@@ -182,9 +181,8 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
         if tokens.kinds[k] != "NUMBER" or variable not in text:
             continue
         mantissa, _, rest = text.partition(variable)
-        other = f"{mantissa}*{variable}{rest}"
-        if rest[0] in "+-":
-            other = f"{mantissa}*{variable} {rest[0]} {rest[1:]}"
+        sign = f" {rest[0]} " if rest[0] in "+-" else ""
+        other = f"{mantissa}*{variable}{sign}{rest.lstrip('+-')}"
         message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
         hint = "write decimals without an exponent, and products with *"
         raise tokens.error(ParseError, message, k, k + 1, hint=hint)
@@ -208,7 +206,7 @@ def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
     if "HEAD" not in tokens.kinds:
         return tokens
-    alone = {*tokens.names(), x} - {y}
+    alone = {*tokens.names, x} - {y}
     kinds = list(tokens.kinds)
     for k, kind in enumerate(tokens.kinds[:-3]):
         if kind != "HEAD":
@@ -259,14 +257,14 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     for likely in (DEFAULT_VARIABLE, default, "t"):
         if likely in names:
             return likely, None
-    evidence = _evidence(tokens) if names else {}
+    evidence = _evidence(tokens)
     likely_ones = [name for name in names if _varies(name, evidence, names)]
     if len(likely_ones) > 1:
         hint = f"write {y}''(x) for the derivative, or name the variable:"
-        shell = f"{hint} --var {likely_ones[0]}"
         said = f"{', '.join(likely_ones[:6])}: which is the variable?"
-        k = tokens.names().get(likely_ones[-1], 0)
-        raise tokens.error(InputError, said, k, k + 1, hint=f"{hint} var={likely_ones[0]!r}", shell=shell)
+        k = tokens.names.get(likely_ones[-1], 0)
+        first = likely_ones[0]
+        raise tokens.error(InputError, said, k, k + 1, hint=f"{hint} var={first!r}", shell=f"{hint} --var {first}")
     if likely_ones:
         return likely_ones[0], f"{likely_ones[0]} is taken for the variable"
     if not names:
@@ -278,7 +276,7 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
 def _letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
     """The plain names, those of two glued letters apart."""
     found: dict[str, None] = {}
-    for name in tokens.names():
+    for name in tokens.names:
         is_glued = len(name) == 2 and name.isalpha() and not is_letter(name) and name not in declared
         found.update(dict.fromkeys(name if is_glued else [name]))
     return [name for name in found if not is_function(name)]
@@ -299,8 +297,8 @@ def _evidence(tokens: Tokens) -> dict[str, Counter[str]]:
     """How often each name stands where only a variable does, by the kinds of `_EVIDENCE`, and at a "place" at all."""
     found: dict[str, Counter[str]] = {}
     around: list[bool] = []  # of the open parentheses: those of a function or an exponent?
-    for k, kind in enumerate(tokens.kinds):
-        before, after = tokens.kinds[k - 1], tokens.kinds[k + 1 : k + 2]
+    for k, kind in enumerate(tokens.kinds[:-1]):
+        before, after = tokens.kinds[k - 1], tokens.kinds[k + 1]
         is_exponent = before == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS")
         if kind == "LPAR":
             around.append(before == "CIRCUMFLEX" or (before == "HEAD" and is_function(tokens.pieces[k - 1])))
@@ -310,9 +308,9 @@ def _evidence(tokens: Tokens) -> dict[str, Counter[str]]:
             stands = {
                 "place": True,
                 "function": is_exponent or any(around),
-                "power": after[0] in ("CIRCUMFLEX", "SUPERSCRIPT"),
+                "power": after in ("CIRCUMFLEX", "SUPERSCRIPT"),
                 "denominator": before == "SLASH",
-                "sum": bool(around) and not {before, *after}.isdisjoint(("PLUS", "MINUS")),
+                "sum": bool(around) and not {before, after}.isdisjoint(("PLUS", "MINUS")),
             }
             found.setdefault(tokens.pieces[k], Counter()).update(what for what, is_so in stands.items() if is_so)
     return found
@@ -341,7 +339,7 @@ def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
     try:
         return chosen_variable(names)
     except InputError as error:
-        k = tokens.names().get(names[1], 0)
+        k = tokens.names.get(names[1], 0)
         raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
 
 

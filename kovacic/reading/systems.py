@@ -64,7 +64,7 @@ def _variable(equations: Collection[Tokens], unknowns: Collection[str]) -> str:
     for tokens in equations:
         for name in filter(None, (argument_of(tokens, unknown) for unknown in unknowns)):
             return name
-    occurring = {name for tokens in equations for name in tokens.names()}
+    occurring = {name for tokens in equations for name in tokens.names}
     if "x" in occurring and "x" not in unknowns and "t" not in occurring:
         return "x"
     return "t"
