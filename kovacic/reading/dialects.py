@@ -18,7 +18,7 @@ from kovacic.errors import ParseError
 from kovacic.limits import Limits, check_time
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, check_length, scanned, unexpected
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, is_function, unglued
-from kovacic.reading.notations import LATEX, NOTATIONS, primes_of
+from kovacic.reading.notations import LATEX, NOTATIONS, primes_of, rewritten
 
 _KINDS = {
     "+": "PLUS",
@@ -206,7 +206,7 @@ def translated(text: str, scan: Sequence[Token], *, condition: bool = False) -> 
     scan = [token for token in scan if token.kind != "NEWLINE"]
     latex = _is_latex(scan)
     if latex:
-        scan = LATEX.rewritten(_Latex(text, scan).ordinary())
+        scan = rewritten(_Latex(text, scan).ordinary(), LATEX)
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
 
 
@@ -638,4 +638,4 @@ def tokens_of(text: str, limits: Limits, *, what: str, hint: str | None = None) 
 
 def tokenize(text: str) -> Tokens:
     """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
-    return translated(text, NOTATIONS.rewritten(scanned(text)))
+    return translated(text, rewritten(scanned(text), NOTATIONS))

@@ -1,6 +1,6 @@
 """Notations of other systems and of books, as a table: a few tokens of theirs, and the same in tokens of this package.
 
->>> [token.text for token in NOTATIONS.rewritten(scanned("(D@@2)(y)(x) + Sin[x] = 0"))]
+>>> [token.text for token in rewritten(scanned("(D@@2)(y)(x) + Sin[x] = 0"), NOTATIONS)]
 ['y', "''", '(', 'x', ')', '+', 'sin', '[', 'x', ']', '=', '0']
 """
 
@@ -62,10 +62,9 @@ class Spaced:
 
 
 class Rewrite(NamedTuple):
-    """A notation: where its `pattern` occurs, tokens are replaced by the `result`; `marks` are what to look for first."""
+    """A notation: where its `pattern` occurs, tokens are replaced by the `result`."""
 
     notation: str
-    marks: re.Pattern[str]
     pattern: re.Pattern[str]
     result: str | Callable[[Match], str] = ""
     #: What the words of the first group become, which stay where they are.
@@ -76,7 +75,6 @@ class Rewrite(NamedTuple):
         done = 0
         for match in self.pattern.finditer(spaced.text):
             first, behind = spaced.number(match.start()), spaced.number(match.end())
-            start, end = spaced.scan[first].start, spaced.scan[behind - 1].end
             found += spaced.scan[done:first]
             done = behind
             if self.kind:
@@ -84,31 +82,19 @@ class Rewrite(NamedTuple):
                 found += [token._replace(kind=self.kind) if token.kind == "WORD" else token for token in group]
                 continue
             result = match.expand(self.result) if isinstance(self.result, str) else self.result(match)
-            found += [Token(_kind_of(text), text, start, end) for text in result.split(" ") if text]
+            place = spaced.scan[first].start, spaced.scan[behind - 1].end
+            kinds = {text: "NEWLINE" if text == "\n" else scanned(text)[0].kind for text in result.split(" ") if text}
+            found += [Token(kinds[text], text, *place) for text in result.split(" ") if text]
         return [*found, *spaced.scan[done:]]
 
 
-class RewriteTable:
-    """Rules in the order in which they are carried out."""
-
-    def __init__(self, *rules: Rewrite) -> None:
-        self.rules = rules
-        self.marks = re.compile("|".join(rule.marks.pattern for rule in rules))
-
-    def rewritten(self, scan: Sequence[Token]) -> list[Token]:
-        """The tokens after all rules."""
-        spaced = Spaced(scan)
-        if self.marks.search(spaced.text):
-            for rule in self.rules:
-                if rule.marks.search(spaced.text) and rule.pattern.search(spaced.text):
-                    spaced = Spaced(rule.applied(spaced))
-        return list(spaced.scan)
-
-
-def _kind_of(text: str) -> str:
-    if text == "\n":
-        return "NEWLINE"
-    return scanned(text)[0].kind
+def rewritten(scan: Sequence[Token], rules: Sequence[Rewrite]) -> list[Token]:
+    """The tokens after all rules, in their order."""
+    spaced = Spaced(scan)
+    for rule in rules:
+        if rule.pattern.search(spaced.text):
+            spaced = Spaced(rule.applied(spaced))
+    return list(spaced.scan)
 
 
 def primes_of(marks: str) -> str:
@@ -163,90 +149,82 @@ _SYNONYMS = {
 }
 
 
-def _rule(notation: str, marks: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
-    return Rewrite(notation, re.compile(marks), pattern(text), result, kind)
+def _rule(notation: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
+    return Rewrite(notation, pattern(text), result, kind)
 
 
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
 _OF_X = r"(LETTER) \( (LETTER) \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
-NOTATIONS = RewriteTable(
-    _rule("the name of a package", r"\. ", rf"(?:{_PACKAGES}) \."),
+NOTATIONS = (
+    _rule("the name of a package", rf"(?:{_PACKAGES}) \."),
     _rule(
         "a quoted name",
-        r"\( ['\"]",
         r"(?<!=\x20)(?<!=\x20\x20)(?:Function|function|Symbol|symbols|var) \( ['\"] (\w+) ['\"] \)",
         r"\1",
     ),
-    _rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
-    _rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
-    _rule("Maple", "D", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    _rule("Maple", "D", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    _rule("Maple", "D", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
-    _rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
-    _rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
-    _rule("MATLAB", "D", r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
-    _rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", "subs", rf"(?:diff|Derivative) \( {_OF_X} , \2 \) \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", "subs", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
-    _rule("SymPy", "Subs", rf"Subs \( (?:diff|Derivative) \( {_OF_X} , \2 \) , \2 ,", r"\1 ' ("),
+    _rule("Maple", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
+    _rule("Mathematica", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
+    _rule("Maple", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    _rule("Maple", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    _rule("Maple", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
+    _rule("Maple", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
+    _rule("MATLAB", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
+    _rule("MATLAB", r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
+    _rule("SymPy", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", rf"(?:diff|Derivative) \( {_OF_X} , \2 \) \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
+    _rule("SymPy", rf"Subs \( (?:diff|Derivative) \( {_OF_X} , \2 \) , \2 ,", r"\1 ' ("),
     _rule(
         "SymPy",
-        "Subs",
         rf"Subs \( (?:diff|Derivative) \( {_OF_X} , \2 \) , \( \2 , \) , \( (\S+) , \) \)",
         r"\1 ' ( \3 )",
     ),
-    _rule("Maple", r"\$", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
-    _rule("Maple", r"\$", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
-    _rule("Maxima", "' diff", r"'(?= diff )"),
-    _rule("Maxima", "%", r"%~(e|pi)", r"\1"),
-    _rule("Maxima", "%", r"%~i", "I"),
+    _rule("Maple", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
+    _rule("Maple", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
+    _rule("Maxima", r"'(?= diff )"),
+    _rule("Maxima", r"%~(e|pi)", r"\1"),
+    _rule("Maxima", r"%~i", "I"),
     _rule(
         "names of functions",
-        r"[A-Z]\w+ [(\[]",
         rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])",
         lambda match: _SYNONYMS[match[0]],
     ),
-    _rule("pi", "Pi|π", "Pi|π", "pi"),
-    _rule("Mathematica", r"E \^", r"E \^", _exponential),
+    _rule("pi", "Pi|π", "pi"),
+    _rule("Mathematica", r"E \^", _exponential),
     _rule(
         "raised primes",
-        r"\^ [({\[]? ?['\"]",
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda match: primes_of(match[1] or match[2]),
     ),
-    _rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
+    _rule("indices", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.
-LATEX = RewriteTable(
-    _rule("dots", r"\\d", r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))", lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}"),
-    _rule("an order", r"\^ \{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
-    *NOTATIONS.rules,
+LATEX = (
+    _rule("dots", r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))", lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}"),
+    _rule("an order", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
+    *NOTATIONS,
 )
 
 _LINE = r"(?:^|(?<=\n\x20)|(?<=\n\x20\x20))"
 _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
-AROUND = RewriteTable(
-    _rule("Mathematica", r"\( \*", r"\(~\* .{0,2000}? \*~\)"),
-    _rule("C", r"/ \*", r"/~\* .{0,2000}? \*~/"),
-    _rule("a whole line", "/ /|[#%]", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
-    _rule(
-        "behind a line", "/ /|- -|[#%]", rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*"
-    ),
-    _rule("environments", r"\\", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
+AROUND = (
+    _rule("Mathematica", r"\(~\* .{0,2000}? \*~\)"),
+    _rule("C", r"/~\* .{0,2000}? \*~/"),
+    _rule("a whole line", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
+    _rule("behind a line", rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*"),
+    _rule("environments", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
     _rule(
         "words",
-        r"\\",
         rf"{_NO_INDEX}\\(?:text|textrm|mbox|textnormal) \{{ {_NO_NAME}((?:(?:[^\W\d_]+|[^\w\s}}]) ){{0,99}})\}}",
         kind="TEXT",
     ),
-    _rule("breaks", r"\\", r"\\\\|\\quad|\\qquad", "\n"),
-    _rule("the end of a line", r"\\", r"\\$"),
+    _rule("breaks", r"\\\\|\\quad|\\qquad", "\n"),
+    _rule("the end of a line", r"\\$"),
     _rule(
         "dollars",
-        r"\$",
         r"(?<![^\W\d]\x20)(?<!`\x20)\$|\$(?! [\d`])",
         lambda match: "\n" if _occurs(r"\$.*\$", match.string) else "$",
     ),

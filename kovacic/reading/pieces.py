@@ -26,7 +26,7 @@ from kovacic.errors import ParseError
 from kovacic.reading.dialects import CLOSING, LAYOUT, OPENING, partners, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, NOTATIONS, SOLVERS, Spaced, pattern
+from kovacic.reading.notations import AROUND, NOTATIONS, SOLVERS, Spaced, pattern, rewritten
 
 Scan = Sequence[Token]
 
@@ -122,9 +122,9 @@ def is_equation(text: str) -> bool:
 
 def _lines(text: str) -> list[Token]:
     """The tokens in this package's notation, without comments, layout, and marks around the whole."""
-    scan = AROUND.rewritten(scanned(text))
+    scan = rewritten(scanned(text), AROUND)
     found = [token for token in scan if token.text not in LAYOUT]
-    found = NOTATIONS.rewritten(found)
+    found = rewritten(found, NOTATIONS)
     is_displayed = (
         re.search(r"\\displaystyle|\\boxed", text) is not None and partners(found).get(0) == len(found) - 1
     )  # as Wikipedia has its formulas
