@@ -123,18 +123,11 @@ class Arithmetic:
         if not summands.fractions:
             return _total(polynomials, self._poly_sum)
         fraction = _total(summands.fractions, self._ratfunc_sum)
-        if polynomials:
-            fraction = self._with_polynomial(fraction, _total(polynomials, self._poly_sum))
-        if fraction.is_polynomial:
-            return fraction.num
-        return fraction
-
-    def _with_polynomial(self, fraction: RatFunc, polynomial: Poly) -> RatFunc:
-        """The sum of a fraction and a polynomial, which needs no reduction."""
-        if not polynomial:
-            return fraction
-        num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
-        return RatFunc(num, fraction.den.over(num.field), reduced=True)
+        polynomial = _total(polynomials, self._poly_sum) if polynomials else None
+        if polynomial:  # the sum needs no reduction
+            num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
+            fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
+        return fraction.num if fraction.is_polynomial else fraction
 
     def multiply(self, left: Value, right: Value) -> Value:
         if isinstance(left, Monomial) and isinstance(right, Monomial):
@@ -150,10 +143,8 @@ class Arithmetic:
         return self._product(left, right)
 
     def divide(self, left: Value, right: Value) -> Value:
-        if isinstance(left, Monomial) and isinstance(right, Monomial):
-            quotient = self._quotient_of_monomials(left, right)
-            if quotient is not None:
-                return quotient
+        if isinstance(left, Monomial) and isinstance(right, Monomial) and right.coefficient and right.power == 0:
+            return _term(Fraction(left.coefficient, right.coefficient), left.power)
         left = self.closed(left)
         right = self.closed(right)
         if not right:
@@ -162,21 +153,6 @@ class Arithmetic:
             a = self.rational(left)
             b = self.rational(right)
             return RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
-        return self._quotient_of_polynomials(left, right)
-
-    def _quotient_of_monomials(self, left: Monomial, right: Monomial) -> Value | None:
-        """Where one of them is a constant that isn't 0; None elsewhere."""
-        if not right.coefficient:
-            return None
-        quotient = Fraction(left.coefficient, right.coefficient)
-        if right.power == 0:
-            return _term(quotient, left.power)
-        if left.power == 0 and quotient:
-            self._check(0, _bits(left.coefficient) + _bits(right.coefficient) + 1)
-            return RatFunc(_monomial(quotient, 0), _monomial(1, right.power), reduced=True)
-        return None
-
-    def _quotient_of_polynomials(self, left: Poly, right: Poly) -> Value:
         if right.is_constant:
             return self._product(left, right.inverse())
         if left.is_constant and left:

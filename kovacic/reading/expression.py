@@ -7,7 +7,7 @@ operation.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Any, Protocol
+from typing import Any
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
@@ -31,11 +31,8 @@ _STEPS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
 
 
-class OperationPlace(Protocol):
-    """Where an operation stands, in a text or in a SymPy expression."""
-
-    def text(self) -> str:
-        """The operation with its operands, as the user wrote it."""
+#: Where an operation stands, in a text or in a SymPy expression; its `text()` is what the user wrote.
+OperationPlace = Any
 
 
 def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
@@ -123,17 +120,17 @@ class RationalReader:
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Value:
         """A call of a name, with primes or not; a pair among the arguments is a tuple."""
-        index = ROOTS.get(head.rstrip(PRIMES))
-        has_pairs = any(isinstance(argument, tuple) for argument in arguments)
-        if index is not None and not has_pairs:
-            if len(arguments) == 1 and index:
-                return self._radical(arguments[0], index, site)
-            if len(arguments) == 2 and not index:
-                return self._radical(arguments[0], self._index(arguments[1]), site)
-        if head in ("Integer", "S") and len(arguments) == 1 and not has_pairs:
-            return arguments[0]  # type: ignore[no-any-return]
-        if head == "Rational" and len(arguments) == 2 and not has_pairs:
-            return self.arithmetic.divide(*arguments)
+        name = head.rstrip(PRIMES)
+        is_plain = not any(isinstance(argument, tuple) for argument in arguments)
+        match (name if is_plain else None), arguments:
+            case (("sqrt" | "cbrt"), [value]):
+                return self._radical(value, ROOTS[name], site)
+            case "root", [value, index]:
+                return self._radical(value, self._index(index), site)
+            case (("Integer" | "S"), [value]):
+                return value  # type: ignore[no-any-return]
+            case "Rational", [_, _]:
+                return self.arithmetic.divide(*arguments)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
@@ -159,7 +156,10 @@ class RationalReader:
         closed = self.arithmetic.closed(value)
         if not isinstance(closed, Poly) or not closed.is_constant:
             raise NotRational(f"{place.text()} isn't a rational function of {self.variable}", hint=usage("sqrt"))
-        label = _radical_name(closed.to_str(), n) if closed.field == QQ else place.text()
+        label = place.text()
+        if closed.field == QQ:
+            radicand = closed.to_str()
+            label = {2: f"sqrt({radicand})", 3: f"cbrt({radicand})"}.get(n, f"root({radicand}, {n})")
         root = self.constants.radical(closed, n, label)
         if root is None:
             hint = "take the root itself as the parameter: sqrt(t) with t = s^2"
@@ -181,14 +181,6 @@ class RationalReader:
         if number.denominator > _LARGEST_INDEX:
             raise NotRational(f"{place.text()} isn't an algebraic number of degree {_LARGEST_INDEX} or less")
         return self.arithmetic.power(self._radical(base, number.denominator, place), number.numerator)
-
-
-def _radical_name(radicand: str, n: int) -> str:
-    if n == 2:
-        return f"sqrt({radicand})"
-    if n == 3:
-        return f"cbrt({radicand})"
-    return f"root({radicand}, {n})"
 
 
 def usage(name: str) -> str:
