@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from itertools import zip_longest
+from itertools import pairwise
 
 from kovacic.errors import ParseError
 from kovacic.limits import Limits, check_time
-from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, check_length, scanned, unexpected
+from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, check_length, error_at, scanned, unexpected
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, is_function, unglued
 from kovacic.reading.notations import LATEX, NOTATIONS, primes_of, rewritten
 
@@ -41,8 +41,6 @@ _SUPERSCRIPT_DIGITS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123
 
 #: How tokens of a kind are written, however they were.
 _PLAIN = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
-
-# ------------------------------------------------------------------------------------------------- LaTeX
 
 #: Commands, and letters between dollar signs, that mean nothing.
 LAYOUT = frozenset(
@@ -76,14 +74,7 @@ _WORDS = sorted((*FUNCTION_NAMES, *(name for name in GREEK if len(name) > 2), "p
 _LETTERS = re.compile(rf"(?:{'|'.join(_WORDS)})(?![A-Za-z])|[^\W\d_](?:_[A-Za-z0-9])?|[0-9]+|_")
 
 
-def _is_latex(scan: Sequence[Token]) -> bool:
-    """True for a text with commands, or with braces behind ^ and _."""
-    for token, following in zip_longest(scan, scan[1:]):
-        if token.kind == "COMMAND":
-            return True
-        if following is not None and following.text == "{" and (token.text == "^" or token.text.endswith("_")):
-            return True
-    return False
+_EXAMPLE = "write for example (x^2 + 1)/(2*x), y''"
 
 
 class _Latex:
@@ -172,12 +163,9 @@ class _Latex:
             raise self.error(said, group[0])
         self.found[-1] = Token("WORD", f"{name.text}_{index}", name.start, group[-1].end)
 
-    def error(self, message: str, token: Token, hint: str = "write for example (x^2 + 1)/(2*x), y''") -> ParseError:
-        length = token.end - token.start
-        return ParseError(message, text=self.text, position=token.start, length=length, hint=hint)
+    def error(self, message: str, token: Token, hint: str = _EXAMPLE) -> ParseError:
+        return error_at(self.text, message, [token], hint)
 
-
-# ------------------------------------------------------------------------------------------------- all notations
 
 _NUMERATOR = re.compile(rf"d\^?([2-9]?)({LETTER})?({LETTER})?")
 _DENOMINATOR = re.compile(rf"d({LETTER})\^?([2-9]?)")
@@ -204,7 +192,8 @@ def translated(text: str, scan: Sequence[Token], *, condition: bool = False) -> 
     Those of a `condition` have the unknown function at points.  Raises `ParseError` for what has no meaning in any notation.
     """
     scan = [token for token in scan if token.kind != "NEWLINE"]
-    latex = _is_latex(scan)
+    has_braces = any(b.text == "{" and (a.text == "^" or a.text.endswith("_")) for a, b in pairwise(scan))
+    latex = has_braces or any(token.kind == "COMMAND" for token in scan)
     if latex:
         scan = rewritten(_Latex(text, scan).ordinary(), LATEX)
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
@@ -254,8 +243,6 @@ class _Translation:
         variable = "t" if any(token.kind == "PRIMES" and DOTS in token.text for token in self.scan) else None
         return Tokens.of(self.text, [*self.found, ("$END", "", end, end)], variable)
 
-    # ------------------------------------------------------------------------------------------- writing
-
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:
         """A token where the `token` stands, or behind what was written before."""
         if token is None:
@@ -279,8 +266,6 @@ class _Translation:
         """A name with a parenthesis that opens."""
         self.write("HEAD", name, token)
         self.write("LPAR", "(")
-
-    # ------------------------------------------------------------------------------------------- looking
 
     def compact(self, begin: int, end: int) -> str:
         """The tokens without brackets, for comparison."""
@@ -312,8 +297,6 @@ class _Translation:
             return None
         is_letter = last == k + 2 and self.kinds[k + 1] == "WORD" and _is_name(self.texts[k + 1])
         return last + 1 if is_letter or self.argument_end(k + 1) == last else None
-
-    # ------------------------------------------------------------------------------------------- derivatives
 
     def derivative(self, token: Token) -> bool:
         """d^2y/dx^2, (d^2/dx^2) y, \\frac{d}{dx}(...)."""
@@ -405,8 +388,6 @@ class _Translation:
         self.found[first:first] = [("HEAD", "diff", start, start), ("LPAR", "(", start, start)]
         self.opened.append(first + 1)
 
-    # ------------------------------------------------------------------------------------------- functions and names
-
     def function(self, token: Token) -> bool:
         """sin x, sin 2x, cos omega t, sin^2 x, sin^2(x), sin^{-1}(x), ln|x|."""
         name = token.text
@@ -444,9 +425,8 @@ class _Translation:
         r"""asin for \sin^{-1}: what it means in books, and no reciprocal."""
         name = f"a{token.text}"
         if name not in FUNCTION_NAMES:
-            said = f"{token.text}^(-1) can be read in two ways"
             hint = f"write 1/{token.text}(x) for the reciprocal"
-            raise ParseError(said, text=self.text, position=token.start, length=len(token.text), hint=hint)
+            raise error_at(self.text, f"{token.text}^(-1) can be read in two ways", [token], hint)
         return name
 
     def factors_end(self, k: int) -> int | None:
@@ -485,17 +465,13 @@ class _Translation:
         return True
 
     def prose(self, token: Token) -> bool:
-        said = f"{token.text} is a word and no part of the equation"
-        raise ParseError(said, text=self.text, position=token.start, length=len(token.text), hint="leave it out")
-
-    # ------------------------------------------------------------------------------------------- signs
+        raise error_at(self.text, f"{token.text} is a word and no part of the equation", [token], "leave it out")
 
     def opening(self, token: Token) -> bool:
         """A parenthesis, the argument of a name before it or a factor."""
         k = self.k
         if token.text == "{" and k not in self.partner and self.latex:
-            hint = "write for example (x^2 + 1)/(2*x), y''"
-            raise ParseError("a brace is never closed", text=self.text, position=token.start, hint=hint)
+            raise error_at(self.text, "a brace is never closed", [token], _EXAMPLE)
         self.k += 1
         if token.text == "{" and self.texts[k + 1] == "(" and self.partner.get(k + 1) == self.partner.get(k, 0) - 1:
             self.skipped.add(self.partner[k])  # y{\left(x\right)}, as SymPy prints it
@@ -519,8 +495,7 @@ class _Translation:
         middle = self.operand_end(self.k + 1)
         end = None if middle is None else self.operand_end(middle)
         if middle is None or end is None:
-            hint = "write for example (x^2 + 1)/(2*x), y''"
-            raise ParseError("something is missing behind this", text=self.text, position=token.start, hint=hint)
+            raise error_at(self.text, "something is missing behind this", [token], _EXAMPLE)
         self.write("LPAR", "(", token)
         self.k += 1
         self.grouped(self.k, middle, ("SLASH", "/"))

@@ -205,6 +205,12 @@ _HINTS = {
 }
 
 
+def error_at(text: str, message: str, scan: Sequence[Token], hint: str | None = None) -> ParseError:
+    """An error at these tokens of a text; of all of it without tokens."""
+    start, end = (scan[0].start, scan[-1].end) if scan else (0, len(text))
+    return ParseError(message, text=text, position=start, length=max(1, end - start), hint=hint)
+
+
 def unexpected(text: str, token: Token) -> ParseError:
     """What to say of a character that means nothing."""
     char = text[token.start] if token.start < len(text) else token.text[0]

@@ -154,9 +154,6 @@ class Vocabulary:
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
-# ------------------------------------------------------------------------------------------------- what is asked back
-
-
 def _guesses(tokens: Tokens) -> list[str]:
     """What may have been meant in another way: x^1/2 is x/2."""
     found = _ROOT.search(tokens.spaced)
@@ -199,9 +196,6 @@ def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
             raise tokens.error(ParseError, f"{whole} can be read in two ways", e, last + 1, hint=hint)
 
 
-# ------------------------------------------------------------------------------------------------- products
-
-
 def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
     if "HEAD" not in tokens.kinds:
@@ -218,9 +212,6 @@ def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     return tokens if kinds == tokens.kinds else replace(tokens, kinds=kinds)
 
 
-# ------------------------------------------------------------------------------------------------- the unknown function
-
-
 def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
     """The first name that has primes; x'' for mx''."""
     found = _PRIMED.search(tokens.spaced)
@@ -235,9 +226,6 @@ def differentiated(tokens: Tokens) -> list[str]:
     """The names that have primes, or are y in diff(y, x), diff(y(x), x) and diff(y)."""
     names = (found[1] or found[2] for found in _DIFFERENTIATED.finditer(tokens.spaced))
     return [name for name in names if not is_function(name) and name not in DERIVATIVES]
-
-
-# ------------------------------------------------------------------------------------------------- the variable
 
 
 def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str, str | None]:

@@ -174,8 +174,6 @@ class _Parser:
         site.right = right
         site.end = end
 
-    # Where an operand is expected
-
     def atom(self, k: int) -> bool:
         """A number, a name, or a name with primes."""
         self.at(k, k, k + 1)
@@ -205,8 +203,6 @@ class _Parser:
     def open(self, group: _Group) -> None:
         self.groups.append(group)
         self.pending.append((_OPEN, group.opened))
-
-    # After an operand
 
     def binary(self, k: int) -> bool:
         self.reduce(_PRODUCT, k)
@@ -314,8 +310,6 @@ class _Parser:
 
     def misplaced(self, k: int) -> bool:
         raise self.syntax_error(k)
-
-    # Operations
 
     def complete(self, end: int) -> None:
         """Carries out all that is pending in the innermost group."""

@@ -19,12 +19,11 @@ import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
 from kovacic.reading.dialects import CLOSING, LAYOUT, OPENING, partners, translated
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, scanned
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
 from kovacic.reading.notations import AROUND, NOTATIONS, SOLVERS, Spaced, pattern, rewritten
 
@@ -89,17 +88,12 @@ class Paste:
         return tuple(given for scan in self.scans("condition") for given in _given(self.text, scan))
 
     def error(self, message: str, scan: Scan, hint: str) -> ParseError:
-        return _error(self.text, message, scan, hint)
+        return error_at(self.text, message, scan, hint)
 
     def equation_text(self) -> str:
         """The equation as the user wrote it."""
         scan = self.scans("equation")[0]
         return self.text[scan[0].start : scan[-1].end]
-
-
-def _error(text: str, message: str, scan: Scan, hint: str) -> ParseError:
-    start, end = (scan[0].start, scan[-1].end) if scan else (0, len(text))
-    return ParseError(message, text=text, position=start, length=max(1, end - start), hint=hint)
 
 
 def taken_apart(text: str) -> Paste:
@@ -115,9 +109,6 @@ def conditions_in(text: str) -> tuple[PlacedValue, ...]:
 def is_equation(text: str) -> bool:
     """True for a text with an equation in it, false for S alone."""
     return taken_apart(text).is_equation
-
-
-# ------------------------------------------------------------------------------------------- statements
 
 
 def _lines(text: str) -> list[Token]:
@@ -184,9 +175,6 @@ _SEPARATORS: dict[str, Callable[[Scan, int, Scan, bool], bool]] = {
         lambda scan, k, _, is_complete: is_complete and (k + 1 == len(scan) or scan[k + 1].kind in _WORDS),
     ),
 }
-
-
-# ------------------------------------------------------------------------------------------- what stands around
 
 
 class _Around(NamedTuple):
@@ -285,7 +273,7 @@ class _Apart:
         if number[1].text == "1" or re.search(r"[\t\n]|\\\\|quad", gap):
             return
         said = f"{self.written(number)} may be the number of the equation, or a factor"
-        raise _error(self.text, said, number, f"leave it out, or write {number[1].text}* for a factor")
+        raise error_at(self.text, said, number, f"leave it out, or write {number[1].text}* for a factor")
 
     def statement(self, scan: list[Token], *, is_alone: bool) -> None:
         """Gives a statement its role."""
@@ -309,8 +297,6 @@ class _Apart:
         else:
             self.add("equation", scan)
 
-    # -------------------------------------------------------------------------------------- commands
-
     def command(self, scan: list[Token]) -> bool:
         """The arguments of a command of another system: its equation, values, and names that occur in the equation."""
         match = _COMMAND.match(Spaced(scan).text)
@@ -330,7 +316,7 @@ class _Apart:
             if not self.argument(part, names):
                 given = ", ".join(map(self.written, self.equations()))
                 said = f"{self.written(part)} isn't read in {self.written(scan[:1])}(...)"
-                raise _error(self.text, said, part, f"give the equation and its values: {given}")
+                raise error_at(self.text, said, part, f"give the equation and its values: {given}")
         return True
 
     def resolved(self, part: list[Token]) -> list[Token]:
@@ -408,8 +394,6 @@ class _Apart:
         self.add("equation", [function, primes, opening, *point, closing, equals, *values[1]])
         return True
 
-    # -------------------------------------------------------------------------------------- roles
-
     def sorted_roles(self) -> list[PastedPiece]:
         """Conditions among the statements; where nothing else is there, the first one is an equation."""
         equations = self.equations()
@@ -422,8 +406,6 @@ class _Apart:
         ids = {id(scan) for scan in conditions}
         return [piece._replace(role="condition") if id(piece.scan) in ids else piece for piece in self.found]
 
-
-# ------------------------------------------------------------------------------------------- looking
 
 _COMMAND = pattern(rf"(?:\w+ [.\[]? ?)?(?:{'|'.join(SOLVERS)}) (?:\] |\[ \w+ \] )?[(\[]")
 #: An equals sign, primes behind something, a derivative.
@@ -500,13 +482,13 @@ def _without_eq(scan: Scan) -> Scan:
     return [*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]]
 
 
-def _listed(scan: Scan) -> list[list[Token]]:
-    """The parts between commas outside all brackets."""
+def _listed(scan: Scan, signs: Collection[str] = (",",)) -> list[list[Token]]:
+    """The parts between commas, or other signs, outside all brackets."""
     parts: list[list[Token]] = [[]]
     depth = 0
     for token in scan:
         depth += (token.text in OPENING) - (token.text in CLOSING)
-        if depth == 0 and token.text == ",":
+        if depth == 0 and token.text in signs:
             parts.append([])
         else:
             parts[-1].append(token)
@@ -540,13 +522,10 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
     return False
 
 
-# ------------------------------------------------------------------------------------------- values
-
-
-def spelled(tokens: Tokens, begin: int = 0, end: int | None = None) -> str:
+def _spelled(tokens: Tokens) -> str:
     """Tokens in this package's notation."""
     text = ""
-    for piece in tokens.pieces[begin:end]:
+    for piece in tokens.pieces:
         if text and piece and (text[-1].isalnum() or text[-1] in "_'") and (piece[0].isalnum() or piece[0] == "_"):
             text += " "
         text += piece
@@ -555,35 +534,29 @@ def spelled(tokens: Tokens, begin: int = 0, end: int | None = None) -> str:
 
 def _given(text: str, scan: Scan) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
-    tokens = translated(text, [token for token in scan if token.text not in ("$", "`")], condition=True)
-    depth = 0
-    bounds = [-1]
-    for k, kind in enumerate(tokens.kinds):
-        depth += (kind == "LPAR") - (kind == "RPAR")
-        if kind == "EQUAL" and depth == 0:
-            bounds.append(k)
-    bounds.append(len(tokens.kinds) - 1)
-    *places, value = [spelled(tokens, a + 1, b) for a, b in pairwise(bounds)]
+    plain = [token for token in scan if token.text not in ("$", "`")]
+    sides = [translated(text, side, condition=True) for side in _listed(plain, _ASSIGNS)]
+    *places, value = map(_spelled, sides)
     if not places or not all((*places, value)):
         hint = 'write "y(0)=1, y\'(0)=0", each with its value'
-        raise _error(text, f"{text[scan[0].start : scan[-1].end]!r} isn't an initial value", scan, hint)
-    for a, b in list(pairwise(bounds))[1:-1]:
-        calls = [k for k in range(a + 1, b) if tokens.kinds[k] == "HEAD" and _call_end(tokens, k) == b]
-        if a + 1 not in calls:
+        raise error_at(text, f"{text[scan[0].start : scan[-1].end]!r} isn't an initial value", scan, hint)
+    for tokens in sides[1:-1]:  # 1 y'(0), between two equals signs
+        calls = [k for k, kind in enumerate(tokens.kinds) if kind == "HEAD" and _is_last_call(tokens, k)]
+        if 0 not in calls:
             hint = "write y(0) = 1, y'(0) = 0"
             if calls:
                 k = calls[0]
                 hint = f"write {text[scan[0].start : tokens.ends[k - 1]]}, {text[tokens.starts[k] : scan[-1].end]}"
-            raise _error(text, "a comma is missing between two values", scan, hint)
+            raise error_at(text, "a comma is missing between two values", scan, hint)
     for place in places:
         yield PlacedValue(place, value)
 
 
-def _call_end(tokens: Tokens, k: int) -> int:
-    """The number of the token behind a call."""
+def _is_last_call(tokens: Tokens, k: int) -> bool:
+    """True if the call that begins with token k ends with the text."""
     depth = 0
-    for j in range(k + 1, len(tokens.kinds)):
-        depth += (tokens.kinds[j] == "LPAR") - (tokens.kinds[j] == "RPAR")
+    for j, kind in enumerate(tokens.kinds[k + 1 : -1], k + 1):
+        depth += (kind == "LPAR") - (kind == "RPAR")
         if depth == 0:
-            return j + 1
-    return len(tokens.kinds)
+            return j == len(tokens.kinds) - 2
+    return True
