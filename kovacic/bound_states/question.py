@@ -161,7 +161,7 @@ def read_question(
     V_read, guesses = _read_potential(V, energy, None if var is None else str(var), names)
     x, notices = _variable_of(V_read) if var is None else (str(var), ())
     values, rest = values_among(assume or {})
-    at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits)) for name, v in values.items()}
+    at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits=limits)) for name, v in values.items()}
     known_names = sorted({symbol.name for part in (V_read, *ends) for symbol in part.free_symbols} - {x})
     for name in values:
         if name not in known_names:
