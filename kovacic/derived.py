@@ -104,7 +104,7 @@ def special(answer: Answer) -> SpecialFunctions:
         plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     if answer.change is not None or answer.letters:
-        pair = replace(pair, wronskian=None)
+        pair = replace(pair, known_wronskian=None)
     return replace(found, pair=_in_given_symbols(answer, _in_given_variable(answer, pair)))
 
 

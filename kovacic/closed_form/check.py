@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -127,16 +128,22 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
 
 def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
     """True if the Wronskian of the expressions is proven not to vanish at the point of `is_numerical_solution`."""
+    return independent([(y1, y2)], variable) is not None
+
+
+def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, Any] | None:
+    """A pair of which this is proven; one that takes few digits comes first."""
     from kovacic.closed_form.jets import jet
 
     # Where both solutions grow alike, y z' and y' z agree in many digits although W isn't 0.
     for digits in (DIGITS + 15, 4 * DIGITS, 10 * DIGITS):
-        with working_digits(digits), suppress(NotImplementedError):  # a function without balls
-            (y, dy, _), (z, dz, _) = (jet(expression, variable, check_point()) for expression in (y1, y2))
-            W = y * dz - dy * z
-            if W.is_finite() and not W.contains(0):
-                return True
-    return False
+        for pair in pairs:
+            with working_digits(digits), suppress(NotImplementedError):  # a function without balls
+                (y, dy, _), (z, dz, _) = (jet(expression, variable, check_point()) for expression in pair)
+                W = y * dz - dy * z
+                if W.is_finite() and not W.contains(0):
+                    return pair
+    return None
 
 
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:

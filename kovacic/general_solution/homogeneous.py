@@ -160,11 +160,11 @@ def _in_special_functions(
 def _without_second_kind(pair: WrittenPair) -> WrittenPair:
     """J_-nu for Y_nu = (J_nu cos(pi nu) - J_-nu)/sin(pi nu), where nu is no integer."""
     second = [f for f in pair.y2.atoms(sympy.bessely) if f.args[0].is_noninteger]
-    if not second or pair.wronskian is None:
+    if not second or pair.known_wronskian is None:
         return pair
     nu = second[0].args[0]
     y2 = pair.y2.xreplace({f: sympy.besselj(-nu, f.args[1]) for f in second})
-    return replace(pair, y2=y2, wronskian=-sympy.sin(sympy.pi * nu) * pair.wronskian)
+    return replace(pair, y2=y2, known_wronskian=lambda: -sympy.sin(sympy.pi * nu) * pair.wronskian)
 
 
 def _joined(solution: Solution, form: Covariants, budget: Budget) -> Pair | None:

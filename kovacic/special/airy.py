@@ -66,7 +66,9 @@ class Airy(StandardEquation):
 
         z = writer.root(self.q, 3) * writer.argument(f)
         before = writer.factor(f, ())
-        return writer.pair((before, sympy.airyai(z)), (before, sympy.airybi(z)), z.diff(writer.atoms.x) / sympy.pi)
+        return writer.pair(
+            (before, sympy.airyai(z)), (before, sympy.airybi(z)), lambda: z.diff(writer.atoms.x) / sympy.pi
+        )
 
     @property
     def parameters(self) -> list[fmpq]:

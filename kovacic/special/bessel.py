@@ -163,7 +163,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
             for m in (nu, -nu)
         )
         # t^((1 + nu)/2) and t^((1 - nu)/2) are the leading terms at t = 0.
-        return writer.pair(first, second, -writer.constant(nu) * writer.rate(t), (nu,))
+        return writer.pair(first, second, lambda: -writer.constant(nu) * writer.rate(t), (nu,))
     modified = writer.is_negative(t.num.lc)
     four_t = t * -4 if modified else t * 4
     z = writer.root_of(four_t)
@@ -176,7 +176,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
         kinds, order, power, bracket = (sympy.jn, sympy.yn), degree, Fraction(3, 4), rate / z
     before = writer.factor(t, [(Number(nu.part * 0 + power), t)])
     first, second = ((before, kind(writer.constant(order), z, evaluate=False)) for kind in kinds)
-    return writer.pair(first, second, bracket)
+    return writer.pair(first, second, lambda: bracket)
 
 
 # ------------------------------------------------------------------------------------------ values

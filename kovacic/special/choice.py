@@ -26,7 +26,7 @@ from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.closed_form.check import are_independent
+from kovacic.closed_form.check import independent
 from kovacic.closed_form.form import EXACT, ClosedForm, verified, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import Covariants
@@ -186,11 +186,11 @@ class _Equation:
             y1 = self._written(replace(self.structure, primitive=OpenPrimitive(""))).y1
             is_short = len(str(y1)) <= max(len(str(y)) for y in pair)
             pairs = [*((y1, y2) for y2 in pair if is_short), pair]
+        x = Symbol(self.variable)
+        # In an irreducible equation what differs by its exponents is independent.
+        chosen = pair if self.decision.case != 1 else independent(pairs, x)
         made = partial(build, self.S, self.decision, self.gauge)
-        forms = (ClosedForm(*pair, Symbol(self.variable), self.gauge, EXACT, build=made) for pair in pairs)
-        if self.decision.case != 1:  # in an irreducible equation what differs by its exponents is independent
-            return next(forms)
-        return next((form for form in forms if are_independent(form.y1, form.y2, form.variable)), None)
+        return None if chosen is None else ClosedForm(*chosen, x, self.gauge, EXACT, build=made)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
         """The preferred one, written: its true length, and whether an integral is left, may be other than was thought."""

@@ -34,7 +34,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import islice, product
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -130,7 +130,7 @@ class Gauss(StandardEquation):
             even = next((signed for signed in signed_forms if signed.alpha == signed.beta), None)
             if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
                 # Independent for all values of the letters; real between the two points.
-                return writer.pair(*_even_and_odd(even), even.bracket_of_parity(), around_zero=True)
+                return writer.pair(*_even_and_odd(even), even.bracket_of_parity, around_zero=True)
         if any(writer.is_integer(form.degree) for form in first.signs):
             return _reducible(writer, forms)
         if not writer.is_integer(first.alpha):
@@ -338,7 +338,7 @@ def _named(form: _GaussForm) -> tuple[Expr, Expr]:
 def _at_one_point(form: _GaussForm) -> WrittenPair:
     """u and the solution with -alpha: their leading terms are z^((1 - alpha)/2) and z^((1 + alpha)/2)."""
     first, second = form.shorter, form.turned.shorter
-    bracket = first.bracket(second, form.writer.constant(form.alpha))
+    bracket = partial(first.bracket, second, form.writer.constant(form.alpha))
     return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
 
 
@@ -348,10 +348,13 @@ def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
 
     writer = form.writer
     own = replace(form, beta=other.alpha)  # u doesn't depend on the sign of beta
-    a, b, alpha, beta = map(writer.constant, (*own.upper, own.alpha, own.beta))
-    W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
     first, second = form.shorter, other.shorter
-    bracket = first.bracket(second, W)
+
+    def bracket() -> Expr:
+        a, b, alpha, beta = map(writer.constant, (*own.upper, own.alpha, own.beta))
+        W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
+        return first.bracket(second, W)
+
     return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
 
 
@@ -363,7 +366,7 @@ def _reducible(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
     signed_forms = [signed for form in forms for signed in form.signs]
     even = next((form for form in signed_forms if form.alpha == form.beta), None)
     if even is not None:
-        return writer.pair(*_even_and_odd(even), even.bracket_of_parity())
+        return writer.pair(*_even_and_odd(even), even.bracket_of_parity)
     regular = next((form for form in signed_forms if _is_irreducible_at(form)), None)
     if regular is None:
         return None
@@ -396,8 +399,8 @@ def _jacobi(form: _GaussForm) -> WrittenPair:
     if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
         return writer.pair(first, _GaussForm(writer, 1 / f, -form.gamma, form.beta, form.alpha).shorter.term)
     second = form.turned.shorter
-    bracket = form.bracket(second, multiple / _named(form)[0] * writer.constant(form.alpha))
-    return writer.pair(first, second.term, bracket, (form.alpha,))
+    W = multiple / _named(form)[0] * writer.constant(form.alpha)
+    return writer.pair(first, second.term, partial(form.bracket, second, W), (form.alpha,))
 
 
 def _gegenbauer(form: _GaussForm) -> WrittenPair:
@@ -425,7 +428,7 @@ def _gegenbauer(form: _GaussForm) -> WrittenPair:
         scale = (-1) ** a * sympy.factorial(2 * a) / (2**a * sympy.factorial(a))
         bracket *= scale * writer.argument(4 * form.f * (1 - form.f)) ** (a / 2)
     shown = writer.without_constant(polynomial)  # P_N(-z) is (-1)^N P_N(z)
-    return writer.pair((before, shown), second, bracket * shown / polynomial)
+    return writer.pair((before, shown), second, lambda: bracket * shown / polynomial)
 
 
 def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:

@@ -62,7 +62,7 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | Non
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
     z = sympy.expand((unit * angle - shift) / 2)
     W = factor**2 * z.diff(x) * mathieuc(a, q, 0) * mathieusprime(a, q, 0)  # Mathieu's equation has no w'
-    return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), W)
+    return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), lambda: W)
 
 
 def _size_and_shift(cosine: Expr, sine: Expr) -> tuple[Expr, Expr]:

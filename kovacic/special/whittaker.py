@@ -25,7 +25,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from itertools import product
+from operator import mul
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
@@ -241,15 +243,15 @@ def _kummer_or_tricomi(form: _WhittakerForm) -> WrittenPair:
     writer = form.writer
     mu = form.mu
     if not writer.is_integer(2 * mu):
-        return writer.pair(form.kummer(mu), form.kummer(-mu), form.bracket(mu), (2 * mu,))
+        return writer.pair(form.kummer(mu), form.kummer(-mu), partial(form.bracket, mu), (2 * mu,))
     natural = next((m for m in (mu, -mu) if writer.is_natural(2 * m)), None)
     reducible = any(writer.is_integer(form.kappa + m - HALF) for m in (mu, -mu))
     if natural is None or reducible:
-        return writer.pair(form.turned.tricomi, form.tricomi, -form.slope)  # exp(z/2), exp(-z/2) at infinity
+        return writer.pair(form.turned.tricomi, form.tricomi, lambda: -form.slope)  # exp(z/2), exp(-z/2) at infinity
     m, kappa = map(writer.constant, (natural, form.kappa))
     W = -sympy.gamma(1 + 2 * m) / sympy.gamma(m - kappa + sympy.S.Half)
     power = form.z ** sympy.expand(-m - kappa - sympy.S.Half)
-    return writer.pair(form.kummer(natural), form.tricomi, W * sympy.exp(form.z) * power * form.slope)
+    return writer.pair(form.kummer(natural), form.tricomi, lambda: W * sympy.exp(form.z) * power * form.slope)
 
 
 def _hermite(form: _WhittakerForm) -> WrittenPair | None:
@@ -270,7 +272,7 @@ def _hermite(form: _WhittakerForm) -> WrittenPair | None:
     scale = 2**N / sympy.sqrt(sympy.pi)
     W = writer.wronskian_by_parity(N, scale * sympy.gamma((N + 1) / 2), 2 * scale * sympy.gamma(N / 2 + 1))
     bracket = W * sympy.exp(form.z) * root.diff(writer.atoms.x)
-    return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)), bracket)
+    return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)), lambda: bracket)
 
 
 def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
@@ -286,9 +288,10 @@ def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
             polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
             first = form.factor(mu + HALF), polynomial
             if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity
-                return writer.pair(first, form.turned.tricomi, (-form.z) ** N / sympy.factorial(N) * form.slope)
+                bracket = partial(mul, (-form.z) ** N / sympy.factorial(N), form.slope)
+                return writer.pair(first, form.turned.tricomi, bracket)
             multiple = sympy.gamma(N + a + 1) / sympy.gamma(N + 1) / sympy.gamma(a + 1)
-            return writer.pair(first, form.kummer(-mu), form.bracket(mu, multiple), (2 * mu,))
+            return writer.pair(first, form.kummer(-mu), partial(form.bracket, mu, multiple), (2 * mu,))
     return None
 
 

@@ -7,8 +7,9 @@ with square roots, stand beside it (`WrittenFactor`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property, partial
 from typing import Any, Protocol
 
 import sympy
@@ -45,16 +46,25 @@ class WrittenPair:
     ----------
     y1, y2 : sympy.Expr
         The solutions.
-    wronskian : sympy.Expr or None
-        y1 y2' - y1' y2; None where it isn't known in closed form.
+    known_wronskian : callable or None
+        Gives y1 y2' - y1' y2, which few ask for; None where it isn't known in closed form.
     undefined : tuple of sympy.Expr
         Where one of these is zero a member has no value.
     """
 
     y1: Expr
     y2: Expr
-    wronskian: Expr | None = None
+    known_wronskian: Callable[[], Expr] | None = field(default=None, compare=False, repr=False)
     undefined: tuple[Expr, ...] = ()
+
+    @cached_property
+    def wronskian(self) -> Expr | None:
+        """y1 y2' - y1' y2, or None where it isn't known in closed form."""
+        return None if self.known_wronskian is None else self.known_wronskian()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        known = None if self.wronskian is None else partial(Mul, self.wronskian)
+        return WrittenPair, (self.y1, self.y2, known, self.undefined)
 
     def __iter__(self) -> Iterator[Expr]:
         return iter((self.y1, self.y2))
@@ -72,7 +82,7 @@ class WrittenPair:
         WrittenPair
             The pair of the images.
         """
-        W = None if self.wronskian is None else function(self.wronskian)
+        W = None if self.known_wronskian is None else lambda: function(self.wronskian)
         return WrittenPair(function(self.y1), function(self.y2), W, tuple(map(function, self.undefined)))
 
 
@@ -158,7 +168,7 @@ class Writer:
         self,
         first: WrittenTerm,
         second: WrittenTerm,
-        bracket: Expr | None = None,
+        bracket: Callable[[], Expr] | None = None,
         undefined: Iterable[Number] = (),
         *,
         around_zero: bool = False,
@@ -166,8 +176,8 @@ class Writer:
     ) -> WrittenPair:
         """The solutions P1 F1 and P2 F2, the one with fewer factors first.
 
-        `bracket` is (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2: times
-        P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
+        `bracket` gives (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2:
+        times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
         With `around_zero` roots of x^2 - a are those of a - x^2; with `real_at` the powers are real at that point.
         """
         if self.transform is not None:
@@ -177,10 +187,9 @@ class Writer:
             P, Q = (_real_at(factor, self.atoms.x, real_at) for factor in (P, Q))
         y, z = P * first[1], Q * second[1]
         excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
-        W = None if bracket is None else P * Q * bracket
         if second[0].size < first[0].size:
-            return WrittenPair(z, y, None if W is None else -W, excluded)
-        return WrittenPair(y, z, W, excluded)
+            return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded)
+        return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded)
 
     def _combined(self, transform: Combined, before: WrittenFactor, function: Expr) -> Expr:
         """P sqrt(m) ((a + b P'/P) F + b F') for v = P F, F' = s F + t F1 with another function F1."""
@@ -235,6 +244,9 @@ class Writer:
 
     def is_integer(self, value: Number) -> bool:
         """Is it known to be an integer?"""
+        known = None if value.roots else value.part.field.rational_value(value.part)
+        if known is not None:
+            return known.denominator == 1
         return bool(self.constant(value).xreplace(self.known).is_integer)
 
     def has_letters(self, value: Number) -> bool:
