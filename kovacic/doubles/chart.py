@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 from flint import acb, arb, arb_poly, fmpq_poly
 
 from kovacic.algebra.precision import working_precision
@@ -25,7 +24,7 @@ from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, to_double
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states
@@ -36,9 +35,6 @@ from kovacic.reading.change_of_variable import function_of_x, without_change
 _SLOPE_BITS = 4000
 """Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
 recessive one."""
-
-_NOISE = 2.0**-40
-"""Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
 _COMPLEX = "functions of real numbers need an equation with real coefficients"
 
@@ -118,20 +114,6 @@ class RationalChart:
         """The midpoints of their enclosures."""
         return self.problem.singular_points(128)
 
-    def steepness(self, x: Any, h: Any) -> Any:
-        """Lower bounds of the larger characteristic root |r|, a r^2 + h b r + h^2 c = 0, at points x: by |r1 r2| and
-        |r1 + r2|, in plain doubles with room for their errors; infinite where a singular point is nearer than 4 h."""
-        parts = [[arb(v) for v in reversed(part.coeffs())] for part in self._equation]
-        largest = max(abs(v).mid() for part in parts for v in part)
-        doubles = [np.array([float(v / largest) for v in part]) for part in parts]
-        with np.errstate(all="ignore"):
-            sizes = [(np.abs(np.polyval(p, x)), _NOISE * np.polyval(np.abs(p), np.abs(x))) for p in doubles]
-            (a, b, c), (p, q, r) = zip(*sizes, strict=True)
-            found = np.fmax(np.sqrt(np.fmax(c - r, 0.0) / (a + p)) * h, (b - q) / (a + p) * h / 2)
-            for point in self.singular:
-                found[np.abs(x - to_double(point)) + _NOISE * np.abs(x) < 4 * h] = np.inf
-            return found
-
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
         line: Any = fmpq_poly([centre.x, power_of_two(e)])
@@ -146,8 +128,8 @@ class RationalChart:
         return [midpoint(root) for root, order in self.problem.poles(128) if order > 2]
 
     def is_regular(self, centre: ExactPoint, e: int) -> bool:
-        """Is the disc with the scale 2^e, and twice as much, free of singular points?  `steepness` knows."""
-        return True
+        """True if the disc with the scale 2^e, and four times as much, is free of singular points."""
+        return all((point - centre).norm_squared() > power_of_two(2 * e + 4) for point in self.singular)
 
     def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
         """H^2 f/a at u."""
@@ -222,10 +204,6 @@ class AnalyticChart:
         options |= {"digits": digits, "limits": limits, **self.given}
         options["path"] = self.given.get("path")
         return [s.state for s in evaluate_states(self.coefficients, points, **options)]
-
-    def steepness(self, x: Any, h: Any) -> Any:
-        """Nothing is known beforehand."""
-        return 0.0 * x
 
     def is_regular(self, centre: ExactPoint, e: int) -> bool:
         """Are the coefficients known to be analytic in the disc with twice the scale 2^e?"""

@@ -297,21 +297,16 @@ def measure(
         extra = _suspects(function, zeros, gaps)
     given = np.append(np.atleast_1d(points), extra)
     found = [complex(v) for v in function(given)]
-    reference = _reference(function, chart, given, limits)
+    reference = [
+        y for y, _ in chart.states([as_point(complex(x), "x") for x in given], _DIGITS, limits, method="taylor")
+    ]
+    if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
+        raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     with working_precision(_PREC):
         errors = _errors(found, reference, normed=bool(start))
     typical = [e for e in errors[: len(errors) - extra.size] if e is not None]
     counted = [e for e in errors if e is not None]
     return Measured(float(np.median(typical or [math.inf])), max(counted, default=math.inf), len(counted))
-
-
-def _reference(function: Function, chart: PieceChart, points: Any, limits: Limits | None) -> list[acb]:
-    """The values at these points in balls.  Raises LimitExceeded where they aren't found."""
-    exact = [as_point(complex(x), "x") for x in points]
-    values = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
-    if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in values):
-        raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
-    return values
 
 
 def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list[float | None]:

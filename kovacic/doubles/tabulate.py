@@ -46,8 +46,6 @@ from kovacic.limits import Limits, check_time, limited, limits_of
 _PREC = 300
 GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
-_STEEP = 4.0
-"""Characteristic roots above this make the sums larger."""
 _PIECES = 5
 _SMALLEST = -1000
 """So many pieces for each unit of the limit `unknown_degree`: 100,000 by default, of a kilobyte and 0.3 ms each (measured)."""
@@ -361,9 +359,7 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
         )
     variant = _CAREFUL if careful else _PLAIN
     with working_precision(_PREC):
-        cells, found = _pieces(
-            region, lambda some: _series(chart, some, variant), lambda x, h: chart.steepness(x, h) > _STEEP, limits
-        )
+        cells, found = _pieces(region, lambda some: _series(chart, some, variant), limits)
     series = Pair(*np.stack(found, axis=-1))
     states, powers = _states(chart, cells, series, variant, limits)
     coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
@@ -381,7 +377,7 @@ def polynomial_table(
 ) -> TabulatedFunction:
     """A function from its Taylor series in balls on the pieces that `expand` says will do; up to singular points, too."""
     variant = _CAREFUL if careful else _PLAIN
-    cells, found = _pieces(region, lambda some: [expand(cell, variant) for cell in some], lambda x, h: x > math.inf)
+    cells, found = _pieces(region, lambda some: [expand(cell, variant) for cell in some])
     with working_precision(_PREC):
         table, powers = _rounded(found, variant)
     return _assembled(region, cells, _given(table), powers, variant)
@@ -413,40 +409,21 @@ def _root(region: Region) -> Cell:
 
 
 def _pieces(
-    region: Region,
-    expand: Callable[[list[Cell]], list[Any]],
-    refused: Callable[[Any, Any], Any],
-    limits: Limits | None = None,
+    region: Region, expand: Callable[[list[Cell]], list[Any]], limits: Limits | None = None
 ) -> tuple[list[Cell], list[Any]]:
-    """The pieces from left to right, no more than the limits allow, and what `expand` makes of them: None where one won't do.
-
-    `refused` says of arrays of centres and scales, at once, where that is known beforehand.
-    """
+    """The pieces from left to right, no more than the limits allow, and what `expand` makes of them (None: nothing)."""
     low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
     most = limits_of(limits).unknown_degree * _PIECES
     untried = [_root(region)]
-    promising: list[Cell] = []
     done: dict[Cell, Any] = {}
-    while untried or promising:
-        if len(untried) + len(promising) + len(done) > most:
+    while untried:
+        if len(untried) + len(done) > most:
             raise LimitExceeded(f"the table needs more than {most} pieces", limit="unknown_degree")
         check_time()
-        too_large: list[Cell] = []
-        if untried:
-            centres = np.array([float(c) for c, _ in untried])
-            scales = np.array([math.ldexp(1.0, e) for _, e in untried])
-            for cell, is_refused in zip(untried, refused(centres, scales), strict=True):
-                is_inside = low <= cell[0] <= high  # values are inside only
-                fate = promising if is_inside and not is_refused else too_large
-                fate.append(cell)
-        else:
-            for cell, item in zip(promising, expand(promising), strict=True):
-                if item is None:
-                    too_large.append(cell)
-                else:
-                    done[cell] = item
-            promising = []
-        untried = [half for cell in too_large for half in _halves(cell, low, high)]
+        inside = [cell for cell in untried if low <= cell[0] <= high]  # values are inside only
+        found = dict(zip(inside, expand(inside), strict=True)) if inside else {}
+        done |= {cell: item for cell, item in found.items() if item is not None}
+        untried = [half for cell in untried if cell not in done for half in _halves(cell, low, high)]
     cells = sorted(done)
     return cells, [done[cell] for cell in cells]
 

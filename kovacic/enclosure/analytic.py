@@ -206,7 +206,12 @@ class AnalyticWay(Way):
             rest = 1 - t
             e = min(e + 1, exponent(square * rest * rest))
             while True:
-                half = min(_share(square, e), rest / 2)
+                ratio = power_of_two(2 * e) / square
+                k = (ratio.p.bit_length() - ratio.q.bit_length()) // 2
+                root = (
+                    (ratio * power_of_two(24 - 2 * k)).floor().isqrt()
+                )  # 2^e over the length, a dyadic number just below
+                half = min(fmpq(root) * power_of_two(k - 12), rest / 2)
                 centre = a + length.scaled(t + half)
                 jets = self.functions.jets(centre, e, self.prec, self._steepest)
                 if jets is not None:
@@ -216,14 +221,6 @@ class AnalyticWay(Way):
             enter = a + length.scaled(t)
             t += 2 * half
             yield AnalyticStep(JetBasis(jets), enter, b if t == 1 else a + length.scaled(t))
-
-
-def _share(square: Any, e: int) -> Any:
-    """A dyadic number just below 2^e over the length whose square this is."""
-    ratio = power_of_two(2 * e) / square
-    k = (ratio.p.bit_length() - ratio.q.bit_length()) // 2
-    root = (ratio * power_of_two(24 - 2 * k)).floor().isqrt()
-    return fmpq(root) * power_of_two(k - 12)
 
 
 def exponent(square: Any) -> int:

@@ -20,7 +20,7 @@ import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
@@ -386,8 +386,5 @@ def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool
                 raise NotServed
             continue
         with working_precision(_BITS):
-            _check_pieces(a, b, partial(_misses, acb_poly(top) * c, acb_poly(form.d)))
-
-
-def _misses(over: acb_poly, under: acb_poly, x: acb) -> bool:
-    return _off(over(x) / under(x))
+            over, under = acb_poly(top) * c, acb_poly(form.d)
+            _check_pieces(a, b, lambda x, over=over, under=under: _off(over(x) / under(x)))  # type: ignore[misc]

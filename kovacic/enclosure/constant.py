@@ -70,7 +70,12 @@ class ConstantWay(AnalyticWay):
             A[row, row] = rate
             if k > 0:  # (t^k exp(alpha t))' = alpha t^k exp(alpha t) + k t^(k-1) exp(alpha t)
                 A[row, row - 1] = acb(k)
-        with working_precision(ctx.prec + self._lost_bits(A, b - a)):
+        # (v - u) A is halved until it is small, and as many squares make a ball a few times as wide each.
+        size = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(b - a))
+        lost = 4 * max(0, upper_exponent(size))
+        if lost > _LONGEST:
+            raise LimitExceeded(f"the way is so long that values lose {lost} bits", limit="digits")
+        with working_precision(ctx.prec + lost):
             E = (A * to_acb(b - a)).exp()
         ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
         matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
@@ -80,14 +85,6 @@ class ConstantWay(AnalyticWay):
             added = [acb(value.real) for value in added]
         y, dy = apply(matrix, particular)
         return product.after(matrix), (y + added[0], dy + added[1])
-
-    def _lost_bits(self, A: acb_mat, step: ExactPoint) -> int:
-        """By halving (v - u) A until it is small, and as many squares; raises LimitExceeded for numbers that are too long."""
-        size = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(step))
-        bits = 4 * max(0, upper_exponent(size))  # each square makes a ball a few times as wide
-        if bits > _LONGEST:
-            raise LimitExceeded(f"the way is so long that values lose {bits} bits", limit="digits")
-        return bits
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         return {stop: traveller.moved(stop).state for stop in stops}

@@ -28,14 +28,10 @@ from kovacic.enclosure.points import kept_at_precision
 from kovacic.limits import check_time
 
 
+@kept_at_precision(maxsize=32)
 def conjugates(field: Field) -> list[acb | None]:
     """The embeddings of K(c) over K = Q as values of c at the working precision in force; [None] for Q itself."""
-    return _conjugates(field) if isinstance(field, AlgebraicField) else [None]
-
-
-@kept_at_precision(maxsize=32)
-def _conjugates(field: AlgebraicField) -> list[acb | None]:
-    return [root for root, _ in _roots(field.modulus)]
+    return [root for root, _ in _roots(field.modulus)] if isinstance(field, AlgebraicField) else [None]
 
 
 def _roots(poly: Poly) -> tuple[tuple[acb, int], ...]:

@@ -26,7 +26,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 from flint import acb, arb, arb_poly, fmpq, fmpq_poly
@@ -106,10 +106,6 @@ class Swing:
     enter: ExactPoint
     leave: ExactPoint
 
-    @cached_property
-    def _to_constants(self) -> Matrix:
-        return inverse(self.oscillation.fundamental(self.enter))
-
     @property
     def matrix(self) -> Matrix:
         """The matrix of the step."""
@@ -125,7 +121,7 @@ class Swing:
         """The solution on the half line, from its state where the step begins."""
         count_work(self.oscillation.prec)
         with working_precision(self.oscillation.prec + _GUARD):
-            C = apply(self._to_constants, state)
+            C = apply(inverse(self.oscillation.fundamental(self.enter)), state)
             error = (self.oscillation.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
         real = C[0].imag.is_zero() and C[1].imag.is_zero()
         off = around_zero(error, real=real)
@@ -154,7 +150,7 @@ def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> 
         return end
     edge = near if found.reaches(near) else ExactPoint(found.sign * found.edge)
     share = (end - edge).x / end.x
-    return edge if share > 0 and found.phase_bits(abs(end.x)) + log2(arb(share)) > _least(prec) else end
+    return edge if share > 0 and found.phase_bits(abs(end.x)) + log2(arb(share)) > math.log2(_WORTH * prec) else end
 
 
 def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
@@ -162,10 +158,6 @@ def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
     found = _towards(system, max(a, b, key=lambda point: abs(point.x)), prec)
     assert found is not None
     return Swing(found, a, b)
-
-
-def _least(prec: int) -> float:
-    return math.log2(_WORTH * prec)
 
 
 def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
@@ -176,7 +168,7 @@ def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
     sign = 1 if end.x > 0 else -1
     c = -fmpq(system.num[-1], system.den[-1]) * sign ** abs(d)
     with working_precision(_BITS):
-        if c < 0 or not _phase_bits(c, d, abs(end.x)) > _least(prec):
+        if c < 0 or not _phase_bits(c, d, abs(end.x)) > math.log2(_WORTH * prec):
             return None
     return _oscillation(system, sign, prec)
 

@@ -16,7 +16,7 @@ from kovacic.enclosure.arguments import check_method, comparable, comparables, l
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import ExactPoint, to_acb
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.rational import way_for
@@ -185,15 +185,8 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
     """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
     with working_precision(256):
         for number in numbers:
-            if _may_be_singular(problem, number):
+            if problem.embedded is None and isinstance(number, ExactPoint):
+                continue
+            ball = to_ball(number)
+            if any(abs(ball - z).lower() < _APART for z in problem.enclosures(256)):
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
-
-
-def _may_be_singular(problem: NumericProblem, number: Number) -> bool:
-    """Can't it be told from a singular point?  False for a rational point, unless the constants are known by balls."""
-    if problem.embedded is not None:
-        return not all(problem.embedded.value(f, to_ball(number)).is_finite() for f in problem.embedded.quotients())
-    if isinstance(number, ExactPoint):
-        return False
-    ball = to_ball(number)
-    return any(abs(ball - to_acb(z)).lower() < _APART for z in problem.singular_points(256))
