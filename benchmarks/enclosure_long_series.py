@@ -17,7 +17,7 @@ from typing import Any
 
 import frame
 
-from kovacic.enclosure import transport
+from kovacic.enclosure import rational
 from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.splitting import is_split
 from kovacic.limits import Limits
@@ -63,7 +63,7 @@ def seconds(text: str, x0: Any, x: Any, digits: int, split: bool | None) -> floa
 
 def measure(text: str, x0: Any, x: Any, digits: int, split: bool | None) -> float:
     if split is not None:
-        transport.is_split = lambda system, prec: split  # type: ignore[assignment]
+        rational.is_split = lambda *_: split  # type: ignore[assignment]
     S, times, limits = read_input(text).S, [], Limits(digits=10**6, seconds=math.inf)
     evaluate(S, x, x0=x0, y0=1, dy0=0, digits=50, method="taylor")
     while not times or (sum(times) < 0.3 and len(times) < 10):

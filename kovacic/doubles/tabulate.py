@@ -214,31 +214,21 @@ class TabulatedFunction:
 
     def _single(self, x: float) -> Any:
         """The value at one number within the interval, without arrays."""
-        k = bisect_right(self._edges, x)
+        edges, centres, exponents, powers = self._lists
+        k = bisect_right(edges, x)
         if k not in self._whole:
             self._whole[k] = [_Whole.of(part[:, :, k], self.careful) for part in self.coefficients]
-        e = self._shifts[k]
-        high = x - self._centres[k]
-        low = (x - (high - (high - x))) - (self._centres[k] + (high - x))
+        e = exponents[k]
+        high = x - centres[k]
+        low = (x - (high - (high - x))) - (centres[k] + (high - x))
         u = int(ldexp(high, _FIXED - e)) + int(ldexp(low, _FIXED - e))
-        values = [part.at(u, self._powers[k]) for part in self._whole[k]]
+        values = [part.at(u, powers[k]) for part in self._whole[k]]
         return values[0] if len(values) == 1 else complex(*values)
 
     @cached_property
-    def _edges(self) -> list[float]:
-        return [float(edge) for edge in self.edges]
-
-    @cached_property
-    def _centres(self) -> list[float]:
-        return [float(centre) for centre in self.centres]
-
-    @cached_property
-    def _shifts(self) -> list[int]:
-        return [int(e) for e in self.exponents]
-
-    @cached_property
-    def _powers(self) -> list[int]:
-        return [int(power) for power in self.powers]
+    def _lists(self) -> tuple[list[float], list[float], list[int], list[int]]:
+        """The edges, centres, exponents and powers as Python's numbers."""
+        return self.edges.tolist(), self.centres.tolist(), self.exponents.tolist(), self.powers.tolist()
 
     @cached_property
     def _whole(self) -> dict[int, list[_Whole]]:

@@ -239,72 +239,34 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     given = found.equation
     if given is not None and given.change is not None:
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {given.change.variable} here")
-    functions = _Functions.of(found)
-    names = _parameters(found, functions.right)
+    S = found.S
+    gauge = None if given is None else given.gauge or None
+    right = None if given is None or given.is_homogeneous else given
+    names = _parameters(found, right)
     numbers = {}
     if params is not None or names:
         letters = getattr(found, "letters", ())
         constants = {name: meaning for name, meaning in letters if meaning.is_number}
         numbers = values_of_parameters(names, params or {}, constants)
-    values = _rational_values(numbers)
-    if values is None or functions.have_algebraic_constants:
-        embedded = Embedded(functions.S, functions.gauge, numbers)
+    is_rational = all(isinstance(number, ExactPoint) and number.is_real() for number in numbers.values())
+    fields = [part.field for part in (S, gauge, None if right is None else right.f) if part is not None]
+    if not is_rational or any(isinstance(field, AlgebraicField) for field in fields):
+        embedded = Embedded(S, gauge, numbers)
         embedded.check()
-        return NumericProblem(System((), (1,)), right=functions.right, embedded=embedded)
-    decision = None
-    if values:  # the decision of an answer is that for generic values
-        functions = functions.at(values)
-    elif isinstance(found, Answer):
-        decision = found.decision
-    return NumericProblem(System.of(functions.S), functions.S, decision, functions.gauge, functions.right)
-
-
-def _rational_values(numbers: Mapping[str, Number]) -> dict[str, Fraction] | None:
-    """The values of the parameters, if all of them are rational; None elsewhere."""
-    values = {}
-    for name, number in numbers.items():
-        if not (isinstance(number, ExactPoint) and number.is_real()):
-            return None
-        values[name] = number.re
-    return values
-
-
-@dataclass(frozen=True)
-class _Functions:
-    """S, the gauge unless it is zero, and the user's equation where it has a right-hand side."""
-
-    S: RatFunc
-    gauge: RatFunc | None = None
-    right: Equation | None = None
-
-    @classmethod
-    def of(cls, found: Answer | Parsed) -> _Functions:
-        """Those of an equation that was read."""
-        given = found.equation
-        if given is None:
-            return cls(found.S)
-        right = None if given.is_homogeneous else given
-        return cls(found.S, given.gauge or None, right)
-
-    @property
-    def have_algebraic_constants(self) -> bool:
-        """Are there constants that are neither rational nor parameters?"""
-        fields = [self.S.field]
-        if self.gauge is not None:
-            fields.append(self.gauge.field)
-        if self.right is not None:
-            fields.append(self.right.f.field)
-        return any(isinstance(field, AlgebraicField) for field in fields)
-
-    def at(self, values: dict[str, Fraction]) -> _Functions:
-        """The same at values of the parameters."""
-        gauge = self.gauge
-        if gauge is not None:
-            gauge = _specialised(gauge, values)
-        right = self.right
-        if right is not None:
-            right = _right_at(right, values)
-        return _Functions(_specialised(self.S, values), gauge, right)
+        return NumericProblem(System((), (1,)), right=right, embedded=embedded)
+    if not numbers:
+        return NumericProblem(System.of(S), S, found.decision if isinstance(found, Answer) else None, gauge, right)
+    # The decision of an answer is that for generic values.
+    values = {name: number.re for name, number in numbers.items() if isinstance(number, ExactPoint)}
+    S = _specialised(S, values)
+    gauge = gauge and _specialised(gauge, values)
+    if right is not None:
+        a, b, c, f = (_specialised(part, values) for part in (right.a, right.b, right.c, right.f))
+        h = right.h
+        if h is not None:
+            h = h.subs({name: as_text(value) for name, value in values.items()})
+        right = replace(right, a=a, b=b, c=c, f=f, h=h)
+    return NumericProblem(System.of(S), S, gauge=gauge, right=right)
 
 
 def _parameters(found: Answer | Parsed, right: Equation | None) -> tuple[str, ...]:
@@ -318,15 +280,6 @@ def _parameters(found: Answer | Parsed, right: Equation | None) -> tuple[str, ..
         return names
     symbols = {symbol.name for symbol in right.h.free_symbols}
     return tuple(sorted({*names, *symbols} - {right.variable}))
-
-
-def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:
-    """The equation with a right-hand side at values of its parameters."""
-    a, b, c, f = (_specialised(part, values) for part in (right.a, right.b, right.c, right.f))
-    h = right.h
-    if h is not None:
-        h = h.subs({name: as_text(value) for name, value in values.items()})
-    return replace(right, a=a, b=b, c=c, f=f, h=h)
 
 
 def values_of_parameters(

@@ -92,7 +92,9 @@ class RationalWay(Way):
         return spread_by(coefficients, number, state)
 
     def decay_rate(self, x: ExactPoint) -> acb:
-        rate = logarithmic_derivative(self.problem.system, x, self.prec)
+        system = self.problem.system
+        prec = self.prec + 20
+        rate = logarithmic_derivative(RationalWay(NumericProblem(system), prec), system, x, prec)
         return rate if self.problem.gauge is None else rate + value(self.problem.gauge, None, to_acb(x))
 
     def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:

@@ -23,13 +23,12 @@ from flint import acb, acb_poly, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
-from kovacic.enclosure.matrices import State, product
+from kovacic.enclosure.matrices import MatrixProduct, State
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System
-from kovacic.enclosure.transport import piece_matrices
-from kovacic.enclosure.way import Way
+from kovacic.enclosure.way import NOTHING, Way
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import plain_text
 
@@ -150,8 +149,8 @@ def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
         return Singular.at(problem, number.value())
 
 
-def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
-    """A ball that contains y'/y at x0 of the recessive solution, to about `prec` bits, by equation (1).
+def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) -> acb:
+    """A ball that contains y'/y at x0 of the recessive solution of the system, whose `way` this is, by equation (1).
 
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
     more slowly than 1/x^2.
@@ -168,8 +167,8 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     if math.isinf(rightmost):
         raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
     beyond = max(math.ceil(rightmost) + 1, math.ceil(x0.re))
-    far = ExactPoint(_with_growth(system, beyond, (prec + 20) * math.log(2) / 2))
-    matrix = product(piece_matrices(system, far, x0, prec + 20))
+    far = ExactPoint(_with_growth(system, beyond, prec * math.log(2) / 2))
+    matrix = way.carried(far, x0, MatrixProduct(), NOTHING)[0].matrix()
     m = matrix[0]
     n = -matrix[1]
     dn = -matrix[3]

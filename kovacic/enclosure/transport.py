@@ -1,6 +1,6 @@
 """Transition matrices of y'' = S y along straight pieces: discs and junctions.
 
-The guarantee: `piece_matrices` returns balls that contain the exact analytic continuation along the piece, or raises.
+The guarantee: the matrices of a walk are balls that contain the exact analytic continuation along the piece.
 
 A straight piece from a to b is covered by discs.  Disc i has a dyadic centre c_i beside or on the piece and is free of
 singular points; it contains the junctions s_i and s_(i+1) of the piece, so it contains the part of the piece between them
@@ -28,8 +28,8 @@ from flint import acb, fmpq
 from kovacic.enclosure.frame import REACH, Frame, fitting, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
-from kovacic.enclosure.splitting import is_split, legs
-from kovacic.enclosure.system import System, check_segment, distance_lower, is_apart
+from kovacic.enclosure.splitting import legs
+from kovacic.enclosure.system import System, distance_lower, is_apart
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
 from kovacic.enclosure.way import MAX_DISCS, Forecast, Local
 from kovacic.errors import LimitExceeded
@@ -96,17 +96,6 @@ class Disc:
             is_inside = abs(stop.near - near) + rounding <= radius  # `Frame.seen` checks it exactly
             if is_inside and (is_free or is_apart(system, a, self.begin, stop.point)):
                 yield stop
-
-
-def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:
-    """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
-    check_segment(system, a, b)
-    ahead = forecast(system, a, b, prec)
-    found = []
-    for number, leg in enumerate(walk(system, a, b, prec, split=is_split(system, prec, a, b)), 1):
-        found.append(leg.matrix)
-        ahead.check(number)
-    return found
 
 
 @dataclass(frozen=True)

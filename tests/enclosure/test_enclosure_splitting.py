@@ -16,9 +16,10 @@ from hypothesis import strategies as st
 from strategies import Example, examples, fractions, integers, nonzero
 
 from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evaluate
-from kovacic.enclosure import transport
+from kovacic.enclosure import rational
 from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.splitting import Recurrence, bit_burst, is_split, split_legs
 from kovacic.enclosure.taylor import expand, transition
 
@@ -32,10 +33,13 @@ def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix
     matrices = []
     with flint.ctx.workprec(prec + 40), pytest.MonkeyPatch.context() as patch:
         for split in (False, True):
-            patch.setattr(transport, "is_split", lambda *_, split=split: split)
+            patch.setattr(rational, "is_split", lambda *_, split=split: split)
+            way = rational.RationalWay(NumericProblem(system), prec)
             try:
+                for a, b in pairwise(path):
+                    way.check(a, b)
                 matrices.append(
-                    product([m for a, b in pairwise(path) for m in transport.piece_matrices(system, a, b, prec)])
+                    product([step.matrix for a, b in pairwise(path) for step in way.walk(a, b, alone=True)])
                 )
             except InputError:
                 assume(False)
