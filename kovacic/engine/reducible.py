@@ -22,9 +22,17 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
-from kovacic.engine.degree_bound import DegreeBound, degree_bound, irrational_exponents, is_cheap
 from kovacic.engine.invariants import invariants
-from kovacic.engine.local import chart, exponential_parts, omega_parts, rational_omega
+from kovacic.engine.local import (
+    DegreeBound,
+    chart,
+    degree_bound,
+    exponential_parts,
+    irrational_exponents,
+    is_cheap,
+    omega_parts,
+    rational_omega,
+)
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
 from kovacic.errors import LimitExceeded

@@ -21,8 +21,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.invariants import bounds, least_valuation
+from kovacic.engine.local import irregular_difference_squared
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions

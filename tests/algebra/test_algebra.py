@@ -28,7 +28,7 @@ from kovacic.algebra.rationals import RationalPoly, square_part
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square
-from kovacic.engine.degree_bound import trace_of_square_root
+from kovacic.engine.local import trace_of_square_root
 
 P = prime(0)
 small = st.integers(-9, 9)

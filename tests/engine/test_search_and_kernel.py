@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import checker
-from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.invariants import least_valuation
+from kovacic.engine.local import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.verify import evidence
 from kovacic.verify.local import has_no_series
 from kovacic.verify.zeros import residue_over_leading_root, zero_counts
