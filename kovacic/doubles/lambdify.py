@@ -31,14 +31,15 @@ from kovacic.doubles.chart import PieceChart, RationalChart, chart_of
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
+from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.evaluate import InitialValues
-from kovacic.enclosure.points import ExactPoint, as_point
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import Path
 from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords, warn_user
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
-from kovacic.numbers.exact import whole
+from kovacic.numbers.exact import exact_real, whole
 
 TINY = 2.0**-960
 HUGE = 2.0**1020
@@ -62,6 +63,9 @@ _EACH = 8
 _BESIDE = 0.01
 """Parts of a region, points of each that suspects are chosen from, and the distance from a zero over that to the next one."""
 
+_PRINTED = ("y1", "y2")
+"""Solutions as they are printed."""
+
 Function = ProductForm | TabulatedFunction
 
 
@@ -75,7 +79,7 @@ class LambdifyOptions(LambdifyStart, total=False):
     """The keywords of `lambdify`."""
 
     interval: Required[tuple[object, object]]
-    which: int | Literal["regular", "decaying"]
+    which: int | Literal["regular", "decaying", "y1", "y2"]
     careful: bool | None
     check: bool
     params: Mapping[str, object] | None
@@ -89,7 +93,7 @@ def lambdify(
     solution: object,
     *,
     interval: tuple[object, object],
-    which: int | Literal["regular", "decaying"] = 0,
+    which: int | Literal["regular", "decaying", "y1", "y2"] = 0,
     careful: bool | None = None,
     check: bool = True,
     params: Mapping[str, object] | None = None,
@@ -115,7 +119,8 @@ def lambdify(
         Without initial values: the number of the logarithmic derivative omega, 0 by default.  In case 1 it numbers the
         conjugates of omega, or the two rational ones; in cases 2 and 3 the roots of the polynomial of omega near the middle of
         the interval, by real and then imaginary part.  The constant factor is that of `kovacic.doubles.product_form`; tables
-        are 1 near the middle.  With x0: "regular" or "decaying", as for `kovacic.evaluate`.
+        are 1 near the middle.  "y1" or "y2": the solution that `solutions` prints, as a table.  With x0: "regular" or
+        "decaying", as for `kovacic.evaluate`.
     careful : bool or None
         True: the arithmetic is that of double-doubles, 20 times slower; False: that of plain doubles.  By default (None) plain
         doubles, unless the measured error is above 8 (median) or 1,000 (worst) units.
@@ -162,6 +167,9 @@ def lambdify(
     >>> second = lambdify(kovacic.solve("1"), interval=(0, 1), which=1, check=False)
     >>> print(f"{second(1.0)/second(0.0):.12f}")
     0.367879441171
+    >>> y1 = lambdify(kovacic.solve("2/x^2 - 1"), interval=(1, 9), which="y1")  # (x cos(x) - sin(x))/x
+    >>> print(f"{y1(2.0):.12f}")
+    -0.870795550460
     >>> wave = lambdify(kovacic.solve("x^2 + 3"), interval=(0, 1 + 1j), check=False)
     >>> print(f"{wave(0.5 + 0.5j):.10f}")
     0.3607542312+0.6081581905j
@@ -180,7 +188,9 @@ def lambdify(
     chart = _chart(with_variable(solution, var, limits, params), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
-    if not start:
+    if which in _PRINTED:
+        chart = replace(chart, given=_printed(solution, which, candidates, params))
+    elif not start:
         base = chart.base(number, candidates)
         chart = chart.beginning(number, base)
     job = _Job(chart, region, number, base, limits)
@@ -206,8 +216,12 @@ def _question(which: object, x0: object, given: LambdifyStart) -> tuple[dict[str
     """The initial values, if there are any, and else the number of the solution."""
     start: dict[str, Any] = {**given}
     number = 0
-    if isinstance(which, str):
+    if isinstance(which, str) and which not in _PRINTED:
         start["which"] = which
+    elif isinstance(which, str) and (start or x0 is not None):
+        raise InputError(f"which={which!r} is a solution without initial values")
+    elif isinstance(which, str):
+        return {}, 0
     else:
         number = whole(which, "which")
     if start and x0 is None:
@@ -217,6 +231,27 @@ def _question(which: object, x0: object, given: LambdifyStart) -> tuple[dict[str
     if x0 is not None:
         start["x0"] = x0
     return start, number
+
+
+def _printed(
+    solution: object, which: str, candidates: Sequence[ExactPoint], params: Mapping[str, object] | None
+) -> dict[str, Any]:
+    """The start of y1 or y2 of the closed form, from its balls at the first of the points where they are finite."""
+    import sympy
+
+    from kovacic.closed_form.jets import jet
+
+    pair = getattr(solution, "solutions", ())
+    if not pair:
+        raise InputError(f"which={which!r} needs what kovacic.solve returns for an equation with closed forms")
+    values = {sympy.Symbol(name): sympy.Rational(exact_real(value, name)) for name, value in (params or {}).items()}
+    y = pair[_PRINTED.index(which)].xreplace(values)
+    with working_precision(_PREC):
+        for point in candidates:
+            value, slope, _ = jet(y, sympy.Symbol(solution.variable), to_acb(point))  # type: ignore[attr-defined]
+            if value.is_finite() and slope.is_finite():
+                return {"x0": point, "y0": ball_from_flint(value), "dy0": ball_from_flint(slope)}
+    raise InputError(f"{y} has no value near the middle of the interval")
 
 
 def _chart(

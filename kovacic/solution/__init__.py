@@ -219,7 +219,7 @@ class Solution(Answer):
         interval : pair
             Two real numbers, or two corners of a rectangle of the complex plane (case 1); needed.
         which : int or str
-            The number of the solution, 0 by default; with x0 "regular" or "decaying".
+            The number of the solution, 0 by default; "y1" or "y2" as `solutions` has them; with x0 "regular" or "decaying".
         careful : bool or None
             Double-doubles (True), plain doubles (False), or a choice by the measured error (None, the default).
         check : bool

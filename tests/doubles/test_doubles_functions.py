@@ -11,6 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 import scipy.special
+import sympy
 from build import QQ, RatFunc, parametrize
 
 import kovacic
@@ -418,3 +419,35 @@ def test_the_worst_error_is_that_of_a_dense_measurement(equation: str, interval:
         / np.spacing(np.abs(exact))
     )
     assert np.max(errors[within]) < 2.5 * plain.measured.worst
+
+
+@pytest.mark.parametrize(
+    ("text", "interval"),
+    [
+        ("2/x^2 - 1", (1, 2)),
+        ("x^2 + 3", (0, 1)),
+        ("-3/16/x^2 - 3/16/(x-1)^2 + 3/16/x/(x-1)", ("1/5", "4/5")),
+        ("(-864*x^2+739*x-675)/(3600*x^4-7200*x^3+3600*x^2)", ("1/5", "4/5")),
+        ("x^2*y'' + x*y' + (x^2 - 9/4)*y = 0", (1, 4)),
+        ("y'' = (a - 1)*y", (0, 3)),
+    ],
+)
+@pytest.mark.parametrize("which", ["y1", "y2"])
+def test_the_printed_solutions_become_functions(text: str, interval: tuple[object, object], which: str) -> None:
+    """At points of the interval they have the values of the expression, of which SymPy has 30 digits."""
+    solution = kovacic.solve(text)
+    params = {"a": 3} if "(a" in text else None
+    function = solution.lambdify(interval=interval, which=which, params=params)
+    y = solution.solutions[("y1", "y2").index(which)].subs({sympy.Symbol("a"): 3})
+    assert function.measured.median < 1
+    for k in range(1, 6):
+        point = function.interval[0] + k * (function.interval[1] - function.interval[0]) / 6
+        expected = complex(y.subs(sympy.Symbol("x"), sympy.Rational(point)).evalf(30))
+        assert abs(complex(function(point)) - expected) < 1e-13 * abs(expected) + 1e-15
+
+
+def test_a_printed_solution_has_no_initial_values() -> None:
+    with pytest.raises(kovacic.InputError, match="without initial values"):
+        kovacic.solve("2/x^2 - 1").lambdify(interval=(1, 2), which="y1", x0=1, y0=1, dy0=0)
+    with pytest.raises(kovacic.InputError, match="Liouvillian"):
+        kovacic.solve("x").lambdify(interval=(1, 2), which="y1")
