@@ -14,8 +14,10 @@ if TYPE_CHECKING:
 Function = Callable[[Any], Any]
 #: Sample points of a curve.
 _POINTS = 1201
-#: A wave function is drawn as far as it exceeds this part of its greatest modulus.
-_TAIL = 0.03
+#: A wave function is drawn as far as it exceeds this part of its greatest modulus, or the second one if its tail is long.
+_TAILS = (0.03, 0.3)
+#: A tail is long if the window for the first of these parts is so many times wider than that for the second: 1/x, not exp(-x).
+_LONG = 6
 #: The largest distance at which the end of the tails is looked for.
 _FAR = 4096.0
 #: Wave functions are this part of the mean distance of two levels high.
@@ -61,11 +63,13 @@ def draw_levels(
     first, last = _window(levels, domain)
     x = np.linspace(first, last, _POINTS)[1:-1]
     energies = [level.energy for level in levels]
-    ground = min(energies)
-    spread = (max(energies) - ground) / max(len(levels) - 1, 1) or max(abs(energies[0]), 1.0)
+    ground, highest = min(energies), max(energies)
+    V = _values(potential, x)
+    depth = ground - float(np.nanmin(V))
+    unit = max(abs(ground), 1.0)
+    spread = (highest - ground) / max(len(levels) - 1, 1) or (depth / 2 if 0 < depth < 30 * unit else unit)
     figure = Figure(figsize=(8, 5.5), layout="constrained")
     axes = figure.add_subplot()
-    V = _values(potential, x)
     axes.plot(x, V, color="black", lw=1.4, label=f"V({variable})")
     for level in levels:
         y = _values(level.wave, x)
@@ -73,11 +77,12 @@ def draw_levels(
         (line,) = axes.plot(x, level.energy + y, lw=1.3, label=level.label)
         axes.fill_between(x, level.energy, level.energy + y, color=line.get_color(), alpha=0.15, lw=0)
         axes.axhline(level.energy, color=line.get_color(), lw=0.7, ls="--")
-    bottom, top = ground - spread, max(energies) + spread
-    finite = V[np.isfinite(V)]
-    if finite.size:  # V may not be bounded below, and its minimum may be above all levels
-        bottom = min(bottom, float(max(finite.min() - 0.1 * spread, ground - 6 * spread)))
-        top = max(top, float(finite.min()) + 0.1 * spread)
+    # V may not be bounded below, and its minimum may be above all levels.
+    bottom = min(ground - spread, max(ground - depth - 0.1 * spread, ground - 6 * spread))
+    top = max(highest + spread, ground - depth + 0.1 * spread)
+    for place in (V, V[[0, -1]]):  # a barrier, or the begin of the continuous spectrum
+        if np.nanmax(place) <= highest + 3 * spread:
+            top = max(top, float(np.nanmax(place)) + 0.3 * spread)
     axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, top), title=title)
     axes.legend(loc="upper right", fontsize=9)
     return figure
@@ -96,16 +101,21 @@ def _window(levels: Sequence[DrawnLevel], domain: tuple[float, float]) -> tuple[
     centre = first if np.isfinite(first) else (last if np.isfinite(last) else 0.0)
     distance = 1.0
     while True:
-        low = max(first, centre - distance)
-        high = min(last, centre + distance)
+        low, high = max(first, centre - distance), min(last, centre + distance)
         x = np.linspace(low, high, 4 * _POINTS)[1:-1]
         sizes = [np.nan_to_num(np.abs(_values(level.wave, x))) for level in levels]
-        visible = [x[size > _TAIL * size.max()] for size in sizes]
-        left = min(part[0] for part in visible if part.size)
-        right = max(part[-1] for part in visible if part.size)
+        wide, narrow = (_visible(x, sizes, tail) for tail in _TAILS)
         step = (high - low) / 50
-        is_inside = (left > low + step or low == first) and (right < high - step or high == last)
+        is_inside = (wide[0] > low + step or low == first) and (wide[1] < high - step or high == last)
         if is_inside or distance >= _FAR:
+            is_long = wide[1] - wide[0] > _LONG * (narrow[1] - narrow[0])
+            left, right = narrow if is_long else wide
             margin = 0.15 * (right - left)
             return max(left - margin, first), min(right + margin, last)
         distance *= 2
+
+
+def _visible(x: Any, sizes: Sequence[Any], tail: float) -> tuple[float, float]:
+    """The ends of the part in which one of the functions exceeds a part of its maximum."""
+    visible = [x[size > tail * size.max()] for size in sizes]
+    return min(part[0] for part in visible if part.size), max(part[-1] for part in visible if part.size)

@@ -885,6 +885,16 @@ def test_pictures_show_each_level_at_its_height(V: str, options: Any, values: An
         assert abs(b - float(found.potential.subs(at).subs(x, a))) < 1e-9 * (1 + abs(b))
 
 
+def test_a_long_tail_does_not_hide_the_well() -> None:
+    """y = exp(-1/x)/x falls as 1/x; V has its minimum between 1/4 and 1/2, and its maximum at 2."""
+    axes = kovacic.spectrum("2/x^2 - 4/x^3 + 1/x^4", domain=HALF).plot().axes[0]
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    assert 0 <= left < 0.1
+    assert 4 < right < 20
+    assert bottom < -11
+    assert 0.1 < top < 10
+
+
 def test_numeric_waves_go_on_beyond_the_cut() -> None:
     """Outside of a well in pieces the potential is constant, and solutions are cut next to it: there y = exp(-kappa |x|)."""
     well = kovacic.spectrum("-5*Heaviside(1 - x^2)", levels=1, digits=8).numeric
