@@ -25,7 +25,7 @@ from kovacic.bound_states.first_levels import check_first_levels
 from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, frames
 from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
-from kovacic.bound_states.numeric import unsolved, with_numbers
+from kovacic.bound_states.numeric import unsolved, with_matching, with_numbers
 from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
 from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, Uncovered, read_question
@@ -149,18 +149,22 @@ def spectrum(
         limits=limits,
         names=declared(parameters, assume),
     )
+    read = None
     if is_equation(V):
         read = read_schroedinger(V, var, energy, limits)
         positive = {name: "positive" for name in read.positive if sympy.Symbol(name) in read.scaled.free_symbols}
-        found = ask(read.scaled, var=read.variable, assume={**positive, **(assume or {})}, kinetic=read.kinetic)
-        return with_numbers(read.physical(found), levels, digits, limits)
+        V, var, assume = read.scaled, read.variable, {**positive, **(assume or {})}
+        ask = partial(ask, kinetic=read.kinetic)
+    unread = None
     try:
         found = ask(V, var=var, assume=assume)
     except NotRational as reason:
-        if levels is None:
-            hint = "the lowest levels of other potentials are computed as proven numbers"
-            raise NotRational(str(reason), hint=f"{hint}: levels=5", shell=f"{hint}: --levels 5") from None
-        found = unsolved(V, domain, energy, var, boundary, reason)
+        unread = reason
+        found = unsolved(V, reason, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary)
+    found = with_matching(found if read is None else read.physical(found))
+    if unread is not None and levels is None and not found.matching:
+        hint = "the lowest levels of other potentials are computed as proven numbers"
+        raise NotRational(str(unread), hint=f"{hint}: levels=5", shell=f"{hint}: --levels 5")
     return with_numbers(found, levels, digits, limits)
 
 

@@ -157,6 +157,9 @@ class Spectrum:
         The lowest levels as proven numbers, if `levels` was given: a sequence, each with its `value` and its `zeros`.
     hint, shell : str
         The argument that may lead to a better answer, in Python and on the command line; empty if there is none.
+    matching : tuple of sympy.Eq
+        Where V is constant or linear on each of its pieces, and no formula is known: the equation for the energies, by matching
+        the solutions on both sides, or those for even and for odd functions.
     kinetic : sympy.Expr
         k where the equation is -k y'' + V y = E y, hbar^2/(2 m) for instance; 1 by default.
     conditions : tuple
@@ -183,6 +186,7 @@ class Spectrum:
     kinetic: Any = sympy.S.One
     numeric: Any = ()
     conditions: tuple[Any, Any] = (None, None)
+    matching: tuple[Any, ...] = ()
 
     @property
     def needs_boundary_condition(self) -> bool:
@@ -338,6 +342,10 @@ class Spectrum:
             lines += _lines(levels, self.energy)
         for algebraic in self.algebraic:
             lines += _algebraic_lines(algebraic, self.energy)
+        which = ("the even levels solve", "the odd levels solve") if len(self.matching) == 2 else ("the levels solve",)
+        lines += [
+            f"  {said} {_relation(one).replace('==', '=')}" for said, one in zip(which, self.matching, strict=False)
+        ]
         lines += [f"  {line}" for line in self._conclusion]
         lines += [f"  {line}" for line in str(self.numeric).splitlines() if self.numeric != ()]
         hint = self.shell if shell else self.hint
@@ -388,6 +396,7 @@ class Spectrum:
             rows += _latex_rows(levels, self.energy)
         for algebraic in self.algebraic:
             rows += _algebraic_latex_rows(algebraic)
+        rows += [rf"& {as_latex(equation)}" for equation in self.matching]
         if not rows:
             rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
@@ -410,14 +419,16 @@ class Spectrum:
         >>> oscillator.to_dict()["levels"][0]["energy"]
         '2*n + 1'
         """
-        numeric = {} if self.numeric == () else {"numeric": self.numeric.to_dict()}
+        more_keys = {} if self.numeric == () else {"numeric": self.numeric.to_dict()}
+        if self.matching:
+            more_keys["matching"] = _data(self.matching)
         names = ("potential", "kinetic", "variable", "domain", "energy", "parameters")
         more = ("boundary", "ends", "excluded", "levels", "algebraic", "complete", "closed_forms_complete", "reason")
         return {
             **{name: _data(getattr(self, name)) for name in names},
             "assumptions": self.assumptions.to_dict(),
             **{name: _data(getattr(self, name)) for name in (*more, "notices", "hint")},
-            **numeric,
+            **more_keys,
         }
 
     def to_json(self) -> str:

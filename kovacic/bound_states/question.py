@@ -255,7 +255,7 @@ def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) 
     if isinstance(V, str):
         if var is None:
             with suppress(InputError):  # with the position, below
-                var = _usual_one(names_of(read_expression(V)))
+                var, _ = _variable_of(read_expression(V))
         source = source_of(V, var, SYMBOLIC, names=(*names, energy))
         if source.unknown:
             raise InputError(

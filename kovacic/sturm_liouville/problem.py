@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import wraps
+from functools import cmp_to_key, wraps
 from itertools import pairwise
 from typing import Any, TypeVar
 
@@ -158,15 +158,25 @@ def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
     for switch in switches:
         if not switch.is_polynomial(x):
             raise InputError(f"it isn't known where {switch} changes its sign")
-        points |= set(sympy.real_roots(sympy.Poly(switch, x)))
+        is_exact = switch.free_symbols == {x}
+        points |= set(sympy.real_roots(sympy.Poly(switch, x)) if is_exact else sympy.solve(switch, x))
     inside = [point for point in points if _is_below(domain[0], point) and _is_below(point, domain[1])]
-    return sorted(inside, key=lambda point: float(ball(point).mid()))
+    return sorted(inside, key=cmp_to_key(lambda a, b: -1 if _is_below(a, b) else 1))
 
 
 def _is_below(a: Expr, b: Expr) -> bool:
     if a.is_infinite or b.is_infinite:
-        return bool(a < b)
-    return bool(ball(a) < ball(b))
+        return bool(a != b and (a == -sympy.oo or b == sympy.oo))
+    return _is_above_zero(b - a)
+
+
+def _is_above_zero(e: Expr) -> bool:
+    """True for a positive constant.  Raises `InputError` for one with letters of which SymPy doesn't know it."""
+    if not e.free_symbols:
+        return bool(ball(e) > 0)
+    if e.is_positive is None:
+        raise InputError(f"it isn't known whether {e} is positive")
+    return bool(e.is_positive)
 
 
 def _point_between(low: Expr, high: Expr) -> Expr:
@@ -174,9 +184,11 @@ def _point_between(low: Expr, high: Expr) -> Expr:
     if low.is_infinite and high.is_infinite:
         return sympy.Rational(3, 7)
     if low.is_infinite:
-        return sympy.floor(high) - sympy.Rational(10, 7)
+        return (high if high.free_symbols else sympy.floor(high)) - sympy.Rational(10, 7)
     if high.is_infinite:
-        return sympy.ceiling(low) + sympy.Rational(10, 7)
+        return (low if low.free_symbols else sympy.ceiling(low)) + sympy.Rational(10, 7)
+    if low.free_symbols | high.free_symbols:
+        return low + (high - low) * sympy.Rational(3, 7)
     width = ball(high) - ball(low)
     if not width > 0:
         raise InputError(f"the interval is empty: {low} isn't below {high}")
@@ -200,7 +212,7 @@ def _value_of_step(step: Expr, x: Expr, inside: Expr) -> Expr:
         return next((e for e, condition in step.args if condition.subs(x, inside) == sympy.true), sympy.nan)
     if isinstance(step, (sympy.Min, sympy.Max)):
         return next(e for e in step.args if step.subs(x, inside) == e.subs(x, inside))
-    is_positive = ball(step.args[0].subs(x, inside)) > 0
+    is_positive = _is_above_zero(step.args[0].subs(x, inside))
     if isinstance(step, sympy.Abs):
         return step.args[0] if is_positive else -step.args[0]
     if isinstance(step, sympy.sign):

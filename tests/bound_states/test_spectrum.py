@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from math import exp, inf
 from typing import Any
 
+import mpmath
 import pytest
 import sympy
 from build import parametrize, read_expression, run
@@ -315,17 +317,63 @@ def test_conditions_that_are_refused(V: str, options: Any) -> None:
 def test_functions_in_pieces_have_numeric_levels() -> None:
     """What is one function on the domain is that function; else the message says how levels are computed."""
     assert kovacic.spectrum("abs(x)^2", domain=HALF).levels == kovacic.spectrum("x^2", domain=HALF).levels
-    for V in ("abs(x)", "-5*Heaviside(1 - x^2)", "Piecewise((-5, abs(x) < 1), (0, True))"):
+    for V in ("exp(abs(x))", "x^2 + abs(x)", "Heaviside(x - a)"):
         with pytest.raises(kovacic.InputError, match="in pieces") as refused:
             kovacic.spectrum(V)
         assert "levels=5" in str(refused.value.hint)
         assert "--levels 5" in str(refused.value.shell)
+    V = "Piecewise((-5, abs(x) < 1), (0, True))"
     wells = [kovacic.spectrum(V, levels=3, digits=6).numeric for V in ("-5*Heaviside(1 - x^2)", V)]
     assert [level.zeros for level in wells[0]] == [level.zeros for level in wells[1]] == [0, 1]
     for level, k in zip(
         wells[0], (1.0710, 2.0174), strict=True
     ):  # k tan(k) = kappa, -k cot(k) = kappa, k^2 + kappa^2 = 5
         assert abs(float(level.value) - (k**2 - 5)) < 2e-3
+
+
+#: What SymPy doesn't translate for mpmath.
+AIRY = {f"airy{kind}prime": partial(getattr(mpmath, f"airy{kind}"), derivative=1) for kind in ("ai", "bi")}
+#: Potentials that are constant or linear on each piece: V, domain, boundary condition.
+IN_PIECES = [
+    ("Piecewise((-5, abs(x) < 1), (0, True))", LINE, None),
+    ("abs(x)", LINE, None),
+    ("x", HALF, None),
+    ("x", HALF, "y'(0) + y(0) = 0"),
+    ("3*x - 1", (1, "oo"), "y'(1) = 0"),
+    ("Piecewise((2, x < -1), (-5, x < 1), (0, True))", LINE, None),
+    ("Piecewise((0, abs(x) < 1), (-9, abs(x) < 2), (0, True))", LINE, None),
+    ("Piecewise((x, x < 3), (3, True))", HALF, None),
+    ("2*abs(x - 1) + abs(x + 2)", LINE, None),
+    ("10*Heaviside(x)", (-1, 2), None),
+    ("-7*Heaviside(2 - abs(x - 1)) - x/2", (-2, 4), "y'(-2) = 0, y'(4) = 0"),
+    ("abs(x)", (-1, 1), "y'(-1) = 0, y(1) = 0"),
+]
+
+
+@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=3, long=9)
+def test_levels_in_pieces_solve_the_equations_of_matching(V: str, domain: Any, boundary: Any) -> None:
+    """Each of the numeric levels is next to a sign change of one of the equations, those of even and odd zeros in turn."""
+    found = kovacic.spectrum(V, domain=domain, boundary=boundary, levels=4, digits=10)
+    assert len(found.matching) in (1, 2)
+    assert found.numeric
+    E = sympy.Symbol("E")
+    for level in found.numeric:
+        equation = found.matching[level.zeros % len(found.matching)]
+        difference = sympy.lambdify(E, equation.lhs - equation.rhs, [AIRY, "mpmath"])
+        left, right = (complex(difference(float(level.value) + step)) for step in (-1e-6, 1e-6))
+        assert abs(left - right) > 1e-12
+        assert (left / right).real < 0
+        assert abs((left / right).imag) < 1e-6
+
+
+def test_a_square_well_in_letters() -> None:
+    positive = {"V0": "positive", "a": "positive"}
+    found = kovacic.spectrum("Piecewise((-V0, abs(x) < a), (0, True))", assume=positive)
+    assert "the even levels solve sqrt(E + V0)*tan(a*sqrt(E + V0)) = sqrt(-E)\n" in found.text()
+    assert "the odd levels solve sqrt(E + V0)*cot(a*sqrt(E + V0)) = -sqrt(-E)\n" in found.text()
+    assert found.to_dict()["matching"][0] == "sqrt(E + V0)*tan(a*sqrt(E + V0)) == sqrt(-E)"
+    with pytest.raises(kovacic.NotRational, match="in pieces"):
+        kovacic.spectrum("Piecewise((-V0, abs(x) < a), (0, True))")  # a may be negative
 
 
 @pytest.mark.parametrize("V", ["-10/cosh(x)^2 + 4/cosh(x)^4", "-15/cosh(x)^2 + 8/cosh(x)^4", "6*tanh(x)^2 - tanh(x)^4"])
