@@ -169,7 +169,7 @@ def lambdify(
     0.367879441171
     >>> y1 = lambdify(kovacic.solve("2/x^2 - 1"), interval=(1, 9), which="y1")  # (x cos(x) - sin(x))/x
     >>> print(f"{y1(2.0):.12f}")
-    -0.870795550460
+    -0.870795549960
     >>> wave = lambdify(kovacic.solve("x^2 + 3"), interval=(0, 1 + 1j), check=False)
     >>> print(f"{wave(0.5 + 0.5j):.10f}")
     0.3607542312+0.6081581905j
