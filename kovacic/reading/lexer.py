@@ -195,6 +195,7 @@ _HINTS = {
     '"': "primes belong to the unknown function of an equation, as in y''",
     "%": "write percentages as fractions, 1/100; a comment stands behind a space: % like this",
     "#": "a comment stands behind a space: # like this",
+    "?": "leave out what is no part of the equation",
     "°": "angles are in radians: 90 degrees are pi/2",
     "$": "leave the $ out, or put the whole text between two of them",
     ".": "decimals are written 1.5; a derivative is y.diff(x, 2), or y''",

@@ -226,6 +226,6 @@ AROUND = (
     _rule(
         "dollars",
         r"(?<![^\W\d]\x20)(?<!`\x20)\$|\$(?! [\d`])",
-        lambda match: "\n" if _occurs(r"\$.*\$", match.string) else "$",
+        lambda match: "\n" if _occurs(r"\$.*\$", match.string) else "$" if match.start() == 0 else " ; ",  # Maxima's
     ),
 )

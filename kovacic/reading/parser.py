@@ -232,13 +232,15 @@ class _Parser:
         """The token begins the second factor; a quotient before a derivative is its factor: 1/2m y'' is (1/(2m)) y''."""
         self.reduce(_IMPLICIT, k)
         level, slash = self.pending[-1]
-        piece = self.pieces[k]
-        is_derivative = piece.endswith(PRIMES) or (self.kinds[k] == "HEAD" and piece in DERIVATIVES)
-        if level == _PRODUCT and self.kinds[slash] == "SLASH" and is_derivative:
+        if level == _PRODUCT and self.kinds[slash] == "SLASH" and self.is_derivative(k):
             self.operands[-1].split = 0
             self.reduce(_PRODUCT, k)
         self.pending.append((_IMPLICIT, k))
         return _PREFIX[self.kinds[k]](self, k)
+
+    def is_derivative(self, k: int) -> bool:
+        piece = self.pieces[k]
+        return piece.endswith(PRIMES) or (self.kinds[k] == "HEAD" and piece in DERIVATIVES)
 
     def close(self, k: int) -> bool:
         self.complete(k)
@@ -359,7 +361,9 @@ class _Parser:
             left.split = left.split or right.begin
         else:
             is_product = self.kinds[k] == "STAR"
-            if right.split and not is_product:
+            # (1/2m) y'': the quotient is the factor of a derivative.
+            is_factor = self.kinds[end] == "RPAR" and self.is_derivative(end + 1)
+            if right.split and not is_product and not is_factor:
                 raise _ambiguous(self.tokens, self.site, k, right.split)
             operation = self.arithmetic.multiply if is_product else self.arithmetic.divide
             left.value = operation(left.value, right.value)

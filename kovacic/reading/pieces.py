@@ -188,16 +188,31 @@ class _Around(NamedTuple):
 
 _NUMBER = "{} was taken for a number in a list"
 _LEFT_OUT = "left out: {}"
+#: Words that have numbers.
+_LABELS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr"
+_IN_SENTENCES = r"(?:[^\W\d]+|[-,.!?'])"
 _SOME = r"(?:(?:[^\W\d]\S*|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
 #: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
 _AROUND = (
-    _Around("the end of a sentence", pattern(r"(?<!^)[.:$,](?: [.:$,])*$")),
+    _Around(
+        "the next sentence",
+        pattern(r"(?<=\.\x20\x20)[A-Z][a-z]* (?:[^\W\d]+|[-,.!?'])(?: (?:[^\W\d]+|[-,.!?']))*$"),
+        "prose",
+        _LEFT_OUT,
+    ),
+    _Around("the end of a sentence", pattern(r"(?<!^)[.:$,?](?: [.:$,?])*$")),
     _Around("a prompt", pattern(r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))")),
     _Around("1.", pattern(r"^\d+\.(?=\x20\x20)"), "number", _NUMBER),
     _Around("1)", pattern(r"^[^\s(]{1,2} \)(?= \S+ \S)"), "number", _NUMBER),
-    _Around("(1)", pattern(r"^\( \d+ \)(?=\x20\x20\S+ )"), "number", _NUMBER),
-    _Around("Problem 3:", pattern(r"^WORD \d+ :"), "prose", _LEFT_OUT),
+    _Around("(1)", pattern(r"^\( (?:\d+|[a-i]|i{2,3}|iv|vi{1,3}) \)(?=\x20\x20\S+ )"), "number", _NUMBER),
+    _Around(
+        "Problem 3:",
+        pattern(rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])"),
+        "prose",
+        _LEFT_OUT,
+    ),
+    _Around("Problem 3", pattern(rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )"), "number", _NUMBER),
     _Around(
         "a sentence",
         pattern(rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}"),
@@ -211,6 +226,7 @@ _AROUND = (
         "number",
         "{} was taken for the number of the equation",
     ),
+    _Around("a remark behind an equation", pattern(r"(?<=\x200\x20\x20)\( WORD(?: \S+){0,5} \)$"), "prose", _LEFT_OUT),
     _Around("the end of a sentence", pattern(r"[.:,](?: [.:,])*$")),
 )
 
@@ -254,9 +270,10 @@ class _Apart:
                 continue
             first, behind = spaced.number(match.start()), spaced.number(match.end())
             left, rest = scan[first:behind], [*scan[:first], *scan[behind:]]
-            if rule.role and not _is_equation(rest):
+            is_name = len(left) == 2 and left[1].text == ":" and self.text.count(left[0].text) > 1  # eqn: ... ode2(eqn)
+            if rule.role and (is_name or not _is_equation(rest)):
                 continue
-            if rule.name == "(1)":
+            if rule.name in ("(1)", "Problem 3"):
                 self.check_number(left, rest)
             if rule.role:
                 self.notes.append(rule.note.format(self.written(left)))
@@ -270,10 +287,11 @@ class _Apart:
     def check_number(self, number: Scan, rest: Scan) -> None:
         """Raises `ParseError` for (2) y'' + y = 0 on one line, where 2 may be a coefficient."""
         gap = self.text[number[-1].end : rest[0].start]
-        if number[1].text == "1" or re.search(r"[\t\n]|\\\\|quad", gap):
+        label = next(token.text for token in number[::-1] if token.text != ")")
+        if label == "1" or rest[0].kind == "NUMBER" or re.search(r"[\t\n]|\\\\|quad", gap):
             return
         said = f"{self.written(number)} may be the number of the equation, or a factor"
-        raise error_at(self.text, said, number, f"leave it out, or write {number[1].text}* for a factor")
+        raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
 
     def statement(self, scan: list[Token], *, is_alone: bool) -> None:
         """Gives a statement its role."""
@@ -291,6 +309,8 @@ class _Apart:
             self.named[name] = scan
         elif self.list_of(scan):
             return
+        elif not is_alone and len(scan) == 1 and is_letter(scan[0].text) and "=" in self.text:
+            self.add("declaration", scan)  # x, t = var("x t")
         elif not is_alone and _has_equals(scan, _INEQUALITIES):
             self.notes.append(f"not used: {self.written(scan)}")
             self.add("remark", scan)
@@ -342,6 +362,8 @@ class _Apart:
                 return False
             case ["ivar" | "func" | "function" as keyword, "=", name, *_]:
                 self.variable = name if keyword == "ivar" or len(part) == 3 else self.variable
+                return self.argument(part[2:], names)
+            case ["dvar", "=", _, *_]:
                 return self.argument(part[2:], names)
             case ["singsol" | "IncludeSingularSolutions", *_]:
                 return True

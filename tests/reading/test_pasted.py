@@ -386,6 +386,7 @@ KNOWN = [
     "atan",
     "cos",
     "cosh",
+    "csc",
     "exp",
     "log",
     "pi",
@@ -406,6 +407,14 @@ def meant(text: str) -> Any:
     }
     symbols = {name: symbol for name, symbol in names.items() if name not in KNOWN}
     return sympy.sympify(text, locals=symbols)
+
+
+@pytest.mark.parametrize("label", ["(2)", "(a)", "(ii)", "Exercise 4", "Problem 12", "No. 3"])
+def test_a_label_that_may_be_a_factor_is_asked_back(label: str) -> None:
+    with pytest.raises(kovacic.InputError, match="may be the number of the equation, or a factor"):
+        read_input(f"{label} y'' + x*y = 0")
+    for certain in (f"{label} 3y'' + x*y = 0", f"{label}\ny'' + x*y = 0"):
+        assert any(label in note for note in read_input(certain).notices)
 
 
 @parametrize("row", PASTED, ordinary=30, long=161, ids=[row["text"] for row in PASTED])
