@@ -21,6 +21,7 @@ from kovacic.enclosure.start import Start, middle
 from kovacic.enclosure.way import Traveller, Way
 from kovacic.errors import InputError
 
+_MARGIN = 1 + power_of_two(-16)  # more than the errors of singular points that are known to 256 bits
 _KEPT = 4  # precisions at which the beginning of a journey is kept for the next targets
 
 
@@ -96,13 +97,15 @@ class Journey:
         """As `Traveller.fan`, around singular points of the real axis on this side.
 
         A detour is as wide as its distance to the start and to other singular points allows: near an irregular one the
-        solutions are as large as exp(1/distance).  Stops that are nearer to it are reached along the axis from its ends.
+        solutions are as large as exp(1/distance).  Stops that are nearer to it are reached along the axis from its ends.  Where
+        there are no stops between singular points, one detour leads around them all.
         """
         assert self.problem is not None
+        singular = self.problem.singular_points(256)
         found: dict[ExactPoint, State] = {}
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
-            for detour in _detours(one.here, waiting[-1], self.problem.singular_points(256)):
+            for detour in _joined(_detours(one.here, waiting[-1], singular), waiting, singular):
                 for stage in detour.stages(side):
                     nearer = [stop for stop in waiting if detour.sign * (stop.x - stage.reach) <= 0]
                     found |= one.fan(nearer)
@@ -122,22 +125,35 @@ class _Stage(NamedTuple):
 
 @dataclass(frozen=True)
 class _Detour:
-    """Around the singular point `place` of the real axis: by a triangle over `centre`, a short number beside it.
+    """Around singular points of the real axis, the last one at `place`: by a triangle with slopes of 45 degrees over the way
+    from `begin` to `end`.
 
     `sign` is the direction: 1 to the right, -1 to the left.
     """
 
     place: Any
-    centre: Any
-    radius: Any
+    begin: Any
+    end: Any
     sign: int
+
+    @property
+    def _centre(self) -> Any:
+        return (self.begin + self.end) / 2
+
+    @property
+    def _radius(self) -> Any:
+        return abs(self.end - self.begin) / 2
 
     def stages(self, side: str) -> tuple[_Stage, ...]:
         """To where the axis is left; over the corner "above" or "below" it, to where it is reached again; and back there."""
-        begin = self.centre - self.sign * self.radius
-        end = self.centre + self.sign * self.radius
-        top = ExactPoint(self.centre, self.radius if side == "above" else -self.radius)
-        return _Stage(begin, (ExactPoint(begin),)), _Stage(self.place, (top, ExactPoint(end))), _Stage(end, ())
+        top = ExactPoint(self._centre, self._radius if side == "above" else -self._radius)
+        over = (top, ExactPoint(self.end))
+        return _Stage(self.begin, (ExactPoint(self.begin),)), _Stage(self.place, over), _Stage(self.end, ())
+
+    def is_free(self, singular: Sequence[ExactPoint]) -> bool:
+        """True if no singular point beside the real axis lies in the triangle |x - centre| + |y| <= radius, or near it."""
+        least = self._radius * _MARGIN
+        return all(p.is_real() or abs(p.x - self._centre) + abs(p.y) > least for p in singular)
 
 
 def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[ExactPoint]) -> Iterator[_Detour]:
@@ -163,4 +179,22 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[E
         square = min([*squares, (here - point).norm_squared()])
         radius = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
         centre = (place / radius * 16).floor() * radius / 16
-        yield _Detour(place, centre, radius, sign)
+        yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
+
+
+def _joined(
+    detours: Iterator[_Detour], stops: Sequence[ExactPoint], singular: Sequence[ExactPoint]
+) -> Iterator[_Detour]:
+    """Those without stops between their places become one, if no other singular point is between them and that."""
+    last = next(detours, None)
+    for detour in detours:
+        assert last is not None
+        both = _Detour(detour.place, last.begin, detour.end, detour.sign)
+        has_stops = any(min(last.place, detour.place) < stop.x < max(last.place, detour.place) for stop in stops)
+        if has_stops or not both.is_free(singular):
+            yield last
+            last = detour
+        else:
+            last = both
+    if last is not None:
+        yield last

@@ -580,3 +580,19 @@ def test_an_exact_zero_beside_a_value_that_needs_more_bits() -> None:
     assert zero.is_exact()
     assert zero.contains_zero()
     assert small.digits >= 25
+
+
+@pytest.mark.parametrize("height", ["1/4", "1", "3"])
+@pytest.mark.parametrize("side", ["above", "below"])
+def test_singular_points_without_targets_between_them_are_passed_together(height: str, side: str) -> None:
+    """By the way that keeps near the axis: other singular points are not passed on their far side."""
+    start: dict[str, Any] = {"x0": 0, "y0": 1, "dy0": "1/3"}
+    equation = f"2/(x - 1)^2 - 1/(x - 2) + 1/((x - 3/2)^2 + ({height})^2)"
+    sign = 1 if side == "above" else -1
+    near = [(Fraction(k, 16), Fraction(sign, 8)) for k in (14, 18, 30, 34)]
+    path = [f"{x} + {y}*I" for x, y in near]
+    together = kovacic.evaluate(equation, 3, path=side, **start)
+    assert together.overlaps(kovacic.evaluate(equation, 3, path=path, **start))
+    assert together.digits > 14
+    (with_targets, *_) = kovacic.evaluate(equation, [3, "3/2"], path=side, **start)
+    assert together.overlaps(with_targets)
