@@ -27,6 +27,7 @@ from kovacic.enclosure.embedded import root_of
 from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, real_part
+from kovacic.enclosure.periodic import PeriodicWay, period_of
 from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.problem import Coefficients, NumericProblem
 from kovacic.enclosure.way import Traveller
@@ -91,11 +92,14 @@ class ConstantWay(AnalyticWay):
 
 
 def constant_way(coefficients: Coefficients, problem: NumericProblem | None = None) -> AnalyticWay:
-    """The way by matrices where there is one, else that by power series."""
+    """The way by matrices where there is one, else that by power series, over many periods at once where there are any."""
     functions = CoefficientField(coefficients)
     x = coefficients.variable
     terms = None if coefficients.b.has(x) or coefficients.c.has(x) else _terms(coefficients.f, x)
-    return AnalyticWay(functions, problem) if terms is None else ConstantWay(functions, problem, terms=terms)
+    if terms is not None:
+        return ConstantWay(functions, problem, terms=terms)
+    period = period_of(coefficients)
+    return AnalyticWay(functions, problem) if period is None else PeriodicWay(functions, problem, period=period)
 
 
 def _terms(f: Any, x: Any) -> tuple[Term, ...] | None:

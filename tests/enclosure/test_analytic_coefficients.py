@@ -227,3 +227,23 @@ def test_quotients_of_waves_without_singular_points_are_on_the_way(text: str, st
     there = kovacic.evaluate(text, stop, x0=1, y0=1, dy0=0, derivative=True, digits=25)
     back = kovacic.evaluate(text, 1, x0=stop, y0=there[0], dy0=there[1])
     assert abs(float(back) - 1) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("equation", "exact"),
+    [
+        ("y'' = (cos(x)^2 - sin(x))*y", lambda x: mpmath.exp(mpmath.sin(x))),
+        ("y'' + (2 + cos(x))*y = (1 + cos(x))*sin(x)", mpmath.sin),
+        ("y'' + (w^2 + sin(w*x/2))*y = sin(w*x/2)*cos(w*x)", lambda x: mpmath.cos(mpmath.sqrt(3) * x)),
+        ("y'' + exp(I*x)*y = exp(2*I*x) - exp(I*x)", lambda x: mpmath.exp(1j * x)),
+    ],
+)
+@pytest.mark.parametrize("x", [-70, "1234567.5", 10**15])
+def test_many_periods_are_one_step(equation: str, exact: Any, x: Any) -> None:
+    with mpmath.workdps(90):
+        start = exact(mpmath.mpf(0)), mpmath.diff(exact, 0)
+        y0, dy0 = (mpmath.nint(value.real) + 1j * mpmath.nint(value.imag) for value in start)
+        params = {"w": "sqrt(3)"} if "w" in equation else None
+        ball = kovacic.evaluate(equation, x, x0=0, y0=y0, dy0=dy0, params=params)
+        assert ball.contains(mpmath.mpmathify(exact(mpmath.mpf(x))))
+    assert ball.radius < 1e-8
