@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from flint import acb, arb, fmpq
+from flint import arb
 from sympy import cos, expand, sin
 from sympy.simplify.fu import TR8
 
@@ -26,15 +26,14 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.general_solution.constants import vanishing_factors
 from kovacic.general_solution.integrands import NUMBERS, radicands
+from kovacic.general_solution.residual import points
 from kovacic.general_solution.substitution import finite_value, slope
-from kovacic.general_solution.zero import by_parity, is_nowhere_zero
+from kovacic.general_solution.zero import ball, by_parity, is_nowhere_zero
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, in_x
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
-#: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
-_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
 
@@ -111,6 +110,16 @@ class Basis:
             return self
         return replace(self, y1=y1, y2=y2, stated=None, undefined=())
 
+    def turned(self, y1: Expr, y2: Expr, W: Expr, point: Expr) -> Basis:
+        """Other members, with the Wronskian W or -W if that is theirs at a point."""
+        basis = self.of(y1, y2)
+        at = ball(point)
+        with working_digits(2 * DIGITS), suppress(NotImplementedError):
+            for stated in (W, -W) if at is not None else ():
+                if basis._is_wronskian_at(stated, at):
+                    return replace(basis, stated=stated, undefined=self.undefined)
+        return basis
+
     @cached_property
     def rates(self) -> tuple[Expr, Expr]:
         """B and C of y'' + B y' + C y = 0 in x: t' b/a - t''/t' and t'^2 c/a, where the equation is one in t = t(x)."""
@@ -177,11 +186,6 @@ def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
     """b/a and c/a."""
     b, c = (Atoms(x).ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
     return b, c
-
-
-def points() -> Iterator[Any]:
-    """Those in each quadrant and on the axis."""
-    return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
 
 
 def with_single_waves(e: Expr) -> Expr:

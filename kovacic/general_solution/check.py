@@ -19,9 +19,7 @@ from flint import acb, arb, fmpq
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.precision import working_digits
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.check import DIGITS
-from kovacic.closed_form.check import value_at as value_of_fraction
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, is_refuted
@@ -29,6 +27,7 @@ from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.continuity import cuts_of, jumps
 from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
+from kovacic.general_solution.residual import Residual
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import ball, sample_value, samples
@@ -176,7 +175,8 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
         if base is None:
             base = acb(fmpq(23, 71), fmpq(0))
     with working_digits(DIGITS):
-        return _residual_is_large(question, value, base + arb(_STEP))
+        a, b, c, f = map(question.own, question.coefficients)
+        return _is_large(Residual(x, (a, b, c, f)), value, base + arb(_STEP))
 
 
 def _outer_integrals(e: Expr) -> Iterator[Expr]:
@@ -200,10 +200,9 @@ class _Pieces:
 
     def is_wrong_at(self, point: Expr) -> bool:
         """Is the residual not zero on the piece with this point?"""
-        piece = on_piece(_antiderivatives(self.y, self.x), self.x, point)
-        at = acb(fmpq(int(point.p), int(point.q)))
-        coefficients = [jet(on_piece(part, self.x, point), self.x, at)[0] for part in self.coefficients]
-        return _is_large(coefficients, jet(piece, self.x, at))
+        parts = (_antiderivatives(self.y, self.x), *self.coefficients)
+        y, a, b, c, f = (on_piece(part, self.x, point) for part in parts)
+        return _is_large(Residual(self.x, (a, b, c, f)), y, acb(fmpq(int(point.p), int(point.q))))
 
     def is_wrong_across(self, k: int) -> bool:
         """Have y and y' a wrong jump at the k-th break?  At a singular point of the equation any jump is right."""
@@ -290,27 +289,10 @@ def _strength(apart: Apart, point: Expr, order: int) -> Expr:
     return sympy.Add(*(impulse.strength for impulse in here if impulse.order == order))
 
 
-def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
-    equation = question.equation
-    x = question.x
-    if equation.change is None and equation.a.field == QQ:
-        a, b, c, f = (value_of_fraction(part, point) for part in (equation.a, equation.b, equation.c, equation.f))
-        if equation.h is not None:
-            f += jet(equation.h, x, point)[0]
-    else:
-        parts = [question.own(part) for part in question.coefficients]
-        a, b, c, f = (jet(part, x, point)[0] for part in parts)
-    return _is_large((a, b, c, f), jet(value, x, point))
-
-
-def _is_large(coefficients: Sequence[Any], values: Sequence[Any]) -> bool:
-    """Is a y'' + b y' + c y - f not zero, for the values of y, y' and y''?"""
-    a, b, c, f = coefficients
-    own, slope, second = values
-    terms = [a * second, b * slope, c * own, -f]
-    if not all(term.is_finite() for term in terms):
-        raise NotImplementedError("a value isn't finite")
-    return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
+def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
+    """True if the residual is seen not to be zero at a point."""
+    miss, scale = residual.at(y, point)
+    return bool(miss > _SMALL * scale)
 
 
 def _is_violated(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> bool:

@@ -128,57 +128,22 @@ def _off_the_cut(u: Expr) -> Expr:
 # ----------------------------------------------------------------------------------------------------------- functions
 
 
-def _positive_argument(e: Expr) -> Expr:
-    return _positive(e.args[-1])
+def _of_last(need: Need) -> Need:
+    """That of the last argument."""
+    return lambda e: need(e.args[-1])
 
 
-def _argument_off_the_cut(e: Expr) -> Expr:
-    return _off_the_cut(e.args[-1])
+def _below_one(u: Expr) -> Expr:
+    return _off_the_cut(1 - u)
 
 
-def _nonzero_argument(e: Expr) -> Expr:
-    return _nonzero(e.args[-1])
+def _for_integers(need: Need, otherwise: Need) -> Need:
+    """One of the last argument, by whether the first is an integer."""
+    return lambda e: (need if e.args[0].is_integer else otherwise)(e.args[-1])
 
 
-def _argument_below_one(e: Expr) -> Expr:
-    return _off_the_cut(1 - e.args[-1])
-
-
-def _no_pole_of_tangent(e: Expr) -> Expr:
-    return _nonzero(sympy.cos(e.args[0]))
-
-
-def _no_pole_of_cotangent(e: Expr) -> Expr:
-    return _nonzero(sympy.sin(e.args[0]))
-
-
-def _argument_within_one(e: Expr) -> Expr:
-    """asin(u), acos(u): u^2 <= 1."""
-    return _not_negative(1 - e.args[0] ** 2)
-
-
-def _of_first_kind(e: Expr) -> Expr:
-    """J_n(u), I_n(u): (u/2)^n times an entire function."""
-    order = e.args[0]
-    if order.is_integer:
-        return sympy.true
-    return _positive(e.args[1])
-
-
-def _of_spherical_second_kind(e: Expr) -> Expr:
-    """y_n(u): rational in u beside waves for an integer n."""
-    order = e.args[0]
-    if order.is_integer:
-        return _nonzero(e.args[1])
-    return _positive(e.args[1])
-
-
-def _of_polynomial_order(e: Expr) -> Expr:
-    """P_n(u) and the like: polynomials for an integer n; else u > -1."""
-    order = e.args[0]
-    if order.is_integer:
-        return sympy.true
-    return _off_the_cut(e.args[-1] + 1)
+def _nothing(u: Expr) -> Expr:
+    return sympy.true
 
 
 def _of_associated_legendre(e: Expr) -> Expr:
@@ -193,7 +158,7 @@ def _of_elliptic_integral(e: Expr) -> Expr:
     """F(phi, m) and E(phi, m), and E(m) for phi = pi/2: the root of 1 - m sin(phi)^2 is real up to phi."""
     m = e.args[-1]
     if len(e.args) == 1:
-        return _argument_below_one(e)
+        return _below_one(m)
     return _off_the_cut(1 - m * sympy.sin(e.args[0]) ** 2)
 
 
@@ -201,7 +166,7 @@ def _of_third_elliptic_integral(e: Expr) -> Expr:
     """Pi(n, phi, m), where 1 - n sin(phi)^2 has no zero, either."""
     n, *others = e.args
     if len(others) == 1:
-        return sympy.And(_off_the_cut(1 - n), _argument_below_one(e))
+        return sympy.And(_below_one(n), _below_one(others[0]))
     square = sympy.sin(others[0]) ** 2
     return sympy.And(_off_the_cut(1 - n * square), _off_the_cut(1 - others[1] * square))
 
@@ -215,47 +180,33 @@ def _of_hypergeometric(e: Expr) -> Expr:
     if len(e.ap) <= len(e.bq) or any(a.is_integer and a.is_nonpositive for a in e.ap):
         return defined
     if len(e.ap) == len(e.bq) + 1:
-        return sympy.And(_argument_below_one(e), defined)
+        return sympy.And(_below_one(e.argument), defined)
     return sympy.And(_off_the_cut(-e.argument), defined)
 
 
 _OF_FUNCTIONS: dict[Any, Need] = {
-    sympy.log: _positive_argument,
     # inverse functions, and those with poles
-    sympy.asin: _argument_within_one,
-    sympy.acos: _argument_within_one,
-    sympy.acosh: lambda e: _not_negative(e.args[0] - 1),  # u >= 1
-    sympy.atanh: lambda e: _positive(1 - e.args[0] ** 2),  # u^2 < 1
-    sympy.tan: _no_pole_of_tangent,
-    sympy.sec: _no_pole_of_tangent,
-    sympy.cot: _no_pole_of_cotangent,
-    sympy.csc: _no_pole_of_cotangent,
-    sympy.coth: _nonzero_argument,
-    sympy.csch: _nonzero_argument,
+    sympy.log: _of_last(_positive),
+    **dict.fromkeys((sympy.asin, sympy.acos), _of_last(lambda u: _not_negative(1 - u**2))),
+    sympy.acosh: _of_last(lambda u: _not_negative(u - 1)),
+    sympy.atanh: _of_last(lambda u: _positive(1 - u**2)),
+    **dict.fromkeys((sympy.tan, sympy.sec), _of_last(lambda u: _nonzero(sympy.cos(u)))),
+    **dict.fromkeys((sympy.cot, sympy.csc), _of_last(lambda u: _nonzero(sympy.sin(u)))),
+    **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), _of_last(_nonzero)),
     # integrals
-    sympy.Ei: _nonzero_argument,
-    sympy.Ci: _argument_off_the_cut,
-    sympy.expint: _argument_off_the_cut,
-    sympy.uppergamma: _argument_off_the_cut,
-    sympy.lowergamma: _argument_off_the_cut,
-    sympy.polylog: _argument_below_one,
-    sympy.elliptic_k: _argument_below_one,
-    sympy.elliptic_e: _of_elliptic_integral,
-    sympy.elliptic_f: _of_elliptic_integral,
+    **dict.fromkeys((sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _of_last(_off_the_cut)),
+    **dict.fromkeys((sympy.polylog, sympy.elliptic_k), _of_last(_below_one)),
+    **dict.fromkeys((sympy.elliptic_e, sympy.elliptic_f), _of_elliptic_integral),
     sympy.elliptic_pi: _of_third_elliptic_integral,
-    # Bessel functions
-    sympy.besselj: _of_first_kind,
-    sympy.besseli: _of_first_kind,
-    sympy.bessely: _positive_argument,
-    sympy.besselk: _positive_argument,
-    sympy.jn: _of_first_kind,
-    sympy.yn: _of_spherical_second_kind,
-    # Legendre functions, hypergeometric functions
-    sympy.legendre: _of_polynomial_order,
-    sympy.gegenbauer: _of_polynomial_order,
-    sympy.jacobi: _of_polynomial_order,
-    sympy.chebyshevt: _of_polynomial_order,
-    sympy.chebyshevu: _of_polynomial_order,
+    # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
+    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), _for_integers(_nothing, _positive)),
+    **dict.fromkeys((sympy.bessely, sympy.besselk), _of_last(_positive)),
+    sympy.yn: _for_integers(_nonzero, _positive),
+    # polynomials for an integer n; else u > -1
+    **dict.fromkeys(
+        (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),
+        _for_integers(_nothing, lambda u: _off_the_cut(u + 1)),
+    ),
     sympy.assoc_legendre: _of_associated_legendre,
     sympy.hyper: _of_hypergeometric,
 }

@@ -16,7 +16,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach
 from kovacic.general_solution.poles import is_singular, poles_between, rational_poles
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.real_basis import negative_arguments, real_basis, real_particular
+from kovacic.general_solution.real_basis import all_turned, negative_arguments, real_basis, real_particular
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.variation import starting_at
 
@@ -156,7 +156,11 @@ def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
     if question.equation.change is None:
         _check_one_side((basis.y1, basis.y2), question)
         assert basis.solution is not None
-        basis = basis.of(*real_basis(basis.solution, basis.y1, basis.y2, x, start))
+        y1, y2 = real_basis(basis.solution, basis.y1, basis.y2, x, start)
+        if basis.stated is not None:
+            basis = basis.turned(y1, y2, all_turned(basis.stated, x, start), start)
+        else:
+            basis = basis.of(y1, y2)
     return basis.of(starting_at(basis.y1, x, start), starting_at(basis.y2, x, start))
 
 

@@ -33,7 +33,7 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
         return y1, y2
     candidates: list[Expr] = []
     for y in (y1, y2):
-        turned = _all_turned(y, x, point)
+        turned = all_turned(y, x, point)
         if is_numerical_solution(turned, x, solution.S, solution.gauge):
             candidates.append(turned)
         else:
@@ -53,7 +53,7 @@ def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
     coefficients = rates(equation, x)
     real_part = _parts(y, point, x)[:1]
-    for candidate in [_all_turned(y, x, point), *real_part]:
+    for candidate in [all_turned(y, x, point), *real_part]:
         if is_solution(candidate, coefficients, right, x):
             return candidate
     return y
@@ -68,7 +68,7 @@ def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
     return found
 
 
-def _all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
+def all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
     """With log(-u), (-u)^e for arguments u that are negative at the point."""
     return y.xreplace({e: _turned(e) for e in negative_arguments(y, x, point)})
 

@@ -20,9 +20,10 @@ from kovacic.closed_form.form import one_exponential
 from kovacic.closed_form.jets import jet
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.basis import Basis, points, rates, with_single_waves
+from kovacic.general_solution.basis import Basis, rates, with_single_waves
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import prepared
+from kovacic.general_solution.residual import Residual, points
 from kovacic.general_solution.special_integrals import without_crossings
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import size
@@ -197,15 +198,8 @@ def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) 
     if sample:
         y = y.xreplace(sample)
         right = right.xreplace(sample)
+    residual = Residual(x, (sympy.S.One, *coefficients, right))
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
-        return all(_is_solution_at(point, y, coefficients, right, x) for point in points())
+        found = (residual.at(y, point) for point in points())
+        return all(bool(miss < arb(10) ** -DIGITS * (1 + scale)) for miss, scale in found)
     return False
-
-
-def _is_solution_at(point: Any, y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
-    """Is the residual small, by the size of its terms?  Raises `NotImplementedError` where it can't be computed."""
-    b, c = coefficients
-    value, first, second = jet(y, x, point)
-    force, p, q = (jet(e, x, point)[0] for e in (right, b, c))
-    terms = [second, p * first, q * value, -force]
-    return bool(abs(sum(terms)) < arb(10) ** -DIGITS * sum(map(abs, terms), arb(1)))

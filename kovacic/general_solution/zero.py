@@ -2,19 +2,15 @@
 
 A constant is an expression in the user's own symbols, with what is assumed of them.  "Never" without parameters, and "not
 always" with them, is proven by a ball that doesn't contain zero, at values of the parameters that fit the assumptions.
-"Always" is proven by rewriting as a sum of monomials; and, for numbers made of roots, by a bound from below: an algebraic
-number with the degree D over Q and the bounds u, l is zero or not smaller than 1/(u^(D-1) l).  All work is bounded by sizes.
-
-Reference: C. Burnikel, R. Fleischer, K. Mehlhorn & S. Schirra, Algorithmica 27 (2000) 87-99 (the bound for roots).
+"Always" is proven by rewriting as a sum of monomials; and, for numbers made of roots, by their minimal polynomial.  All work
+is bounded by sizes.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from enum import Enum
-from functools import reduce
 from itertools import islice
 from typing import Any
 
@@ -22,7 +18,7 @@ import sympy
 from flint import acb, arb
 from sympy.simplify.fu import TR8
 
-from kovacic.algebra.precision import working_digits, working_precision
+from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared
@@ -34,14 +30,12 @@ Expr = Any  # SymPy publishes no types
 _LARGEST = 2000
 #: How many subexpressions a sum may have of which SymPy is asked whether it is zero.
 _LARGEST_ASKED = 100
-#: How many bits of an algebraic number are computed to show that it is zero.
-_MOST_BITS = 100_000
+#: The largest product of the degrees of roots in an algebraic number whose minimal polynomial is computed: some 0.2 s.
+_LARGEST_DEGREE = 64
 #: Digits to which a number is compared with zero before it is rewritten at length.
 _PRECISE = 400
 #: How many values of the parameters are tried.
 _SAMPLES = 6
-#: The largest numerator of an exponent of a number made of roots.
-_LARGEST_POWER = 64
 #: By how many steps of its recurrence a gamma function is rewritten.
 _FAR = 100
 
@@ -235,7 +229,7 @@ def is_identically_zero(value: Expr) -> bool:
     if value.free_symbols:
         exponentials = sympy.expand(numerator.rewrite(sympy.exp))
         return bool(sympy.expand(sympy.powsimp(exponentials)) == 0)
-    return is_zero_by_size(value)
+    return is_algebraic_zero(value)
 
 
 def _with_gammas_in_a_strip(value: Expr) -> Expr:
@@ -263,92 +257,14 @@ def _in_a_strip(q: Expr) -> Expr | None:
     return strip * sympy.rf(inner, steps)
 
 
-@dataclass(frozen=True)
-class _Bounds:
-    """u and l of the reference, in bits; the product of the degrees of the roots is kept beside."""
+def is_algebraic_zero(value: Expr) -> bool:
+    """True if the minimal polynomial of a number made of rational numbers, i and roots is x.
 
-    u: int
-    l: int  # noqa: E741
-
-    def of_sum(self, other: _Bounds) -> _Bounds:
-        """u1 l2 + u2 l1, at most twice the larger one, over l1 l2."""
-        return _Bounds(max(self.u + other.l, self.l + other.u) + 1, self.l + other.l)
-
-    def of_product(self, other: _Bounds) -> _Bounds:
-        return _Bounds(self.u + other.u, self.l + other.l)
-
-    def of_inverse(self) -> _Bounds:
-        return _Bounds(self.l, self.u)
-
-    def of_root(self, index: int) -> _Bounds:
-        """(u l^(k-1))^(1/k) over l for the k-th root, or u over (u^(k-1) l)^(1/k) if u < l."""
-        if self.u < self.l:
-            return _Bounds(self.u, _divided_up(self.l + (index - 1) * self.u, index))
-        return _Bounds(_divided_up(self.u + (index - 1) * self.l, index), self.l)
-
-
-def _divided_up(bits: int, index: int) -> int:
-    """The quotient, the next larger integer where it isn't one."""
-    return -(-bits // index)
-
-
-def is_zero_by_size(value: Expr) -> bool:
-    """Is a number that is made of rational numbers, i and roots zero: is it smaller than such a number can be?
-
-    >>> is_zero_by_size(sympy.sqrt(2) + sympy.sqrt(3) - sympy.sqrt(5 + 2 * sympy.sqrt(6)))
+    >>> is_algebraic_zero(sympy.sqrt(2) + sympy.sqrt(3) - sympy.sqrt(5 + 2 * sympy.sqrt(6)))
     True
     """
-    degrees: dict[Expr, int] = {}
-    bounds = _bounds(value, degrees)
-    if bounds is None:
+    degree = math.prod(int(root.exp.q) for root in value.atoms(sympy.Pow) if root.exp.is_Rational)
+    if not value.is_algebraic or degree > _LARGEST_DEGREE:
         return False
-    D = math.prod(degrees.values())
-    bits = (D - 1) * bounds.u + bounds.l + 2
-    if bits > _MOST_BITS:
-        return False
-    with working_precision(bits + 64):
-        found = ball(value)
-        return found is not None and bool(abs(found) < arb(2) ** -bits)
-
-
-def _bounds(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
-    """Every conjugate of l e is an algebraic integer of at most u: in bits; None for what isn't such a number."""
-    if e.is_Rational:
-        return _Bounds(int(abs(e.p)).bit_length(), int(e.q).bit_length())
-    if e is sympy.I:
-        degrees[e] = 2
-        return _Bounds(1, 1)
-    if e.is_Add or e.is_Mul:
-        return _bounds_of_many(e, degrees)
-    if e.is_Pow and e.exp.is_Rational and abs(int(e.exp.p)) <= _LARGEST_POWER:
-        return _bounds_of_power(e, degrees)
-    return None
-
-
-def _bounds_of_many(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
-    """For a sum or a product, from those of its parts."""
-    join = _Bounds.of_product if e.is_Mul else _Bounds.of_sum
-    found: list[_Bounds] = []
-    for part in e.args:
-        bounds = _bounds(part, degrees)
-        if bounds is None:
-            return None
-        found.append(bounds)
-    return reduce(join, found)
-
-
-def _bounds_of_power(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
-    """For base^(times/index)."""
-    inner = _bounds(e.base, degrees)
-    if inner is None:
-        return None
-    times = abs(int(e.exp.p))
-    index = int(e.exp.q)
-    root = inner
-    if index > 1:
-        degrees[sympy.Pow(e.base, sympy.Rational(1, index), evaluate=False)] = index
-        root = inner.of_root(index)
-    found = _Bounds(times * root.u, times * root.l)
-    if e.exp < 0:
-        return found.of_inverse()
-    return found
+    x = sympy.Dummy()
+    return bool(sympy.minimal_polynomial(value, x) == x)

@@ -122,3 +122,10 @@ def test_conditions_and_first_order_have_an_answer_too() -> None:
         == "x > 0, sin(pi*c) != 0"
     )
     assert str(kovacic.answer_to("y' = k*y/x").validity) == "x > 0"
+
+
+@pytest.mark.parametrize("equation", ["x*y'' + y' + x*y = 0", "x^2*y'' + x*y' - (x^2 + 1)*y = 0"])
+def test_beyond_a_singular_point_the_determinant_is_abels(equation: str) -> None:
+    """Values at -1 are divided by W = c/x there, not by a combination of Bessel's functions."""
+    value = kovacic.dsolve(equation, ics="y(-1)=1, y'(-1)=0").rhs
+    assert not sympy.denom(sympy.together(value)).has(sympy.besselj, sympy.besselk)
