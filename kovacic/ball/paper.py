@@ -9,7 +9,7 @@ from sympy import cos, sin
 
 from kovacic.ball.body import InRoots, Rolling
 from kovacic.ball.derivation import PRINTED, R1, R, V_u, dtheta, du, du1, dv, dv1, u, x
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, say
+from kovacic.writing.document import Block, Formula, Heading, format_of, say
 from kovacic.writing.formula import Math
 
 #: How names are written in LaTeX.
@@ -147,4 +147,4 @@ def explained(*, format: str = "text") -> str:
             "\n".join(row.text for row in rows), rf"\begin{{array}}{{l}} \displaystyle {array} \end{{array}}"
         )
         blocks += [Heading(title), Formula(formula)]
-    return FORMATS[format].render(blocks)
+    return format_of(format).render(blocks)

@@ -25,6 +25,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 from math import lcm
+from typing import NamedTuple
 
 from flint import fmpq_mat, fmpz_mat
 
@@ -40,8 +41,7 @@ from kovacic.limits import check_time
 _LARGEST_HEIGHT = 50_000
 
 
-@dataclass(frozen=True)
-class Points:
+class Points(NamedTuple):
     """The points over the roots of u, with y = v there: an effective divisor without two conjugate points."""
 
     u: Poly
@@ -176,10 +176,8 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
 
 def _sum_of_divisors(h: Poly, first: Points, second: Points) -> Points:
     """The sum of two divisors, without pairs of conjugate points [Cantor]."""
-    u1 = first.u
-    v1 = first.v
-    u2 = second.u
-    v2 = second.v
+    u1, v1 = first
+    u2, v2 = second
     d1, e1, e2 = _extended_gcd(u1, u2)
     d, c1, c2 = _extended_gcd(d1, v1 + v2)
     u = u1 * u2 // (d * d)
@@ -221,16 +219,12 @@ def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
 
 def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
     """(d, s, t) with d = s f + t g the monic greatest common divisor."""
-    r0 = f
-    r1 = g
-    s0 = f * 0 + 1
-    s1 = f * 0
-    t0 = s1
-    t1 = s0
+    r0, r1 = f, g
+    s0, s1 = f * 0 + 1, f * 0
+    t0, t1 = s1, s0
     while r1:
         quotient, remainder = divmod(r0, r1)
-        r0 = r1
-        r1 = remainder
+        r0, r1 = r1, remainder
         s0, s1 = s1, s0 - quotient * s1
         t0, t1 = t1, t0 - quotient * t1
     inverse = r0.lc.inverse()

@@ -83,10 +83,8 @@ class Jacobian:
 
     def add(self, first: DivisorClass, second: DivisorClass) -> DivisorClass:
         """The sum of two classes."""
-        u1 = first.u
-        v1 = first.v
-        u2 = second.u
-        v2 = second.v
+        u1, v1 = first
+        u2, v2 = second
         d, e1, e2 = u1.xgcd(u2)
         d, c1, c2 = d.xgcd(v1 + v2)
         u = u1 * u2 // (d * d)

@@ -25,7 +25,7 @@ from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import read_input
 from kovacic.special.choice import shortest
 from kovacic.views.explain import ExplanationWriter
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, page, say
+from kovacic.writing.document import Block, Formula, Heading, format_of, say
 from kovacic.writing.formula import Math, caret, latex_text, of_sympy, shortened
 
 Expr = Any  # SymPy publishes no types
@@ -73,8 +73,7 @@ def explain(
     >>> print(explain("y'' + y = x, y(0) = 0, y'(0) = 0").splitlines()[-1].strip())
     y(x) = x - sin(x)
     """
-    if format not in FORMATS:
-        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
+    chosen = format_of(format)
     answer = answer_to(eq, func, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
     blocks: list[Block] = []
     if isinstance(answer, FirstOrderAnswer):
@@ -84,8 +83,7 @@ def explain(
     blocks += (say(f"Note: {caret(notice)}.") for notice in answer.notices)
     blocks += [Heading("The solution"), Formula(of_sympy(answer.eq.lhs).equals(of_sympy(answer.eq.rhs)))]
     title = f"The solution of {shortened(eq) if isinstance(eq, str) else answer.eq.lhs}"
-    document = FORMATS[format].render([Heading(title, 1), *blocks])
-    return page(title, document) if format == "html" else document
+    return chosen.document(title, [Heading(title, 1), *blocks])
 
 
 def is_problem(text: str) -> bool:

@@ -29,7 +29,18 @@ from kovacic.views.sentences import (
     verdict_of,
 )
 from kovacic.views.steps import DEGREE, Steps
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Sentence, Table, anchor, page, say
+from kovacic.writing.document import (
+    FORMATS,
+    Block,
+    Formula,
+    Heading,
+    Paragraph,
+    Sentence,
+    Table,
+    anchor,
+    format_of,
+    say,
+)
 from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, latex_text, rational_functions, shortened
 
 _CASES = {
@@ -57,24 +68,20 @@ _PICTURE_WORK = 400_000
 
 def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> str:
     """The derivation, as `Solution.explain` describes it."""
-    if format not in FORMATS:
-        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
+    chosen = format_of(format)
     blocks = document(answer, solutions=solutions)
     if format != "html":
-        return FORMATS[format].render(blocks)
-    return page(shortened(answer.text), _body(blocks, _picture(answer)))
-
-
-def _body(blocks: list[Block], picture: str) -> str:
-    """The equation and the answer, a table of contents, and the rest."""
+        return chosen.render(blocks)
+    # The equation and the answer, a table of contents, and the rest.
+    picture = _picture(answer)
     starts = [k for k, block in enumerate(blocks) if isinstance(block, Heading)]
     titles = [block.text for block in blocks[starts[2] :] if isinstance(block, Heading)]
     if picture:
         titles.append(_PICTURE)
-    html = FORMATS["html"]
-    contents = "".join(f'<li><a href="#{anchor(title)}">{html.plain(title)}</a></li>' for title in titles)
-    first = html.render(blocks[: starts[2]])
-    return f"{first}\n<nav><ul>{contents}</ul></nav>\n\n{html.render(blocks[starts[2] :])}{picture}"
+    contents = "".join(f'<li><a href="#{anchor(title)}">{chosen.plain(title)}</a></li>' for title in titles)
+    first = chosen.render(blocks[: starts[2]])
+    rest = chosen.render(blocks[starts[2] :])
+    return chosen.page(shortened(answer.text), f"{first}\n<nav><ul>{contents}</ul></nav>\n\n{rest}{picture}")
 
 
 def document(answer: Answer, *, solutions: bool = True) -> list[Block]:

@@ -36,7 +36,7 @@ from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, format_of, say
 from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy, rational_functions
 
 #: What the signs in a solution are called, those that aren't parameters.
@@ -58,12 +58,10 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
 
     Raises `ValueError` for another format.
     """
-    if format not in FORMATS:
-        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
+    chosen = format_of(format)
     if format == "latex":
         return _in_environments(blocks(answer))
-    body = FORMATS[format].render(blocks(answer))
-    return page(f"y'' = {answer.right.text}", body) if format == "html" else body
+    return chosen.document(f"y'' = {answer.right.text}", blocks(answer))
 
 
 def blocks(answer: ParametricAnswer) -> list[Block]:

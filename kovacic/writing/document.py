@@ -72,9 +72,14 @@ class Format:
     table: Callable[[list[list[str]]], str]
     plain: Callable[[str], str]
     paragraph: Callable[[str], str] = str
+    page: Callable[[str, str], str] = lambda title, body: body
+
+    def document(self, title: str, blocks: Sequence[Block]) -> str:
+        """The document on its own; `title` is that of a page of HTML."""
+        return self.page(title, self.render(blocks))
 
     def render(self, blocks: Sequence[Block]) -> str:
-        """The document."""
+        """The document as part of another one."""
         return "\n\n".join(map(self._block, blocks)) + "\n"
 
     def _block(self, block: Block) -> str:
@@ -240,11 +245,19 @@ FORMATS = {
         table=_html_table,
         plain=escaped.html,
         paragraph=lambda text: f"<p>{text}</p>",
+        page=lambda title, body: _page(title, body),
     ),
 }
 
 
-def page(title: str, body: str) -> str:
+def format_of(name: str) -> Format:
+    """The format of this name.  Raises `ValueError` for any other."""
+    if name not in FORMATS:
+        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {name!r}")
+    return FORMATS[name]
+
+
+def _page(title: str, body: str) -> str:
     """A page of HTML in ASCII that needs nothing from elsewhere; its styles are for itself, where it stands in a notebook."""
     font = b64encode(get_data("kovacic.writing", "math.woff2") or b"").decode("ascii")
     written = _HTML.substitute(title=escaped.html(title), font=font, body=body)
