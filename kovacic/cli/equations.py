@@ -213,7 +213,7 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
 
 def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
     """The solution that `dsolve` finds, with its notices, as a line of JSON."""
-    from kovacic.general_solution import dsolve, in_special_functions, validity
+    from kovacic.general_solution import dsolve, given_answer, in_special_functions, validity
     from kovacic.numbers.numerals import as_latex, as_text
 
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
@@ -233,8 +233,20 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
                 "latex": as_latex(found),
                 "special": None if shorter is None else as_text(shorter.rhs),
                 "validity": str(validity(found, given.get("assume"))) or None,
+                "exceptions": _exceptions(given_answer(found)),
             }
     return json_line(data | {"notices": [str(warning.message) for warning in noticed]})
+
+
+def _exceptions(answer: Any) -> list[dict[str, str | None]]:
+    """The values of letters for which the solution is another one, and that, where it is known."""
+    from kovacic.numbers.numerals import as_text
+
+    found = []
+    for case in () if answer is None else answer.exceptions:
+        there = case.answer
+        found.append({"where": str(case), "solution": None if there is None else as_text(there.eq.rhs)})
+    return found
 
 
 @options.equation_command()

@@ -7,7 +7,7 @@ which `jumps` writes them.  `riccati_equation` and `riccati` have the solutions 
 among SymPy's own methods.
 """
 
-from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, validity
+from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, given_answer, validity
 from kovacic.general_solution.dsolve import answer_to, dsolve, in_special_functions
 from kovacic.general_solution.explained import explain, is_problem
 from kovacic.general_solution.homogeneous import NothingKnown
@@ -25,6 +25,7 @@ __all__ = [
     "answer_to",
     "dsolve",
     "explain",
+    "given_answer",
     "in_special_functions",
     "is_problem",
     "register",

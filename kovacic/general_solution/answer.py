@@ -197,6 +197,11 @@ def remember(answer: ProblemAnswer) -> None:
         del _GIVEN[next(iter(_GIVEN))]
 
 
+def given_answer(eq: Expr) -> ProblemAnswer | None:
+    """That of which `dsolve` returned this equation, if it is one of the last."""
+    return _GIVEN.get(eq)
+
+
 def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity:
     """What a solution needs to be real and valid: an interval, and exceptional values of parameters.
 
@@ -249,6 +254,6 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     said = {name: what for name, what in (assume or {}).items() if str(name) in own}
     known = read_assumptions(said, sympy.Tuple(*own.values()), tuple(own)).symbols()
     symbols = {own[name]: symbol for name, symbol in known.items()}
-    given = _GIVEN.get(solution)
+    given = given_answer(solution)
     exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
     return needed_for(value.xreplace(symbols), arguments[0].xreplace(symbols), exceptions)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from itertools import islice
 from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, run
 from flint import acb, fmpq
 from sympy.abc import a, c, k, x
 
@@ -122,6 +123,11 @@ def test_conditions_and_first_order_have_an_answer_too() -> None:
         == "x > 0, sin(pi*c) != 0"
     )
     assert str(kovacic.answer_to("y' = k*y/x").validity) == "x > 0"
+
+
+def test_exceptions_are_in_the_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["dsolve", "--json", "y'' + k^2*y = 0"]) == 0
+    assert json.loads(capsys.readouterr().out)["exceptions"] == [{"where": "k = 0", "solution": "C1 + C2*x"}]
 
 
 @pytest.mark.parametrize("equation", ["x*y'' + y' + x*y = 0", "x^2*y'' + x*y' - (x^2 + 1)*y = 0"])
