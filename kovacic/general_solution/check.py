@@ -117,7 +117,7 @@ def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[
 
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
     """
-    known = {*question.symbols.values(), *value.free_symbols, *_symbols_of(question.conditions)}
+    known = sympy.Tuple(value, *question.symbols.values()).free_symbols | {*_symbols_of(question.conditions)}
     special = [s for s in known if s.is_integer or s.is_negative or s.is_nonpositive]
     symbols = sorted(special, key=str)
     candidates = [*_candidates(symbols, natural)]

@@ -10,8 +10,9 @@ the larger one, r = lim y1/y2: then C2 + r C1 = 0, and y = C1 (y1 - r y2).  As (
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import sympy
@@ -42,9 +43,16 @@ class _Solutions(NamedTuple):
 
 
 def constants_of(
-    question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], limits: dict[Expr, Approach]
+    question: Question,
+    basis: Basis,
+    particular: Expr,
+    names: tuple[Expr, Expr],
+    limits: dict[Expr, Approach],
+    steps: Mapping[Expr, Expr] = MappingProxyType({}),
 ) -> Determined:
     """What the conditions determine: for generic parameters, and for particular ones.
+
+    `steps` are values of steps at the points of the conditions.
 
     Raises `NotImplementedError` where too little is known about the solutions.
     """
@@ -54,7 +62,7 @@ def constants_of(
     for condition in question.conditions:
         place = _limit_place(condition, limits)
         if place is None:
-            rows.append(_row(condition, solutions, question.x))
+            rows.append(_row(condition, solutions, question.x, steps))
         else:
             limit = _Limit(condition, place, question.own(basis.wronskian), question.x)
             of_limit, zeros = _rows_of_limit(limit, solutions)
@@ -66,11 +74,11 @@ def constants_of(
     return found
 
 
-def _row(condition: Condition, solutions: _Solutions, x: Expr) -> Row:
+def _row(condition: Condition, solutions: _Solutions, x: Expr, steps: Mapping[Expr, Expr]) -> Row:
     """(l(y1), l(y2), v - l(y0))."""
     u = _applied(condition, solutions.y1, x)
     v = _applied(condition, solutions.y2, x)
-    return Row(u, v, condition.value - _applied(condition, solutions.y0, x))
+    return Row(u, v, condition.value - _applied(condition, solutions.y0, x).xreplace(steps))
 
 
 def _applied(condition: Condition, y: Expr, x: Expr) -> Expr:

@@ -41,7 +41,13 @@ from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
-from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
+from kovacic.general_solution.places import (
+    ImpulsesInside,
+    limit_points,
+    real_basis_at,
+    real_particular_at,
+    start_of,
+)
 from kovacic.general_solution.question import (
     Question,
     about_letters,
@@ -402,20 +408,37 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     basis = real_basis_at(question, basis, start)
     particular = real_particular_at(question, basis, particular_solution(basis, start), start)
     names = free_constants(question, basis, particular)
-    determined = constants_of(question, basis, particular, names, limits)
+    inside = ImpulsesInside.of(question)
+    determined = constants_of(question, basis, particular, names, limits, inside.values)
     generic = determined.generic
     value = combination(question, basis, particular, generic.values)
-    is_general = bool(set(names) & set().union(*(c.free_symbols for c in generic.values)))
-    value = in_book_form(value, question.x, is_general=is_general)
-    exceptions = [_said(question, basis, particular, case, value) for case in determined.particular if can_be(case)]
+    value = in_book_form(value, question.x, is_general=value.has(*names))
+    cases = [case for case in determined.particular if can_be(case)]
+    exceptions = [_said(question, basis, particular, names, case, value) for case in cases]
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
-    notices = _by_sign(question, basis, particular, None)
-    unchecked = check_answer(question, value, start, limits, natural=basis.natural)
+    notices = _by_sign(question, basis, particular, None) + inside.notices
+    unchecked = check_answer(
+        inside.sample(question), value.xreplace(inside.numbers), start, limits, natural=basis.natural
+    )
     notices += [*unchecked, *(f"this holds unless {said}" for said in exceptions)]
     rests_on = (question, basis, particular, names, determined)
     eq = written(question, value)
     return SecondOrderAnswer(eq, notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
+
+
+def _in_case(
+    question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], constants: tuple[Expr, Expr]
+) -> Expr:
+    """y = C1 y1 + C2 y2 + y0 for these constants, of which `names` are free; a number beside a single free one goes into it."""
+    value = combination(question, basis, particular, constants)
+    free = [name for name in names if value.has(name)]
+    value = in_book_form(value, question.x, is_general=len(free) == len(names))
+    if len(free) == 1:
+        (name,) = free
+        number = sympy.factor_terms(value.diff(name)).as_coeff_Mul()[0]
+        value = value.subs(name, name / number)
+    return written(question, value)
 
 
 def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:
@@ -439,14 +462,21 @@ def _by_sign(question: Question, basis: Basis, particular: Expr, names: tuple[Ex
     return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
 
-def _said(question: Question, basis: Basis, particular: Expr, case: ParameterCase, answer: Expr) -> str:
+def _said(
+    question: Question,
+    basis: Basis,
+    particular: Expr,
+    names: tuple[Expr, Expr],
+    case: ParameterCase,
+    answer: Expr,
+) -> str:
     """The solutions for particular values of the parameters, of which the answer is the one for all others."""
     where = " and ".join(exception_of(zero, answer) for zero in case.zeros)
     if case.outcome is Outcome.NONE or any(vanishing_factors(zero) == 1 for zero in case.needed):
         return f"{where}, where there is no solution"
     if case.outcome is Outcome.OPEN:
         return f"{where}: give such values for the solutions there"
-    found = written(question, combination(question, basis, particular, case.values))
+    found = _in_case(question, basis, particular, names, case.values)
     if not case.needed:
         return f"{where}, where {found.lhs} = {found.rhs}"
     needed = " and ".join(condition_of(zero, answer) for zero in case.needed)

@@ -7,6 +7,7 @@ the other.  At a singular point and at infinity, a condition is one on a limit, 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
@@ -49,6 +50,61 @@ def jump_points(question: Question) -> list[Expr]:
         return []
     places = [place_of(jump, question.x) for jump in sorted(h.atoms(sympy.Heaviside, sympy.DiracDelta), key=str)]
     return [*dict.fromkeys(place.a for place in places if place is not None)]
+
+
+@dataclass(frozen=True)
+class ImpulsesInside:
+    """Places of unit impulses, taken to lie between the two points of the conditions: Green's function."""
+
+    places: tuple[Expr, ...] = ()
+    low: Expr = sympy.S.Zero
+    high: Expr = sympy.S.Zero
+
+    @classmethod
+    def of(cls, question: Question) -> ImpulsesInside:
+        """Those for which that is open, letters or beside a letter; none without two finite points, or beside steps."""
+        points = given_points(question)
+        h = question.equation.h
+        jumps = set() if h is None else h.atoms(sympy.Heaviside, sympy.DiracDelta)
+        is_impulse = all(isinstance(jump, sympy.DiracDelta) and len(jump.args) == 1 for jump in jumps)
+        if len(points) != 2 or not {*points}.isdisjoint(_INFINITIES) or not is_impulse:
+            return cls()
+        low, high = points[::-1] if (points[1] - points[0]).is_negative else points
+        places = []
+        for place in map(question.own, jump_points(question)):
+            distances = [(place - low).is_positive, (high - place).is_positive]
+            if None in distances and False not in distances and (place.is_Symbol or high.is_Symbol):
+                places.append(place)
+        return cls(tuple(places), low, high)
+
+    @property
+    def values(self) -> dict[Expr, Expr]:
+        """Those of the steps at the two points."""
+        ends = [(self.low - a, sympy.S.Zero) for a in self.places] + [(self.high - a, sympy.S.One) for a in self.places]
+        return {step: value for u, value in ends for step in (sympy.Heaviside(u), sympy.Heaviside(u, 0))}
+
+    @property
+    def notices(self) -> list[str]:
+        said = []
+        for place in self.places:
+            low = "" if (place - self.low).is_positive else f"{self.low} < "
+            high = "" if (self.high - place).is_positive else f" < {self.high}"
+            said.append(f"this holds for {low}{place}{high}")
+        return said
+
+    @property
+    def numbers(self) -> dict[Expr, Expr]:
+        """Expressions for letters with which the places lie there, for all values of the letters that are left."""
+        numbers = {a: self.low + (self.high - self.low) * sympy.Rational(3, 7) for a in self.places if a.is_Symbol}
+        others = [a for a in self.places if not a.is_Symbol]
+        return numbers | ({self.high: sympy.Add(1, *others)} if others else {})
+
+    def sample(self, question: Question) -> Question:
+        """The question with these expressions."""
+        numbers = self.numbers
+        symbols = {**question.symbols, **{letter.name: value for letter, value in numbers.items()}}
+        conditions = tuple(condition.in_symbols(numbers) for condition in question.conditions)
+        return replace(question, symbols=symbols, conditions=conditions)
 
 
 def limit_points(question: Question) -> dict[Expr, Approach]:

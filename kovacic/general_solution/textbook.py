@@ -20,13 +20,14 @@ A pair of solutions is changed before constants are given values:
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from itertools import chain
+from math import lcm
 from typing import Any
 
 import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh, tan, tanh
-from sympy.simplify.fu import TR8
+from sympy.simplify.fu import TR8, TR10i
 
 from kovacic.general_solution.expanded_size import expanded_size
 from kovacic.general_solution.steps import place_of
@@ -114,77 +115,123 @@ def _is_constant(quotient: Expr, x: Expr) -> bool:
 # ------------------------------------------------------------------------------------------------------------- rules
 
 
-def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
-    """(2), for steps at one point; sign(x - a) F where f is minus F reflected."""
+def _before_and_after(value: Expr, x: Expr) -> tuple[Expr, Expr, Expr] | None:
+    """a, f and f + g for f + g H(x - a); None for other steps, or several."""
     steps = {step for step in value.atoms(Heaviside) if step.has(x)}
     if len(steps) != 1 or value.has(sympy.DiracDelta):
-        return
+        return None
     (step,) = steps
     place = place_of(step, x)
     if place is None or place.slope != 1:
-        return
+        return None
     before, after = (sympy.expand(value.xreplace({step: sympy.Integer(k)})) for k in (0, 1))
+    return place.a, before, after
+
+
+def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
+    """(2), for steps at one point; sign(x - a) F where f is minus F reflected."""
+    pieces = _before_and_after(value, x)
+    if pieces is None:
+        return
+    a, before, after = pieces
     u = sympy.Dummy()
-    before = sympy.powsimp(sympy.expand(before.subs(x, place.a - u)))
-    after = sympy.powsimp(sympy.expand(after.subs(x, place.a + u)))
+    before = sympy.powsimp(sympy.expand(before.subs(x, a - u)))
+    after = sympy.powsimp(sympy.expand(after.subs(x, a + u)))
     if before != 0 and is_zero(before - after):
-        yield sympy.factor_terms(after).subs(u, Abs(x - place.a))
+        yield sympy.factor_terms(after).subs(u, Abs(x - a))
 
 
 def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
-    """(1) in the numerator and in the denominator."""
+    """(1) in the numerator and in the denominator, which are polynomials in letters for the e^rate that occur."""
     is_in_sum = any(part.has(exp) for part in value.atoms(sympy.Add))
     if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
-    powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
-    rates: dict[Expr, sympy.Integer] = {}
-    for exponent in powers.values():
-        for term in sympy.Add.make_args(exponent):
-            number, rate = term.as_coeff_Mul()
-            if not number.is_Rational:
-                return
-            rates[rate] = sympy.ilcm(rates.get(rate, 1), number.q)
-    letters = {rate: sympy.Dummy(positive=True) for rate in rates}
-    plain = {}
-    for e, exponent in powers.items():
-        parts = (term.as_coeff_Mul() for term in sympy.Add.make_args(exponent))
-        plain[e] = sympy.Mul(*(letters[rate] ** (number * rates[rate]) for number, rate in parts))
-    units = {letters[rate]: rate / q for rate, q in rates.items()}
-    above, below = sympy.fraction(sympy.cancel(sympy.together(value.xreplace(plain))))
-    if not (above.is_polynomial(*units) and below.is_polynomial(*units)):  # J(exp(x))
+    exponents = {e: _rates(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
+    numbers = [(rate, number) for rates in exponents.values() for rate, number in rates.items()]
+    if not all(number.is_Rational for _, number in numbers):
         return
-    numerator, denominator = (_symmetric(part, units) for part in (above, below))
-    if numerator is None or denominator is None:
+    unit = {rate: lcm(*(int(n.q) for r, n in numbers if r == rate)) for rate, _ in sorted(numbers, key=str)}
+    letters = {rate: sympy.Dummy(positive=True) for rate in unit}  # e^(rate/unit)
+    plain = {e: sympy.Mul(*(letters[r] ** (n * unit[r]) for r, n in rates.items())) for e, rates in exponents.items()}
+    rate_of = {letter: rate / unit[rate] for rate, letter in letters.items()}
+    fraction = sympy.fraction(sympy.cancel(sympy.together(value.xreplace(plain))))
+    if not all(part.is_polynomial(*rate_of) for part in fraction):  # J(exp(x))
         return
-    m, top = numerator
-    n, bottom = denominator
-    if (m - n).has(x):  # decaying exponentials stay apart
-        return
-    scale = exp(sympy.expand(m - n)) / bottom
-    yield scale * top
-    yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
+    for split in (_as_one, _by_letters):
+        parts = [_product([_symmetric(part, rate_of) for part in split(whole, rate_of)]) for whole in fraction]
+        if None in parts:
+            continue
+        (m, top), (n, bottom) = parts
+        if (m - n).has(x):  # decaying exponentials stay apart
+            continue
+        scale = exp(sympy.expand(m - n)) / bottom
+        yield scale * top
+        yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
 
 
-def _symmetric(part: Expr, units: dict[Expr, Expr]) -> tuple[Expr, Expr] | None:
-    """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^unit; None if it isn't symmetric."""
-    terms = dict(sympy.Poly(part, *units).terms())
+def _rates(exponent: Expr) -> dict[Expr, Expr]:
+    """The terms of an exponent without their numerical factors, and these."""
+    terms = (term.as_coeff_Mul() for term in sympy.Add.make_args(sympy.expand(exponent)))
+    return {rate: number for number, rate in terms}
+
+
+def _as_one(polynomial: Expr, letters: Collection[Expr]) -> list[Expr]:
+    return [polynomial]
+
+
+def _by_letters(polynomial: Expr, letters: Collection[Expr]) -> list[Expr]:
+    """Factors without common letters: X^2 - 1, which is sinh, stays whole."""
+    number, factors = sympy.factor_list(polynomial, *letters)
+    groups: list[Expr] = [number]
+    for base, k in factors:
+        common = [group for group in groups if group.free_symbols & base.free_symbols & {*letters}]
+        groups = [group for group in groups if group not in common] + [sympy.Mul(base**k, *common)]
+    return groups
+
+
+_Scaled = tuple[Expr, Expr]
+
+
+def _product(parts: Sequence[_Scaled | None]) -> Any:
+    """The sum of the m and the product of the sums of several (1); None if one isn't symmetric."""
+    known = [part for part in parts if part is not None]
+    if len(known) < len(parts):
+        return None
+    return sympy.Add(*(m for m, _ in known)), sympy.Mul(*(total for _, total in known))
+
+
+def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> _Scaled | None:
+    """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^rate; None if it isn't symmetric."""
+    terms = dict(sympy.Poly(part, *rate_of).terms())
     centre = [sympy.Rational(sum(column), len(terms)) for column in zip(*terms, strict=True)]
     total = sympy.Integer(0)
     for degrees, c in terms.items():
         mirrored = tuple(2 * middle - degree for middle, degree in zip(centre, degrees, strict=True))
         if mirrored not in terms:
             return None
-        h = sympy.Add(*((k - middle) * rate for k, middle, rate in zip(degrees, centre, units.values(), strict=True)))
+        h = sympy.Add(*((k - middle) * rate for k, middle, rate in zip(degrees, centre, rate_of.values(), strict=True)))
         if h == 0:
             total += c
-        elif not h.could_extract_minus_sign():
+        elif not h.could_extract_minus_sign():  # each pair once
             d = terms[mirrored]
             if 0 not in (c + d, c - d) and c.is_number and d.is_number:
                 return None
             h = sympy.factor_terms(h)
             total += (c + d) * cosh(h) + (c - d) * sinh(h)
-    m = sympy.Add(*(middle * rate for middle, rate in zip(centre, units.values(), strict=True)))
+    m = sympy.Add(*(middle * rate for middle, rate in zip(centre, rate_of.values(), strict=True)))
     return m, sympy.factor_terms(total)
+
+
+def _exchanged(value: Expr, x: Expr) -> Iterator[Expr]:
+    """F(min(x, a), max(x, a)) for a step at a letter a, after which F(x, a) is F(a, x): Green's function."""
+    pieces = _before_and_after(value, x)
+    if pieces is None or not pieces[0].is_Symbol:
+        return
+    a, before, after = pieces
+    if before == 0 or not is_zero(after - before.xreplace({x: a, a: x})):
+        return
+    for form in (*_hyperbolic(before, x), TR10i(sympy.factor(sympy.together(sympy.expand_trig(before))))):
+        yield form.xreplace({x: sympy.Min(x, a), a: sympy.Max(x, a)})
 
 
 def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
@@ -281,6 +328,7 @@ def _factored(value: Expr) -> Expr:
 
 _RULES: tuple[Callable[[Expr, Expr], Iterator[Expr]], ...] = (
     _absolute,
+    _exchanged,
     _hyperbolic,
     _single_roots,
     _single_waves,

@@ -20,7 +20,7 @@ from itertools import pairwise
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq
-from sympy import Integral, Symbol
+from sympy import Heaviside, Integral, Symbol
 
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
@@ -77,13 +77,23 @@ def best(forms: list[PairForm]) -> PairForm:
 
 
 def shortest(forms: Sequence[Any]) -> Any:
-    """The preferred one of equal SymPy expressions: without an integral before those with one, then the shorter text."""
+    """The preferred one of equal SymPy expressions: without an integral before those with one, then the shorter text.
+
+    Beside a step at a the shift x - a is read as one letter: sin(2*(x - 1)) H(x - 1) is shorter than sin(2*x - 2) H(x - 1).
+    """
     forms = [*dict.fromkeys(forms)]
     if len(forms) == 1:
         return forms[0]
     kinds = [FormKind.INTEGRAL if form.has(Integral) else FormKind.ELEMENTARY for form in forms]
-    given = [PairForm(kind, len(as_text(form)), lambda: None) for kind, form in zip(kinds, forms, strict=True)]
+    given = [PairForm(kind, _length(form), lambda: None) for kind, form in zip(kinds, forms, strict=True)]
     return forms[given.index(best(given))]
+
+
+def _length(form: Any) -> int:
+    text = as_text(form)
+    for step in form.atoms(Heaviside):
+        text = text.replace(f"({as_text(step.args[0])})", "x")
+    return len(text)
 
 
 def solutions(
