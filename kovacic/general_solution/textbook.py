@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import chain, combinations
 from math import lcm
 from typing import Any
 
@@ -41,6 +41,8 @@ _LARGEST = 400
 
 def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
     """The shortest form of an answer; in a general one the functions that the free constants belong to stay."""
+    for short in _RULES_FOR_COEFFICIENTS:
+        value = shortest([value, *short(value, x)])
     is_small = _is_small(value)
     for rule in _RULES_OF_GENERAL_SOLUTIONS if is_general else _RULES:
         if not is_small:
@@ -245,6 +247,53 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
         yield sympy.collect(found, sorted(value.atoms(Heaviside), key=str), _factored)
 
 
+def _coefficients(value: Expr, x: Expr) -> Iterator[Expr]:
+    """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2, and powers of x joined."""
+    if value.free_symbols != {x}:
+        yield _with_short_coefficients(value, x)
+
+
+def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
+    if not e.has(x):
+        return shortest([e, *_quotients(e)])
+    if e.is_Mul:
+        number, rest = e.as_independent(x)
+        powers = [factor for factor in sympy.Mul.make_args(rest) if factor.is_Pow and factor.base == x]
+        others = [_with_short_coefficients(f, x) for f in sympy.Mul.make_args(rest) if f not in powers]
+        return sympy.Mul(_with_short_coefficients(number, x), *others, x ** sympy.Add(*(power.exp for power in powers)))
+    if e.is_Add:
+        parts = [_with_short_coefficients(part, x).as_independent(x, as_Add=False) for part in e.args]
+        functions = {sympy.Dummy(): function for _, function in parts}  # what contains x stays apart
+        total = sympy.Add(*(c * name for (c, _), name in zip(parts, functions, strict=True)))
+        return shortest([form.xreplace(functions) for form in (total, _factored(total))])
+    if e.is_Pow or (e.is_Function and len(e.args) == 1):
+        return e.func(*(_with_short_coefficients(part, x) for part in e.args))
+    return e
+
+
+def _quotients(e: Expr) -> Iterator[Expr]:
+    """A quotient of polynomials, or a multiple of one square root sqrt(u) = u/sqrt(u), in factors."""
+    if not e.has(sympy.Add) or not e.free_symbols or e.has(sympy.Function):
+        return
+    bases = {power.base for power in e.atoms(sympy.Pow) if not power.exp.is_Integer}
+    u = bases.pop() if bases else sympy.S.One
+    root = sympy.sqrt(u)
+    rational = sympy.cancel(e / root)
+    if not bases and rational.is_rational_function():
+        for quotient, factor in ((rational, root), (sympy.cancel(rational * u), 1 / root)):
+            yield sympy.factor(quotient).replace(lambda part: part.is_Add, _with_square) * factor
+
+
+def _with_square(total: Expr) -> Expr:
+    """(a + b)^2 + rest for a^2 + 2 a b + b^2 + rest, with products a and b; else the same."""
+    roots = [sympy.powdenest(sympy.sqrt(term), force=True) for term in total.args]
+    for a, b in combinations([root for root in roots if root.is_polynomial()], 2):
+        for double in (2 * a * b, -2 * a * b):
+            if double in total.args:
+                return (a + double / (2 * a)) ** 2 + (total - a**2 - double - b**2)
+    return total
+
+
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
     """tan u for sin u/cos u, tanh u for sinh u/cosh u."""
     if any(isinstance(power.base, cos | cosh) for power in value.atoms(sympy.Pow)):
@@ -326,7 +375,10 @@ def _factored(value: Expr) -> Expr:
     return value if is_unlike and number not in (1, -1) else found
 
 
-_RULES: tuple[Callable[[Expr, Expr], Iterator[Expr]], ...] = (
+_Rule = Callable[[Expr, Expr], Iterator[Expr]]
+#: These don't multiply out, and so have no bound on the size.
+_RULES_FOR_COEFFICIENTS: tuple[_Rule, ...] = (_coefficients, _single_roots)
+_RULES: tuple[_Rule, ...] = (
     _absolute,
     _exchanged,
     _hyperbolic,
@@ -336,4 +388,4 @@ _RULES: tuple[Callable[[Expr, Expr], Iterator[Expr]], ...] = (
     sums,
     _tangents,
 )
-_RULES_OF_GENERAL_SOLUTIONS = (_single_roots, _tangents)
+_RULES_OF_GENERAL_SOLUTIONS = (_tangents,)

@@ -46,6 +46,14 @@ BOOKS: list[tuple[str, str, dict[str, Any], str]] = [
         {},
         "(1 - cos(2*(t - pi)))*Heaviside(t - pi)/4",
     ),
+    (
+        "Boyce & DiPrima 3.8, with damping",
+        "x'' + 2*g*x' + w^2*x = F*cos(v*t), x(0) = 0, x'(0) = 0",
+        {},
+        "F*(2*g*v*sin(v*t) + (w^2 - v^2)*cos(v*t))/(4*g^2*v^2 + (w^2 - v^2)^2)"
+        " + F*exp(-g*t)*((v^2 - w^2)*cos(sqrt(w^2 - g^2)*t)"
+        " - g*(w^2 + v^2)*sin(sqrt(w^2 - g^2)*t)/sqrt(w^2 - g^2))/(4*g^2*v^2 + (w^2 - v^2)^2)",
+    ),
     ("Boyce & DiPrima 2.1, ex. 4", "t*y' + 2*y = 4*t^2, y(1) = 2", {}, "t^2 + 1/t^2"),
     ("Boyce & DiPrima 2.3, ex. 1", "Q' + r*Q/100 = r/4, Q(0) = b", {"var": "t"}, "25 + (b - 25)*exp(-r*t/100)"),
     ("Kreyszig 1.5, current in a circuit", "L*J' + R*J = E, J(0) = 0", {"var": "t"}, "E/R*(1 - exp(-R*t/L))"),
@@ -153,6 +161,13 @@ GENERAL: list[tuple[str, dict[str, Any], str]] = [
         {},
         "(C1*cos(t*sqrt(-c**2 + 4*k*m)/(2*m)) + C2*sin(t*sqrt(-c**2 + 4*k*m)/(2*m)))*exp(-c*t/(2*m))",
     ),
+    (
+        "m*x'' + c*x' + k*x = F*cos(w*t)",
+        {},
+        "F*(c*w*sin(t*w) + (k - m*w**2)*cos(t*w))/(c**2*w**2 + (k - m*w**2)**2)"
+        " + (C1*cos(t*sqrt(-c**2 + 4*k*m)/(2*m)) + C2*sin(t*sqrt(-c**2 + 4*k*m)/(2*m)))*exp(-c*t/(2*m))",
+    ),
+    ("x^2*y'' + a*x*y' = x^c", {}, "C1 + C2*x**(1 - a) + x**c/(c*(a + c - 1))"),
     ("y'' - y = exp(-abs(x))", {}, "C1*exp(x) + C2*exp(-x) - (Abs(x) + 1)*exp(-Abs(x))/2"),
     ("y'' - k^2*y = -DiracDelta(x - s)", {}, "C1*exp(k*x) + C2*exp(-k*x) + exp(-k*Abs(s - x))/(2*k)"),
     ("y'' + w^2*y = abs(x)", {}, "C1*cos(w*x) + C2*sin(w*x) + (Abs(x) - sin(w*Abs(x))/w)/w**2"),
