@@ -96,6 +96,12 @@ def test_the_times_of_the_engine_are_those_of_its_results() -> None:
     assert f"exponent is at most {max(float(row[-1]) for row in poles)} in these families" in page
     (near,) = table("By poles, all rational and close together")
     assert f"exponent is {near[-1]} from 100 to 1,600 poles, {float(near[-2].split()[0]):.0f} s for these" in page
+    largest = re.search(r"\| (\d+) \| exponent", results.partition("\n## By degree of P (")[2])
+    assert largest is not None
+    assert largest[1] == "20000"
+    digits = [row[3] for row in table("By digits of the parameters, up to coefficients of 10^5 digits")]
+    assert max(int(re.findall(r"\((\d+)\)", cell)[0]) for cell in digits) >= 100_000
+    assert "degrees of P to 20,000 and coefficients of 100,000 digits" in page
     times = [re.findall(r"[\d.]+", cell) for row in poles for cell in row[5:9]]
     ratio = max(float(verification) / float(decision) for _, decision, verification, _ in times)
     assert 7.5 < ratio < 8.5, "up to eight times, says docs/decisions/two-kernels.md"
@@ -163,6 +169,11 @@ def sentences_with_figures() -> Iterator[tuple[str, str]]:
     hundred, two_hundred = ([float(row[place].split()[0]) for row in rows] for place in (6, 7))
     page = "decisions/invariants-not-families.md"
     yield page, f"100 poles take {min(hundred):.2f} to {max(hundred):.1f} s, 200 poles {min(two_hundred):.2f} to"
+    batch = (ROOT / "benchmarks" / "results" / "batch.md").read_text("utf-8")
+    (minutes,) = re.findall(r"at this rate 100,000 take ([\d.]+) min by the clock", batch)
+    assert 6 < float(minutes) < 7
+    yield "comparison.md", "100,000 mixed equations take less than seven minutes on two cores"
+    yield "howto/batches.md", "100,000 mixed equations take less than seven minutes on two cores"
     faults = (ROOT / "benchmarks" / "results" / "wrong_answers.md").read_text("utf-8")
     apart = re.findall(r"^\| (?:algebra/, not imported by the kernel|engine/|galois/) \|.*\| (\d+) \|$", faults, re.M)
     yield "decisions/two-kernels.md", f"of 120 in the rooms that the kernel doesn't import {sum(map(int, apart))} gave"
