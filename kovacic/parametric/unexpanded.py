@@ -19,62 +19,52 @@ from kovacic.writing.formula import Math, latex_text
 _LONGEST = 1000
 #: How strongly the outermost operation of a formula binds.
 _SUM, _NEGATED, _PRODUCT, _POWER, _ATOM = range(5)
-#: Functions that have a command in LaTeX.
-_COMMANDS = frozenset("sin cos tan cot sec csc sinh cosh tanh coth exp log ln arcsin arccos arctan".split())  # noqa: SIM905
 
 
 @dataclass(frozen=True)
 class _Written:
     text: str
-    latex: str
     strength: int = _ATOM
     #: Of what this is the negative.
     opposite: _Written | None = None
 
-    def within(self, strength: int) -> _Written:
+    def within(self, strength: int) -> str:
         """As an operand of an operation that needs at least this strength: in parentheses, where it binds less."""
-        if self.strength >= strength:
-            return self
-        return _Written(f"({self.text})", rf"\left({self.latex}\right)")
+        return self.text if self.strength >= strength else f"({self.text})"
 
 
 class _Operations:
     """What the parser calculates with."""
 
     def negate(self, value: _Written) -> _Written:
-        inside = value.within(_PRODUCT)
-        return _Written(f"-{inside.text}", f"-{inside.latex}", _NEGATED, value)
+        return _Written(f"-{value.within(_PRODUCT)}", _NEGATED, value)
 
     def sum(self, terms: Sequence[_Written]) -> _Written:
-        first = terms[0].within(_NEGATED)
-        text, latex = first.text, first.latex
+        if len(terms) == 1:
+            return terms[0]
+        text = terms[0].within(_NEGATED)
         for term in terms[1:]:
-            sign, inside = "+", term.within(_NEGATED)
-            if term.opposite is not None:
-                sign, inside = "-", term.opposite.within(_PRODUCT)
-            text += f" {sign} {inside.text}"
-            latex += f" {sign} {inside.latex}"
-        return _Written(text, latex, _SUM) if len(terms) > 1 else terms[0]
+            if term.opposite is None:
+                text += f" + {term.within(_NEGATED)}"
+            else:
+                text += f" - {term.opposite.within(_PRODUCT)}"
+        return _Written(text, _SUM)
 
     def multiply(self, left: _Written, right: _Written) -> _Written:
         if left.opposite is not None:  # (-x) y = -(x y)
             return self.negate(self.multiply(left.opposite, right))
-        first, second = left.within(_PRODUCT), right.within(_PRODUCT)
-        is_mixed = first.text[-1].isdigit() and second.latex.startswith(r"\frac")  # 2 times 1/2, not two and a half
-        sign = r" \cdot " if second.latex[0].isdigit() or is_mixed else " "
-        return _Written(f"{first.text}*{second.text}", f"{first.latex}{sign}{second.latex}", _PRODUCT)
+        return _Written(f"{left.within(_PRODUCT)}*{right.within(_PRODUCT)}", _PRODUCT)
 
     def divide(self, left: _Written, right: _Written) -> _Written:
         if left.opposite is not None:
             return self.negate(self.divide(left.opposite, right))
-        text = f"{left.within(_PRODUCT).text}/{right.within(_POWER).text}"
-        return _Written(text, rf"\frac{{{left.latex}}}{{{right.latex}}}", _PRODUCT)
+        return _Written(f"{left.within(_PRODUCT)}/{right.within(_POWER)}", _PRODUCT)
 
     def signed_integer(self, text: str) -> int:
         return int(text)
 
     def constant(self, value: int) -> _Written:
-        number = _Written(str(abs(value)), str(abs(value)))
+        number = _Written(str(abs(value)))
         return self.negate(number) if value < 0 else number
 
 
@@ -91,41 +81,28 @@ class _Writer:
     def number(self, text: str) -> _Written:
         if not text.replace(".", "", 1).isdigit():
             raise InputError(f"{text} has an exponent")
-        return _Written(text, text)
+        return _Written(text)
 
     def name(self, name: str) -> _Written:
-        return _Written(name, latex_text(name))
+        return _Written(name)
 
-    def derivative(self, text: str) -> _Written:
-        name = text.rstrip(PRIMES)
-        return _Written(text, latex_text(name) + text[len(name) :])
+    derivative = name
 
     def equation(self, left: _Written, right: _Written) -> _Written:
-        return _Written(f"{left.text} = {right.text}", f"{left.latex} = {right.latex}", _SUM)
+        return _Written(f"{left.text} = {right.text}", _SUM)
 
     def follows_without_sign(self, _: str) -> bool:
         return True
 
     def power(self, base: _Written, exponent: _Written, _: Any) -> _Written:
-        inside = base.within(_ATOM)
-        text = f"{inside.text}^{exponent.within(_ATOM).text}"
-        return _Written(text, f"{inside.latex}^{{{exponent.latex}}}", _POWER)
+        return _Written(f"{base.within(_ATOM)}^{exponent.within(_ATOM)}", _POWER)
 
     def call(self, head: str, arguments: list[Any], _: Any) -> _Written:
-        name = head.rstrip(PRIMES)
         if len(arguments) != 1 or isinstance(arguments[0], tuple):
             raise InputError(f"{head} has several arguments")
-        (argument,) = arguments
-        text = f"{head}({argument.text})"
-        if head == "sqrt":
-            return _Written(text, rf"\sqrt{{{argument.latex}}}")
-        if name == self.unknown:
-            called = self.derivative(head).latex
-        elif is_function(head) and head.isalpha():
-            called = rf"\{head}" if head in _COMMANDS else rf"\operatorname{{{head}}}"
-        else:
+        if head.rstrip(PRIMES) != self.unknown and not (is_function(head) and head.isalpha()):
             raise InputError(f"{head} isn't a function that is written here")
-        return _Written(text, rf"{called}\left({argument.latex}\right)")
+        return _Written(f"{head}({arguments[0].text})")
 
 
 def unexpanded(source: Source) -> Math | None:
@@ -136,8 +113,8 @@ def unexpanded(source: Source) -> Math | None:
     try:
         value = source.walk(writer)
         if source.unknown:
-            return Math(value.text, value.latex)
+            return Math(value.text, latex_text(value.text))
         S = value.within(_PRODUCT)
-        return Math("y''", "y''").equals(Math(f"{S.text} y", f"{S.latex} y"))
+        return Math("y''", "y''").equals(Math(f"{S} y", f"{latex_text(S)} y"))
     except InputError:
         return None

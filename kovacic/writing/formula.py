@@ -26,9 +26,14 @@ _GREEK_LETTERS = (
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
     (re.compile(r"(?<![\\\w])[^\W\d]\w*"), lambda match: symbol(match[0])),
+    (re.compile(r"\*(?=\d)"), r" \\cdot "),
     (re.compile(r"\*"), " "),
 ]
-_INNERMOST = re.compile(r"(\b(?:sqrt|cbrt|root))?\(([^()]*)\)")
+#: Functions with a command in LaTeX.
+_FUNCTIONS = (
+    "sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth", "exp", "log", "ln", "arcsin", "arccos", "arctan",
+)  # fmt: skip
+_INNERMOST = re.compile(rf"(\b(?:sqrt|cbrt|root|{'|'.join(_FUNCTIONS)})|\^)?\(([^()]*)\)")
 # It begins where a word does: else each digit of a long number would be tried as a beginning.
 # Only one factor is below the line: 1/2*t is (1/2) t.
 _QUOTIENT = re.compile(r"(?<![^\s/,-])([^\s/,-][^\s/,]*)/((?:\*\*|[^\s/,*])+)")
@@ -204,6 +209,8 @@ def latex_text(text: str) -> str:
     -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
     >>> print(latex_text("1/2*t**2"))
     \frac{1}{2} t^{2}
+    >>> print(latex_text("sin(x/2)^(n + 1)"))
+    \sin\left(\frac{x}{2}\right)^{n + 1}
     """
     writer = _LatexWriter()
     found = 1
@@ -241,13 +248,21 @@ class _LatexWriter:
 
     def complete(self, text: str) -> str:
         """The LaTeX of a text without parentheses, in which characters stand for finished parts."""
-        text = _QUOTIENT.sub(self.fraction, text)
+        found = 1
+        while found:  # a/b*c/d is a fraction with one above it
+            text, found = _QUOTIENT.subn(self.fraction, text)
         for pattern, replacement in _REPLACEMENTS:
             text = pattern.sub(replacement, text)
         return _READY.sub(lambda match: self.parts[ord(match[0]) - _PART].product, text)
 
     def parenthesised(self, match: re.Match[str]) -> str:
-        """A root, or a sum in parentheses."""
+        """A root, an exponent, the argument of a function, or a sum in parentheses."""
+        if match[1] == "^":
+            exponent = f"^{{{self.complete(match[2])}}}"
+            return self.ready(exponent, exponent)
+        if match[1] in _FUNCTIONS:
+            call = rf"\{match[1]}\left({self.complete(match[2])}\right)"
+            return self.ready(call, call)
         if match[1]:
             radicand, _, n = match[2].partition(", ")
             if match[1] == "cbrt":

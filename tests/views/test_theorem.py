@@ -414,10 +414,11 @@ def test_the_equation_is_printed_as_it_was_given(given: str, printed: str) -> No
 
 
 def test_the_latex_of_a_given_equation_is_unambiguous() -> None:
-    latex = kovacic.conditions("x*3*(1/x)*m + 2*(1/2)*x^2 + (m/x)^2", var="x").theorem(format="latex")
-    assert r"x \cdot 3 \cdot \frac{1}{x} m" in latex
-    assert r"2 \cdot \frac{1}{2} x^{2}" in latex
+    latex = kovacic.conditions("x*3*(1/x)*m + 2*(1/2)*x^2 + (m/x)^2 + m/2*x/3", var="x").theorem(format="latex")
+    assert r"\frac{x \cdot 3 \cdot 1}{x} m" in latex
+    assert r"\frac{2 \cdot 1}{2} x^{2}" in latex
     assert r"\left(\frac{m}{x}\right)^{2}" in latex
+    assert r"\frac{\frac{m}{2} x}{3}" in latex
 
 
 def test_an_equation_that_was_not_given_like_this_is_printed_as_it_was_read() -> None:
