@@ -51,7 +51,6 @@ class Assumptions:
 
     @property
     def concerns_exponents(self) -> bool:
-        """Is anything known beside signs?"""
         return any(known.concerns_exponents for _, known in self.known)
 
     def of(self, name: str) -> Known:
@@ -59,7 +58,6 @@ class Assumptions:
         return dict(self.known).get(name, Known())
 
     def is_integer(self, name: str) -> bool:
-        """Is it known to be one?"""
         numbers = self.of(name).coset
         return numbers is not None and numbers.are_covered_by(INTEGERS)
 
@@ -70,12 +68,10 @@ class Assumptions:
         return replace(self, known=(*others, (name, Known(tuple(together)))))
 
     def without(self, names: Iterable[str]) -> Assumptions:
-        """The same without what is known of some parameters."""
         left_out = {*names}
         return replace(self, known=tuple((name, known) for name, known in self.known if name not in left_out))
 
     def admits(self, values: Iterable[tuple[str, Poly]]) -> bool:
-        """May the parameters have these values?"""
         return all(self.of(name).admits(value) for name, value in values)
 
     def to_dict(self) -> dict[str, str]:
@@ -257,8 +253,11 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for symbol in getattr(S, "free_symbols", ()):
         if symbol.name in words:
             words[symbol.name] = words_of(symbol)
-    for key, what in (assume or {}).items():
-        words[_parameter(key, names)] += _read_words(what)
+    for name, what in ((str(key), what) for key, what in (assume or {}).items()):
+        if name not in names:
+            hint = f"the parameters are {', '.join(names) or 'none'}"
+            raise InputError(f"{name} isn't a parameter of S", hint=hint)
+        words[name] += _read_words(what)
     for name, said in words.items():
         _check_that_agree(name, said)
     known = [(name, Known(_useful(said))) for name, said in words.items()]
@@ -279,14 +278,6 @@ def check_mapping(assume: object) -> None:
     """Raises `InputError` for what can't be assumptions."""
     if assume is not None and not isinstance(assume, Mapping):
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
-
-
-def _parameter(key: object, names: Sequence[str]) -> str:
-    """The name of a parameter, of which something is said.  Raises `InputError` for another name."""
-    name = str(key)
-    if name not in names:
-        raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-    return name
 
 
 def _useful(words: Iterable[str]) -> tuple[str, ...]:

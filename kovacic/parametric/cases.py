@@ -76,7 +76,8 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
             # The unsolvable ones that the statement meets outside of the cases before.
             before = [case.statement for case in found if not case.without]
             charts = within(region.statement, everything(region.statement))
-            without = [other for other in unsolvable if not covered(within(other, charts), before)]
+            meeting = ((other, within(region.statement, within(other, charts))) for other in unsolvable)
+            without = [other for other, common in meeting if not covered(common, before)]
             found.append(Case(region.statement, (region,), tuple(without)))
     return grouped(found, _is_same)
 
@@ -224,7 +225,6 @@ class _Block:
         self.cases = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
 
     def complete(self) -> Iterator[Case]:
-        """The cases with their beginning."""
         beginning = either(*self.firsts)
         for case in self.cases:
             yield replace(case, statement=all_of((beginning, *both(case.statement).parts)))

@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import chain, count, islice
+from itertools import chain, cycle, islice
 from random import Random
 from typing import Any
 
@@ -222,11 +222,10 @@ class Sampler:
 
     def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
         """Every other one where one of the statements holds; None where an attempt failed."""
-        for attempt in count(1):
-            chosen = None
-            if statements and attempt % 2:
-                chosen = statements[attempt // 2 % len(statements)]
-            yield self.point(chosen)
+        chosen: Sequence[Statement | None] = statements or [None]
+        for statement in cycle(chosen):
+            yield self.point(statement)
+            yield self.point(None)
 
     def point_in(self, found: ParametricAnswer, region: ParameterRegion | None) -> ParameterPoint | None:
         """One that belongs to no region before, None: to no region; None if a few attempts find none."""
@@ -261,7 +260,6 @@ class Sampler:
         return point if statement.holds(point) else None
 
     def _with_values(self, values: dict[str, Poly], field: Field) -> ParameterPoint:
-        """The point of a field with these values."""
         in_one_field = tuple(value.over(field) for value in values.values())
         return ParameterPoint((*self.start.names, *self.names), in_one_field, field)
 

@@ -8,12 +8,11 @@ writes them.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import product
-from typing import Protocol
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionPoly
@@ -40,8 +39,6 @@ class Claim(ABC):
 
 @dataclass(frozen=True)
 class IsZero(Claim):
-    """A function vanishes."""
-
     function: FunctionPoly
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -50,8 +47,6 @@ class IsZero(Claim):
 
 @dataclass(frozen=True)
 class IsNonzero(Claim):
-    """A function doesn't vanish."""
-
     function: FunctionPoly
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -60,8 +55,6 @@ class IsNonzero(Claim):
 
 @dataclass(frozen=True)
 class AllOf(Claim):
-    """All of the parts hold."""
-
     parts: tuple[Claim, ...]
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -70,8 +63,6 @@ class AllOf(Claim):
 
 @dataclass(frozen=True)
 class AnyOf(Claim):
-    """At least one of the parts holds."""
-
     parts: tuple[Claim, ...]
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -94,8 +85,6 @@ class ThatIs(Claim):
 
 @dataclass(frozen=True)
 class InClasses(Claim):
-    """The value of a form is one of the numbers."""
-
     form: FunctionPoly
     numbers: Classes
 
@@ -279,20 +268,15 @@ def natural_numbers(numbers: Iterable[Fraction | None]) -> set[int]:
     return {int(number) for number in numbers if number is not None and number.denominator == 1 and number >= 0}
 
 
-class Existence(Protocol):
-    """What decides whether something with one of these numbers of zeros exists at a point: Delta_d is a determinant."""
-
-    def exists(self, point: ParameterPoint, numbers: Sequence[int]) -> bool: ...
-
-
 @dataclass(frozen=True)
 class DegreeExists(Claim):
     """For one of the natural numbers that `degree` allows, a polynomial or an invariant of degree m exists."""
 
     degree: DegreeClaim
     m: int
-    statement: Existence
+    #: Decides whether something with one of these numbers of zeros exists at a point: Delta_d is a determinant.
+    exists: Callable[[ParameterPoint, Sequence[int]], bool]
 
     def _holds(self, point: ParameterPoint) -> bool:
         numbers = sorted(self.degree.numbers_at(point))
-        return len(numbers) > 0 and self.statement.exists(point, numbers)
+        return len(numbers) > 0 and self.exists(point, numbers)

@@ -28,9 +28,8 @@ from kovacic.parametric.functions import (
     over_parameters,
     powers_of,
     union,
-    without_parameter,
 )
-from kovacic.parametric.restriction import undefined
+from kovacic.parametric.restriction import hypersurface, undefined
 from kovacic.parametric.search import degree_equation
 from kovacic.parametric.solutions import PolynomialSolution, derivative
 
@@ -134,8 +133,4 @@ def _solved_for(function: FunctionPoly, i: int) -> ParameterPoint | None:
     is_linear = 1 in powers and powers.keys() <= {0, 1}
     if not is_linear or not powers[1].num.is_constant():
         return None
-    names = function.field.names
-    below, values = without_parameter(i, names)
-    rest = powers.get(0, 0 * powers[1]).value_at(values, below)
-    values[i] = -rest / powers[1].value_at(values, below)
-    return ParameterPoint(names, tuple(values), below)
+    return hypersurface(function, i)

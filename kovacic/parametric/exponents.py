@@ -152,9 +152,10 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
     """The choices that give P this degree; None where there are too many, or their roots need too large an extension."""
-    chosen = choices(problem)
-    if chosen is None:
+    places = places_of(problem)
+    if places is None:
         return None
+    chosen = (Exponents(places.problem, places.field, parts) for parts in product(*places.parts))
     return [exponents for exponents in chosen if exponents.field.rational_value(exponents.degree) == d]
 
 
@@ -212,28 +213,12 @@ def _parts(polynomial: Poly, below: Field) -> list[Poly]:
 
 
 @dataclass(frozen=True)
-class _Places:
-    """The choices at each singular point, rational over the field."""
+class Places:
+    """One or two choices at each singular point, rational over the field."""
 
     problem: Problem
     field: Field
     parts: list[list[LocalPart]]
-
-
-def choices(problem: Problem) -> list[Exponents] | None:
-    """All choices of exponents."""
-    places = _places(problem)
-    if places is None:
-        return None
-    return [Exponents(places.problem, places.field, choice) for choice in product(*places.parts)]
-
-
-def local_parts(problem: Problem) -> list[list[LocalPart]] | None:
-    """One or two at each singular point, over one field; None as in `choices_of_degree`."""
-    places = _places(problem)
-    if places is None:
-        return None
-    return places.parts
 
 
 def is_too_large(field: Field) -> bool:
@@ -241,7 +226,7 @@ def is_too_large(field: Field) -> bool:
     return field.ground != QQ and field.absolute_degree > _SURFACE
 
 
-def _places(problem: Problem) -> _Places | None:
+def places_of(problem: Problem) -> Places | None:
     """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
     if is_too_large(problem.field):
         return None
@@ -263,7 +248,7 @@ def _places(problem: Problem) -> _Places | None:
         roots.append(root)
     S = RatFunc(split.S.num.over(field), split.S.den.over(field), reduced=True)
     parts = [_local_parts(place, S, root.over(field)) for place, root in zip(singular, roots, strict=True)]
-    return _Places(split, field, parts)
+    return Places(split, field, parts)
 
 
 def _singular(problem: Problem) -> list[Place]:

@@ -140,12 +140,10 @@ class Known:
 
     @property
     def concerns_exponents(self) -> bool:
-        """Is anything known beside signs?"""
         return bool(self.classes) or self.rational is False or self.noninteger
 
     @property
     def nonzero(self) -> bool:
-        """Can't it be zero?"""
         return not self.admits_number(Fraction(0))
 
     def admits_number(self, number: Fraction) -> bool:
@@ -166,7 +164,6 @@ class Known:
         return not self.inequalities or not has_sign or self.admits_ball(enclosure(value))
 
     def admits_ball(self, ball: Any) -> bool:
-        """May it be a number in a complex ball, by the bounds?"""
         return bool(ball.imag.contains(0)) and not any(bound.excludes(ball.real) for bound in self.inequalities)
 
     def sample(self, random: Random) -> Fraction:

@@ -77,7 +77,8 @@ def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> 
 def partial_fractions(S: RatFunc, variable: str) -> str:
     """S, not zero, as a polynomial in the variable and fractions with powers of the irreducible factors of its denominator."""
     whole, rest = divmod(S.num, S.den)
-    terms = [_monomial(whole[k], variable, k) for k in range(whole.degree, -1, -1) if whole[k]]
+    powers = [over_parameters(S.field.poly([0] * k + [whole[k]])) for k in range(whole.degree, -1, -1) if whole[k]]
+    terms = [written(power, variable) for power in powers]
     for factor, k in S.field.factor(S.den):
         power = factor**k
         above = rest * (S.den // power).inverse_modulo(power) % power
@@ -92,34 +93,7 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
     return _joined(terms)
 
 
-def _monomial(coefficient: Poly, variable: str, k: int) -> str:
-    """coefficient * variable^k, a fraction below: 2*x/3, and x/3 for a third."""
-    text = written(over_parameters(coefficient))
-    if k == 0:
-        return text
-    power = variable if k == 1 else f"{variable}^{k}"
-    if text in ("1", "-1"):
-        return _times(text, power)
-    fraction = re.fullmatch(r"(-?\d+)/(\d+)", text)
-    if fraction is not None:
-        above, below = fraction.groups()
-        return f"{_times(above, power)}/{below}"
-    factor = f"({text})" if " " in text else text
-    return f"{factor}*{power}"
-
-
-def _times(integer: str, power: str) -> str:
-    """An integer times a power."""
-    if integer == "1":
-        return power
-    if integer == "-1":
-        return f"-{power}"
-    return f"{integer}*{power}"
-
-
 class SidesOfEquation(NamedTuple):
-    """Left and right side of an equation, as they are written."""
-
     left: str
     right: str
 

@@ -37,7 +37,6 @@ def element(field: FunctionField, num: Any) -> FunctionPoly:
 
 
 def numerator(function: FunctionPoly) -> FunctionPoly:
-    """The numerator of a polynomial over Q(t)."""
     return element(function.field, function.num)
 
 

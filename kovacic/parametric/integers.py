@@ -190,7 +190,6 @@ class Congruence(Statement):
 
     @property
     def letter(self) -> str:
-        """What the integer is called."""
         return free_letter(self.setting.names)
 
     @cached_property

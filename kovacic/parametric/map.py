@@ -89,7 +89,6 @@ def plot(
 
 
 def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, steps: int) -> list[list[Fraction]]:
-    """The values of each of them.  Raises `InputError`."""
     given = [(-4, 4) for _ in chosen] if ranges is None else list(ranges)
     if len(given) != len(chosen):
         raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")

@@ -147,7 +147,6 @@ class Natural(Statement):
 
     @property
     def letter(self) -> str:
-        """What the natural number is called."""
         return free_letter(self.setting.names, f"d{LETTERS}")
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
@@ -267,7 +266,7 @@ class Natural(Statement):
 
     @cached_property
     def claim(self) -> Claim:
-        return DegreeExists(self._degree, self.m, self)
+        return DegreeExists(self._degree, self.m, self.exists)
 
     @property
     def _degree(self) -> DegreeClaim:
@@ -341,5 +340,4 @@ def _has_solution(S: RatFunc, number: int) -> bool:
 
 @lru_cache(maxsize=256)
 def _has_form(S: RatFunc, m: int) -> bool:
-    """Is there a rational form of degree m in the solutions?"""
     return has_form(analyse(S, Budget()), m)

@@ -64,7 +64,6 @@ def in_powers(S: RatFunc) -> InPowers | None:
 
 
 def _lowered(function: FunctionPoly, powers: Sequence[int]) -> FunctionPoly:
-    """T for t^k in a polynomial."""
     terms = {}
     for (first, *exponents), coefficient in function.num.to_dict().items():
         lower = [n // k for n, k in zip(exponents, powers, strict=True)]

@@ -142,7 +142,6 @@ def _with_signs_in_latex(joined: str) -> str:
 
 
 def delta(letter: str) -> Math:
-    """The determinant's name."""
     return Math(f"Delta_{letter}", rf"\Delta_{{{letter}}}")
 
 
@@ -209,12 +208,10 @@ def equation(zero: FunctionPoly) -> Math:
 
 
 def alternatives_of(formulas: Sequence[Math]) -> Words:
-    """One or another."""
     return _joined([(one,) for one in formulas], " or ")
 
 
 def unequal(zero: FunctionPoly) -> Math:
-    """That it doesn't."""
     left, right = sides_of_equation(zero)
     return Math(f"{left} != {right}", rf"{latex_text(left)} \ne {latex_text(right)}")
 

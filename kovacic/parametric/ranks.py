@@ -145,7 +145,6 @@ class _Matrix:
 
     @property
     def is_square(self) -> bool:
-        """Is there one minor of the size of the rank?"""
         return len(self.rows) == len(self.rows[0]) == self.rank
 
     @property

@@ -39,7 +39,6 @@ _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, expo
 
 
 def statement_data(statement: Statement) -> dict[str, Any]:
-    """A statement as plain values."""
     if isinstance(statement, Vanishes):
         return {"kind": "zero", "function": statement.function.to_str("x")}
     if isinstance(statement, Congruence):
@@ -90,21 +89,18 @@ def _number(value: Fraction) -> int | str:
 
 
 def verdict_data(verdict: RegionVerdict) -> dict[str, Any]:
-    """A verdict as plain values."""
     structure = verdict.structure and verdict.structure.value
     data = {"structure": structure, "known": verdict.known, "family": verdict.family and prose.marked(verdict.family)}
     return data if verdict.abelian is None else data | {"abelian": prose.marked(verdict.abelian)}
 
 
 def verdict_from(data: Mapping[str, Any]) -> RegionVerdict:
-    """What `verdict_data` wrote."""
     structure = None if data["structure"] is None else Structure(data["structure"])
     family, abelian = (said and prose.phrase(said) for said in (data["family"], data.get("abelian")))
     return RegionVerdict(structure, data["known"], family, abelian)
 
 
 def region_data(region: ParameterRegion) -> dict[str, Any]:
-    """A region as plain values."""
     data: dict[str, Any] = {
         "condition": region.statement.text(),
         "case": region.case,
@@ -199,7 +195,6 @@ class StatementReader:
         raise InputError(f"{kind!r} isn't a kind of condition")
 
     def region(self, data: Mapping[str, Any]) -> ParameterRegion:
-        """What `region_data` wrote."""
         return ParameterRegion(
             self.statement(data["statement"]),
             verdict_from(data["verdict"]),

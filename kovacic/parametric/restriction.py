@@ -48,7 +48,6 @@ def undefined(problem: Problem) -> list[FunctionPoly]:
 
 
 def confluence(problem: Problem) -> list[FunctionPoly]:
-    """Where poles merge or go to infinity."""
     factors = [place.factor for place in problem.finite_places]
     conjugate = [_common_zeros(factor, factor.derivative()) for factor in factors]
     others = [_common_zeros(first, second) for first, second in combinations(factors, 2)]
@@ -172,21 +171,23 @@ class Hypersurface(ParameterPoint):
         return over_parameters(function.value_at(chosen, field))
 
 
-def hypersurface(function: FunctionPoly) -> Hypersurface:
+def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hypersurface:
     """Values of the parameters at which an irreducible polynomial vanishes.
 
-    A parameter that occurs linearly is eliminated, one with a constant coefficient if there is one; else one becomes algebraic
-    over the others: a number, if there are none.  A linear one with the coefficient A in A t + B misses the zeros of A; these
+    A parameter that occurs linearly is eliminated, the given one, or one with a constant coefficient if there is one; else one
+    becomes algebraic over the others: a number, if there are none.  A linear one with the coefficient A in A t + B misses the zeros of A; these
     are zeros of the polynomial only if there are two others, since A and B are coprime.
     """
-    curve = _with_two_terms(function)
+    curve = None if eliminated is not None else _with_two_terms(function)
     if curve is not None:
         return curve
     names = function.field.names
     powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
     linear = [i for i in leading if powers[i] == 1]
-    if linear:  # constants come first, then the shortest
+    if eliminated is not None:
+        i = eliminated
+    elif linear:  # constants come first, then the shortest
         i = min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
     else:
         i = min(leading, key=lambda i: powers[i])

@@ -297,7 +297,6 @@ def _square_roots_of_roots(factor: Poly) -> list[str] | None:
 
 
 def is_fuchsian(problem: Problem) -> bool:
-    """Are all singular points regular?"""
     return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
 
 
@@ -412,7 +411,6 @@ def _irreducible_structures(
 
 
 def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> bool:
-    """Has a row of the table the constant differences?"""
     if structure is Structure.IMPRIMITIVE:
         return True
     residues = set()
@@ -450,7 +448,6 @@ def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
 
 
 def _has_parameters(factor: Poly) -> bool:
-    """Does a coefficient depend on them?"""
     return any(factor.field.rational_value(c) is None for c in factor)
 
 
@@ -507,7 +504,6 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
 
 
 def _is_number(value: Poly) -> bool:
-    """Is it a rational number, whatever the parameters are?"""
     return value.field.rational_value(value) is not None
 
 

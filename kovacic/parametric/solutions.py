@@ -30,7 +30,7 @@ from kovacic.limits import Budget
 from kovacic.numbers.exact import has_long_numbers
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose
-from kovacic.parametric.exponents import Exponents, local_parts
+from kovacic.parametric.exponents import Exponents, places_of
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.parametric.letters import Letters
 from kovacic.parametric.powers_of_factors import gathered
@@ -288,9 +288,10 @@ def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
 
     None where the exponents need too large an extension, or other roots than square roots.
     """
-    parts = local_parts(problem)
-    if not parts or not has_radicals(parts[0][0].exponent.field):
+    places = places_of(problem)
+    if places is None or not places.parts or not has_radicals(places.field):
         return None
+    parts = places.parts
     x = sympy.Symbol(variable)
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:

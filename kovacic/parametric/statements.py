@@ -95,8 +95,6 @@ class Statement(ABC):
 
 @dataclass(frozen=True)
 class Vanishes(Statement):
-    """`function = 0`."""
-
     function: FunctionPoly
 
     def _holds(self, point: ParameterPoint) -> bool:
@@ -152,8 +150,6 @@ class _Several(Statement):
 
 
 class Either(_Several):
-    """At least one of the statements holds."""
-
     decisive = True
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
@@ -168,8 +164,6 @@ class Either(_Several):
 
 
 class Both(_Several):
-    """All of the statements hold."""
-
     decisive = False
 
     def merged(self, other: Statement) -> Statement | None:
@@ -189,7 +183,6 @@ class Both(_Several):
 
 
 def both(*statements: Statement) -> Both:
-    """One statement that says that all of them hold."""
     parts: list[Statement] = []
     for one in statements:
         if isinstance(one, Both):

@@ -309,7 +309,8 @@ class _TheoremWriter:
         if not solution.degree.free_symbols:
             yield Formula(self._named_solution(solution))
             return
-        taken = [*map(str, solution.y.free_symbols), *self.answer.parameters, *_letters(case.statement)]
+        said = re.findall(r"[^\W\d]\w*", case.statement.text())
+        taken = [*map(str, solution.y.free_symbols), *self.answer.parameters, *said]
         letter = sympy.Symbol(free_letter(taken))
         y = solution.y.xreplace({solution.degree: letter})
         degree = of_sympy(self._collected(solution.degree))
@@ -484,7 +485,6 @@ def _kind_of_number(words: list[str]) -> str:
 
 
 def _name(name: str) -> Math:
-    """A name as a formula."""
     return Math(name, latex_text(name))
 
 
@@ -517,7 +517,6 @@ def _said(statement: Statement) -> list[str | Math]:
 
 
 def _is_unequal(region: ParameterRegion) -> bool:
-    """Does the hypothesis say "t != 0" for the region?"""
     return not region.defined and isinstance(region.statement, Vanishes)
 
 
@@ -563,11 +562,6 @@ def _schwarz(statement: Statement) -> Iterator[Table]:
         if not names:
             heads = ["differences up to order, signs and integers", "sum of the integers"]
         yield Table(["group", *heads], [[structure.value, *values] for structure, values in rows])
-
-
-def _letters(statement: Statement) -> list[str]:
-    """The names in what a statement says."""
-    return re.findall(r"[^\W\d]\w*", statement.text())
 
 
 def _values(natural: Natural, number: int) -> Iterator[Block]:
