@@ -187,13 +187,6 @@ class Classes:
         """Does each of the numbers belong to the others, which have no bound?"""
         return all(map(other.contains, self.modulo(common_multiple(self.modulus, other.modulus))))
 
-    def are_one(self, *, up_to_sign: bool) -> bool:
-        """True for a single class, or for r and -r where these say the same."""
-        first = self.residues[0]
-        if len(self.residues) == 1:
-            return True
-        return up_to_sign and {*self.residues} == {first, -first % self.modulus}
-
 
 INTEGERS = Classes.of([0], 1)
 NATURALS = Classes((Fraction(0),), Fraction(1), 0)

@@ -90,12 +90,11 @@ def nonzero(letters: Letters) -> list[str]:
 
 
 def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, Any]:
-    """The values of the letters where the user's parameters have these.  Raises `InputError` for no algebraic number."""
-    if not letters:
-        return {}
-    numbers = {}
-    for name, value in values.items():
-        numbers[sympy.Symbol(name)] = value if isinstance(value, sympy.Basic) else read_expression(str(value))
+    """The values of the letters where the user's parameters have these, SymPy's.
+
+    Raises `InputError` for what isn't an algebraic number.
+    """
+    numbers = {sympy.Symbol(name): value for name, value in values.items()}
     found = {}
     for name, meaning in letters:
         value = meaning.subs(numbers)

@@ -334,6 +334,7 @@ class ParametricAnswer:
         if missing or unknown:
             hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
             raise InputError(f"values are needed for {', '.join(self.parameters)}", hint=hint)
+        given = {name: _as_sympy(value, self.limits) for name, value in given.items()}
         given |= values_of_letters(given, self.letters)
         point = _point(self.names, [given[name] for name in self.names], self.constant, self.limits)
         for name, value in zip(point.names, point.values, strict=True):
@@ -647,12 +648,12 @@ def _origin_of(answer: ParametricAnswer, statement: Statement) -> Origin | None:
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
-    """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
+    """Constants of one field, from SymPy's numbers, together with the constant of S."""
     import sympy
 
     # As coefficients of powers of x_ they are read together.
     x = sympy.Symbol("x_")
-    terms = [_as_sympy(value, limits) * x**k for k, value in enumerate(values)]
+    terms = [value * x**k for k, value in enumerate(values)]
     read = read_input(sympy.Add(*terms), var="x_", limits=limits).S
     are_numbers = read.is_polynomial and read.num.degree < len(values)
     if not are_numbers or read.field.ground != QQ:

@@ -174,9 +174,9 @@ class Hypersurface(ParameterPoint):
 def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hypersurface:
     """Values of the parameters at which an irreducible polynomial vanishes.
 
-    A parameter that occurs linearly is eliminated, the given one, or one with a constant coefficient if there is one; else one
-    becomes algebraic over the others: a number, if there are none.  A linear one with the coefficient A in A t + B misses the zeros of A; these
-    are zeros of the polynomial only if there are two others, since A and B are coprime.
+    A parameter that occurs linearly is eliminated: the given one, or one with a constant coefficient if there is one; else one
+    becomes algebraic over the others: a number, if there are none.  A linear one with the coefficient A in A t + B misses the
+    zeros of A; these are zeros of the polynomial only if there are two others, since A and B are coprime.
     """
     curve = None if eliminated is not None else _with_two_terms(function)
     if curve is not None:

@@ -46,6 +46,7 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.prose import Words, with_both_signs
+from kovacic.parametric.regions import RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both, either
 from kovacic.writing.formula import Math, latex_text
@@ -327,35 +328,26 @@ def difference_squared(place: Place) -> Poly:
     return (1 + 4 * place.num * cofactor.inverse_modulo(p)) % p
 
 
-def group(problem: Problem, structure: Structure) -> Words | None:
-    """The family of the groups with this structure; None where the structure is all there is to say.
+def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
+    """The family of the groups with this structure, and where the identity component of a reducible one is abelian.
 
     All residues of a logarithmic derivative of a solution come from the exponents and from zeros, so that its constant
     multiples are rational logarithmic derivatives exactly where the exponents are rational.  On the curve w^2 = F of an
     imprimitive equation, which is rational because it has two branch points, the same holds for the third difference.
     """
     cubic = squares_of_differences(problem)
-    if structure is Structure.REDUCIBLE:
-        constants = _split(cubic).constants
-        if (
-            len(constants) >= 2 and None not in constants
-        ):  # these make the third one rational: its sum with them is an integer
-            return prose.phrase(_CYCLIC)
-        return prose.phrase(f"{_CYCLIC}, where {_rational(differences(cubic))}; else `G_m`, or the Borel group")
+    split = _split(cubic)
     if structure is Structure.IMPRIMITIVE:
-        return prose.phrase(_imprimitive_group(_split(cubic)))
-    return None
-
-
-def abelian(problem: Problem, structure: Structure) -> Words | None:
-    """Where the identity component of a reducible group is abelian: where the exponents are rational, or the group is G_m."""
+        return RegionVerdict(structure, family=prose.phrase(_imprimitive_group(split)))
     if structure is not Structure.REDUCIBLE:
-        return None
-    cubic = squares_of_differences(problem)
-    constants = _split(cubic).constants
-    if len(constants) >= 2 and None not in constants:
-        return prose.ABELIAN
-    return prose.phrase(f"abelian where {_rational(differences(cubic))}; elsewhere exactly where the group is `G_m`")
+        return RegionVerdict(structure)
+    if len(split.constants) >= 2 and None not in split.constants:
+        # These make the third one rational: its sum with them is an integer.
+        return RegionVerdict(structure, family=prose.phrase(_CYCLIC), abelian=prose.ABELIAN)
+    rational = _rational(differences(cubic))
+    family = prose.phrase(f"{_CYCLIC}, where {rational}; else `G_m`, or the Borel group")
+    abelian = prose.phrase(f"abelian where {rational}; elsewhere exactly where the group is `G_m`")
+    return RegionVerdict(structure, family=family, abelian=abelian)
 
 
 def _rational(names: Iterable[str]) -> str:

@@ -195,7 +195,9 @@ def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, 
     """f(N) with N = n; and with N = s n + r, n an integer."""
     N = equation.field.poly([0, 1])
     is_mirrored = equation(-N) == (-1) ** equation.degree * equation
-    is_single = numbers.are_one(up_to_sign=is_mirrored)
+    first = numbers.residues[0]
+    are_mirrored = is_mirrored and {*numbers.residues} == {first, -first % numbers.modulus}  # r and -r say the same
+    is_single = len(numbers.residues) == 1 or are_mirrored
     if equation.degree > 1 or not is_single:
         yield solved.family(letter, numbers)
     if is_single and (numbers.modulus < 3 or not is_mirrored):

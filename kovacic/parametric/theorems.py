@@ -169,13 +169,12 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
         if structure is Structure.TETRAHEDRAL and n % 3 == 0:
             quaternion = RegionVerdict(Structure.IMPRIMITIVE, family=("the quaternion group",))
             yield ParameterRegion(_with_denominators(problem, (3, 3, 2)), quaternion)
-        family = riemann.group(problem, structure)
+        verdict = riemann.verdict(problem, structure)
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
-            family = ("binary tetrahedral, or octahedral",)
+            verdict = replace(verdict, family=("binary tetrahedral, or octahedral",))
         solutions = None
         if structure is Structure.REDUCIBLE:
             solutions = origin
-        verdict = RegionVerdict(structure, family=family, abelian=riemann.abelian(problem, structure))
         yield ParameterRegion(statement, verdict, origin=solutions)
 
 
