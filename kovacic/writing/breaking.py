@@ -16,7 +16,7 @@ Node = str | list["Node"]
 #: Characters in a line of the class article.
 LINE = 60
 _LATEX_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
-_BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)")
+_BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)|(?<=[})]) (?=\()")
 _FRACTION_COMMANDS = (r"\frac", r"\tfrac")
 _WITH_NAME = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_")
 _WITH_ARGUMENT = (*_WITH_NAME, "^")

@@ -31,8 +31,23 @@ _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
 ]
 #: Functions with a command in LaTeX.
 _FUNCTIONS = (
-    "sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth", "exp", "log", "ln", "arcsin", "arccos", "arctan",
-)  # fmt: skip
+    "sin",
+    "cos",
+    "tan",
+    "cot",
+    "sec",
+    "csc",
+    "sinh",
+    "cosh",
+    "tanh",
+    "coth",
+    "exp",
+    "log",
+    "ln",
+    "arcsin",
+    "arccos",
+)
+_FUNCTIONS += ("arctan", "sech", "csch")  # the last two without a command
 _INNERMOST = re.compile(rf"(\b(?:sqrt|cbrt|root|{'|'.join(_FUNCTIONS)})|\^)?\(([^()]*)\)")
 # It begins where a word does: else each digit of a long number would be tried as a beginning.
 # Only one factor is below the line: 1/2*t is (1/2) t.
@@ -261,7 +276,8 @@ class _LatexWriter:
             exponent = f"^{{{self.complete(match[2])}}}"
             return self.ready(exponent, exponent)
         if match[1] in _FUNCTIONS:
-            call = rf"\{match[1]}\left({self.complete(match[2])}\right)"
+            name = rf"\operatorname{{{match[1]}}}" if match[1] in _FUNCTIONS[-2:] else rf"\{match[1]}"
+            call = rf"{name}\left({self.complete(match[2])}\right)"
             return self.ready(call, call)
         if match[1]:
             radicand, _, n = match[2].partition(", ")
