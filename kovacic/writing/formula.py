@@ -29,25 +29,10 @@ _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"\*(?=\d)"), r" \\cdot "),
     (re.compile(r"\*"), " "),
 ]
-#: Functions with a command in LaTeX.
-_FUNCTIONS = (
-    "sin",
-    "cos",
-    "tan",
-    "cot",
-    "sec",
-    "csc",
-    "sinh",
-    "cosh",
-    "tanh",
-    "coth",
-    "exp",
-    "log",
-    "ln",
-    "arcsin",
-    "arccos",
+#: Those with a command in LaTeX, and the last two without one.
+_FUNCTIONS = tuple(
+    "sin cos tan cot sec csc sinh cosh tanh coth exp log ln arcsin arccos arctan sech csch".split()  # noqa: SIM905
 )
-_FUNCTIONS += ("arctan", "sech", "csch")  # the last two without a command
 _INNERMOST = re.compile(rf"(\b(?:sqrt|cbrt|root|{'|'.join(_FUNCTIONS)})|\^)?\(([^()]*)\)")
 # It begins where a word does: else each digit of a long number would be tried as a beginning.
 # Only one factor is below the line: 1/2*t is (1/2) t.
