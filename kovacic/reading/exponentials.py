@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from math import gcd
+from math import gcd, inf
 from typing import Any, NamedTuple
 
 import sympy
@@ -234,12 +234,19 @@ def _preference(angles: list[Any], found: _InVariable) -> tuple[bool, int, bool]
     The angle is the given one, or has half of the frequency of everything: 1/sin(x)^2 + 1/cos(x)^2 is in cos(2 x).
     """
     (p, q, _), function = found
-    # The singular points of the normal form, infinity included.
-    S = p.derivative() / 2 + p * p / 4 - q
-    finite = S.den.degree - S.den.gcd(S.den.derivative()).degree
-    places = int(finite + (bool(S) and S.den.degree - S.num.degree < 4))
+    # Singular points, infinity included: those of p and q, so that special numbers, with which some of them become ordinary
+    # in the normal form, don't lead to another variable than letters for them.
+    poles = p.den * (q.den // p.den.gcd(q.den))
+    finite = poles.degree - poles.gcd(poles.derivative()).degree
+    T = RatFunc(p.field.poly([0, 1]))
+    is_ordinary = _order_at_infinity(p * T - 2) > 0 and _order_at_infinity(q) > 3
+    places = finite + (not is_ordinary)
     is_real = function.func in (sympy.cos, sympy.sin) and function.args[0] in angles
     return isinstance(p.field, AlgebraicField), places, places == 3 and not is_real
+
+
+def _order_at_infinity(function: RatFunc) -> float:
+    return function.den.degree - function.num.degree if function else inf
 
 
 def _substituted(equation: Monic, M: RatFunc) -> Monic:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from fractions import Fraction
 from typing import Any
 
@@ -543,3 +544,41 @@ def test_solutions_with_numbers_on_the_right_that_are_not_algebraic(right: str) 
     left = found.diff(x, 2) - found.diff(x) + sympy.exp(2 * x) * found
     residual = left - sympy.sympify(right.replace("e*", "E*"))
     assert abs(sympy.N(residual.subs(values).subs(x, sympy.Rational(3, 4)), 20)) < 1e-15
+
+
+SHAPES = [
+    "a*sech(x)^2 + b",
+    "a*sech(x)^2 + b*tanh(x) + c",
+    "a*exp(2*x) + b*exp(x) + c",
+    "a/sin(x)^2 + b",
+    "a/sinh(x)^2 + b",
+    "a*cot(x)^2 + b*cot(x) + c",
+    "a/cosh(x)^2 + b*sinh(x)/cosh(x)^2 + c",
+    "a/cos(x)^2 + b*sin(x)/cos(x)^2 + c",
+    "a/(exp(x)+1) + b/(exp(x)+1)^2 + c",
+    "a*exp(x)/(exp(x)+2)^2 + b",
+    "y'' + a*tan(x)*y' + b*y = 0",
+]
+#: With which singular points become ordinary: of exponent differences 1, and their neighbours.
+SPECIAL = [F(k, 4) for k in (-9, -8, -4, -3, -1, 1, 3, 4, 5, 8, 15)]
+
+
+@parametrize("shape", SHAPES, ordinary=4)
+def test_the_variable_is_the_same_for_letters_and_special_numbers(shape: str) -> None:
+    family = kovacic.conditions(shape, var="x", max_degree=0)
+    names = family.parameters
+    for k in range(8):
+        values = {name: SPECIAL[(3 * k + 5 * i * (k + 1)) % len(SPECIAL)] for i, name in enumerate(names)}
+        text = shape
+        for name, value in values.items():
+            text = re.sub(rf"\b{name}\b", f"({value})", text)
+        solution = kovacic.solve(text)
+        assert solution.equation.change.expression == family.equation.change.expression
+        assert family.case_at(values) == solution.case, values
+
+
+def test_a_singular_point_that_is_ordinary_for_special_numbers_counts() -> None:
+    family = kovacic.conditions("-a + 3*l*sech(x)^2/2", var="x", max_degree=0)
+    solution = kovacic.solve("1/4 + 15*sech(x)^2/8")
+    assert solution.equation.change.expression == family.equation.change.expression == "exp(2*x)"
+    assert solution.case == family.case_at({"a": "-1/4", "l": "5/4"})
